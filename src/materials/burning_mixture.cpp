@@ -177,17 +177,13 @@ std::optional<Parts> solve_by_bisection(const BurningMixture& mixture, const Bal
 
 }  // namespace
 
-BurningMixture::BurningMixture(const JwlParameters& solid, const ProductGas& gas, double tension_cutoff)
-    : solid_(solid), gas_(gas) {
+BurningMixture::BurningMixture(const UnreactedEos& solid, double solid_density, const ProductGas& gas,
+                               double tension_cutoff)
+    : solid_(solid), solid_density_(solid_density), gas_(gas) {
   constexpr int most_iterations = 50;
   for (int i = 0; i < most_iterations; ++i)
     torn_volume_ +=
         (solid_pressure(torn_volume_) + tension_cutoff) * torn_volume_ / solid_modulus(torn_volume_);
-}
-
-double BurningMixture::solid_energy(double volume) const {
-  const double thermal = solid_.initial_energy - jwl_cold_energy(solid_, 1.0);
-  return jwl_cold_energy(solid_, volume) + thermal * std::pow(volume, -solid_.omega) - solid_.initial_energy;
 }
 
 BurningState BurningMixture::unburnt(double volume) const {
@@ -207,9 +203,8 @@ int BurningMixture::parts_of_step(const BurningState& before, const BurningStep&
                end = std::min(std::max(begin + growth, smallest_solid), torn_volume_);
   const double missed = solid_energy(end) - solid_energy(begin) +
                         0.5 * (solid_pressure(begin) + solid_pressure(end)) * (end - begin);
-  const double gas =
-      solid_.initial_density *
-      (before.burnt_share * gas_.specific_heat() * before.gas_temperature + step.burnt * step.fresh_energy);
+  const double gas = solid_density_ * (before.burnt_share * gas_.specific_heat() * before.gas_temperature +
+                                       step.burnt * step.fresh_energy);
   const double parts = std::ceil(std::sqrt(unburnt * std::abs(missed) / (enough * gas)));
   return parts > 1.0 ? static_cast<int>(std::min(parts, most)) : 1;
 }
@@ -244,14 +239,14 @@ BurningState BurningMixture::advance_part(const BurningState& before, const Burn
   const double burnt = after.burnt_share - before.burnt_share;
   const double half_growth = 0.5 * (step.volume_after - step.volume_before);
   const Balance balance{
-      after.burnt_share, step.volume_after, solid_.initial_density,
-      before.energy + solid_.initial_density * burnt * step.fresh_energy - before.pressure * half_growth,
+      after.burnt_share, step.volume_after, solid_density_,
+      before.energy + solid_density_ * burnt * step.fresh_energy - before.pressure * half_growth,
       half_growth};
   // What burns starts from the density of the explosive: from the dense side pressure falls to that of the
   // explosive without overshooting.
   const double old_part = before.burnt_share / after.burnt_share, new_part = 1.0 - old_part;
   Parts parts{before.solid_volume,
-              old_part * before.gas_volume + new_part * before.solid_volume / solid_.initial_density,
+              old_part * before.gas_volume + new_part * before.solid_volume / solid_density_,
               old_part * before.gas_temperature + new_part * step.fresh_energy / gas_.specific_heat()};
   // The first gas in torn explosive has the void to itself.
   if (!(before.burnt_share > 0.0))

@@ -8,9 +8,6 @@ using namespace keys;
 
 namespace {
 
-/// Whenever a JWL constant changes, the initial energy follows, so that p(V = 1) = 0.
-void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 1.0) / eos.omega; }
-
 /// Whenever a number of the kinetics changes, their name follows.
 void rename(KineticsParameters& kinetics) { kinetics.name = name_of(kinetics); }
 
@@ -78,33 +75,30 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
   };
 }
 
-std::vector<Key<JwlParameters>> pressure_keys() {
-  return {
-      plausibly(number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
-                           "Density before launch.", &JwlParameters::initial_density),
-                between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3"),
-      plausibly(then(number_key("jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper,
-                                "A of the unreacted JWL.", &JwlParameters::a),
-                     balance),
-                between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
-      plausibly(then(number_key("jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
-                                "B of the unreacted JWL.", &JwlParameters::b),
-                     balance),
-                between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
-      plausibly(then(number_key("jwl.r1", Dimension::number, above_to(0, 100), Standing::paper,
-                                "R1 of the unreacted JWL.", &JwlParameters::r1),
-                     balance),
-                between(6, 20), "unreacted explosives are fitted with 10 to 14"),
-      plausibly(then(number_key("jwl.r2", Dimension::number, above_to(0, 100), Standing::paper,
-                                "R2 of the unreacted JWL.", &JwlParameters::r2),
-                     balance),
-                between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
-      plausibly(then(number_key("jwl.omega", Dimension::number, above_to(0, 10), Standing::paper,
-                                "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
-                                &JwlParameters::omega),
-                     balance),
-                between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
-  };
+std::vector<Key<Charge>> density_keys() {
+  return {plausibly(number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
+                               "Density before launch.", &Charge::density),
+                    between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3")};
+}
+
+/// The equation of state of that kind. One that the charge does not have becomes its own where a key of it is
+/// set.
+template <class Eos>
+struct EosOf {
+  Eos& operator()(Charge& charge) const {
+    Eos* own = std::get_if<Eos>(&charge.eos);
+    return own != nullptr ? *own : charge.eos.emplace<Eos>();
+  }
+  const Eos& operator()(const Charge& charge) const {
+    static const Eos usual;
+    const Eos* own = std::get_if<Eos>(&charge.eos);
+    return own != nullptr ? *own : usual;
+  }
+};
+
+template <class... Eos>
+std::vector<Key<Charge>> keys_of_eos(const std::variant<Eos...>&) {
+  return joined({keys_of_part<Charge>("charge.", EosOf<Eos>{}, Eos::parameters())...});
 }
 
 std::vector<Key<Charge>> heat_keys() {
@@ -186,7 +180,7 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
 std::vector<Key<Charge>> Charge::parameters() {
   return joined(
       {keys_of_part("charge.", &Charge::strength, crack_keys()),
-       keys_of_part("charge.", &Charge::eos, pressure_keys()),
+       keys_of_part<Charge>("charge.", std::identity{}, density_keys()), keys_of_eos(Charge{}.eos),
        keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
        keys_of_part("kinetics.", &Charge::kinetics, in_role({ActsOn::chemistry}, kinetics_keys()))});
 }

@@ -67,8 +67,9 @@ void Simulation::burn(int body, std::size_t slot, double share, double fresh_ene
   ParticleFields& p = charge.particles;
   if (!p.burning) {
     const materials::ProductGas gas(materials::composition_b_gas(), charge.law.specific_heat);
-    p.burning.emplace(materials::BurningMixture(charge.law.eos, gas, charge.law.tension_cutoff),
-                      p.mass.size());
+    p.burning.emplace(
+        materials::BurningMixture(charge.law.eos, charge.law.density, gas, charge.law.tension_cutoff),
+        p.mass.size());
   }
   BurningParticle& particle =
       p.burning->start(slot, p.mass[slot] / charge.law.initial_density(), p.volume_ratio[slot]);

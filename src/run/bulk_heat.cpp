@@ -26,9 +26,9 @@ void BulkHeat::accumulate(const mpm::Simulation& simulation) {
   if (energy == friction_.end()) return;
   for (const Charge& charge : simulation.bodies_of<materials::Charge>()) {
     for (std::size_t slot = 0; slot < energy->size(); ++slot) {
-      StepChange change;
-      change.add(charge, slot, 1.0);
-      (*energy)[slot] += sliding_heat(charge.law.sliding_friction, change)[closure_];
+      materials::SlidingStep step;
+      add(step, charge, slot, 1.0);
+      (*energy)[slot] += materials::sliding_heat(charge.law.sliding_friction, step)[closure_];
     }
     ++energy;
   }
@@ -47,7 +47,7 @@ void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
 }
 
 void BulkHeat::add_friction(Charge& charge, math::AlignedArray& energy) const {
-  const double capacity = charge_.eos.initial_density * charge_.specific_heat;
+  const double capacity = charge_.density * charge_.specific_heat;
   for (std::size_t i = 0; i < energy.size(); ++i) {
     charge.particles.temperature[i] += energy[i] / capacity;
     energy[i] = 0.0;
@@ -58,7 +58,7 @@ void BulkHeat::react(Charge& charge, double dt) const {
   // The skin equation without air is the bulk's: a gap of nothing exchanges nothing.
   surface::SkinModel model;
   model.kinetics = charge_.kinetics;
-  model.charge_density = charge_.eos.initial_density;
+  model.charge_density = charge_.density;
   model.specific_heat = charge_.specific_heat;
   for (double& temperature : charge.particles.temperature)
     temperature =

@@ -166,9 +166,9 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
 /// settles as the mesh is refined.
 void TraceRecorder::heat_stations() {
   for (std::size_t station = 0; station < trace_.stations.size(); ++station) {
-    StepChange change;
-    for (const Share& share : shares_[station]) change.add(*share.charge, share.slot, share.weight);
-    const auto heat = sliding_heat(shares_[station].front().charge->law.sliding_friction, change);
+    materials::SlidingStep step;
+    for (const Share& share : shares_[station]) add(step, *share.charge, share.slot, share.weight);
+    const auto heat = materials::sliding_heat(shares_[station].front().charge->law.sliding_friction, step);
     for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
       heat_[closure][station] += heat[closure];
   }

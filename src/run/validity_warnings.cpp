@@ -237,8 +237,7 @@ double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
   if (closure < trace.friction.size()) {
     for (const double energy : trace.friction[closure]) most = std::max(most, energy);
   }
-  return scene.initial_temperature +
-         most / (scene.charge().eos.initial_density * scene.charge().specific_heat);
+  return scene.initial_temperature + most / (scene.charge().density * scene.charge().specific_heat);
 }
 
 /// The skin is that of the charge's rearmost face. A part of the charge that ends before it, by however

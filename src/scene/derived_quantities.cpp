@@ -80,7 +80,7 @@ double bulk_sound_speed(const Scene& scene) {
 }
 
 double heat_capacity(const Scene& scene) {
-  return 1e-6 * scene.charge().eos.initial_density * scene.charge().specific_heat;
+  return 1e-6 * scene.charge().density * scene.charge().specific_heat;
 }
 
 /// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the

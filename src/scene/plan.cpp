@@ -266,19 +266,19 @@ double diffusion_length(const materials::Law& law, double time) {
 double setback_pressure(const Scene& scene) {
   const Extent charge = charge_extent(scene);
   const double acceleration = rigid_acceleration(scene, PressureHistory(scene.load).peak());
-  return scene.charge().eos.initial_density * (charge.x_end - charge.x_begin) * acceleration;
+  return scene.charge().density * (charge.x_end - charge.x_begin) * acceleration;
 }
 
 double bulk_temperature_bound(const Scene& scene) {
   const Charge& charge = scene.charge();
   const double pressure = pressure_margin * setback_pressure(scene);
-  const double bulk = materials::jwl_bulk_modulus(charge.eos, 1.0, charge.eos.initial_energy);
+  const double bulk = charge.bulk_modulus();
   const auto& rates = charge.strength.relaxation_rates;
   const auto slowest = static_cast<std::size_t>(std::min_element(rates.begin(), rates.end()) - rates.begin());
   const double work =
       (1.0 + charge.sliding_friction) * pressure * pressure / charge.strength.shear_moduli[slowest];
-  const double compressed = scene.initial_temperature * std::exp(charge.eos.omega * pressure / bulk);
-  return compressed + work / (charge.eos.initial_density * charge.specific_heat);
+  const double compressed = scene.initial_temperature * std::exp(charge.grueneisen() * pressure / bulk);
+  return compressed + work / (charge.density * charge.specific_heat);
 }
 
 Plan make_plan(const Scene& scene) {

@@ -1,7 +1,7 @@
 // The keys of the charge's bottom.
 #include "launchsafe/scene/scene_keys.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -79,11 +79,12 @@ std::vector<Key<materials::AirParameters>> air_keys() {
   };
 }
 
-const std::vector<std::pair<std::string, FrictionClosure>>& closure_words() {
-  static const std::vector<std::pair<std::string, FrictionClosure>> words{
-      {"total strain rate", FrictionClosure::total_strain_rate},
-      {"inelastic", FrictionClosure::inelastic},
-      {"none", FrictionClosure::none}};
+std::vector<std::pair<std::string, FrictionClosure>> closure_words() {
+  std::vector<std::pair<std::string, FrictionClosure>> words;
+  for (std::size_t row = 0; row <= materials::friction_closures.size(); ++row) {
+    const auto closure = static_cast<FrictionClosure>(row);
+    words.emplace_back(word_of(closure), closure);
+  }
   return words;
 }
 
@@ -135,12 +136,6 @@ std::vector<Key<Scene>> surface_keys() {
                            in_role({ActsOn::surface}, air_keys())),
                        keys_of_part("friction.", &Scene::surface, friction_keys()),
                        keys_of_part("station.", &Scene::surface, in_role(of_model, station_keys()))});
-}
-
-std::string_view word_of(FrictionClosure closure) {
-  const auto& words = closure_words();
-  return std::find_if(words.begin(), words.end(), [=](const auto& each) { return each.second == closure; })
-      ->first;
 }
 
 }  // namespace launchsafe::scene

@@ -157,23 +157,14 @@ Fault check_kinetics(const SceneFile& file) {
   return std::nullopt;
 }
 
-/// An equation of state with the shape of an unreacted explosive's: it resists compression.
-Fault check_jwl(const SceneFile& file) {
-  const materials::JwlParameters& eos = file.scene.charge().eos;
-  if (!(eos.r1 > eos.r2)) {
-    const bool second = file.given.contains("charge.jwl.r2");
-    return fault_at(file, second ? "charge.jwl.r2" : "charge.jwl.r1",
-                    fmt::format("R1 = {:.6g} and R2 = {:.6g}", eos.r1, eos.r2), "R1 above R2");
-  }
-  const double bulk = materials::jwl_bulk_modulus(eos, 1.0, eos.initial_energy);
-  if (bulk > 0.0) return std::nullopt;
-  std::string key = "charge.jwl.a";
-  for (const char* each : {"charge.jwl.b", "charge.jwl.r1", "charge.jwl.r2", "charge.jwl.omega"}) {
-    if (!file.given.contains("charge.jwl.a") && file.given.contains(each)) key = each;
-  }
-  return fault_at(file, key,
-                  fmt::format("a JWL with a bulk modulus of {:.4g} GPa before launch", 1e-9 * bulk),
-                  "constants whose bulk modulus is above 0 GPa");
+Fault check_equation_of_state(const SceneFile& file) {
+  const auto fault = std::visit([](const auto& eos) { return eos.fault(); }, file.scene.charge().eos);
+  if (!fault) return std::nullopt;
+  const auto given = std::find_if(fault->keys.begin(), fault->keys.end(), [&](const std::string& key) {
+    return file.given.contains("charge." + key);
+  });
+  return fault_at(file, "charge." + (given != fault->keys.end() ? *given : fault->keys.front()), fault->found,
+                  fault->allowed);
 }
 
 Fault check_steel(const SceneFile& file) {
@@ -333,13 +324,12 @@ Fault check_output(const SceneFile& file) {
 }  // namespace
 
 std::optional<InputError> validate(const SceneFile& file) {
-  for (const auto check : {check_names,          fault_of_near_edges, check_charge_fits,
-                           check_overlaps,       fault_of_support,    check_interfaces,
-                           check_stations,       check_cell_size,     fault_of_load,
-                           check_kinetics,       check_jwl,           check_steel,
-                           check_crack_friction, check_gaps,          check_observation_points,
-                           check_formulation,    check_inertia,       check_refinement,
-                           check_coupling,       check_output}) {
+  for (const auto check :
+       {check_names,          fault_of_near_edges, check_charge_fits,        check_overlaps,
+        fault_of_support,     check_interfaces,    check_stations,           check_cell_size,
+        fault_of_load,        check_kinetics,      check_equation_of_state,  check_steel,
+        check_crack_friction, check_gaps,          check_observation_points, check_formulation,
+        check_inertia,        check_refinement,    check_coupling,           check_output}) {
     if (Fault fault = check(file)) return fault;
   }
   return std::nullopt;

@@ -35,8 +35,6 @@ inline constexpr std::array combustion_end_names{
     Named{run::CombustionEnd::broke_off, "broke_off"},
     Named{run::CombustionEnd::burnt_through, "burnt_through"},
 };
-/// By closure of the friction; "literal" is the total strain rate, under the name that stored cases have.
-inline constexpr std::array<const char*, trace::traced_closures> closure_names{"literal", "inelastic"};
 
 template <class Archive, class Value>
 void lay_out_manifest(Archive& archive, Value& manifest) {
@@ -82,9 +80,9 @@ void lay_out_trace(Archive& archive, Trace& trace) {
   history(archive, "mean_bottom_pressure", trace.mean_bottom_pressure, samples,
           {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
   history(archive, "steps", trace.steps, samples, {"1", "time steps since the start"});
-  for (std::size_t closure = 0; closure < closure_names.size(); ++closure) {
+  for (std::size_t closure = 0; closure < trace::traced_closures; ++closure) {
     archive.table(
-        std::string("friction_") + closure_names[closure], trace.friction[closure],
+        "friction_" + std::string(materials::friction_closures[closure].stored_word), trace.friction[closure],
         {samples, trace.stations.size()},
         {"J/m3", "friction energy since the start without localisation; rows are times, columns stations"});
   }

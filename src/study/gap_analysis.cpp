@@ -263,7 +263,7 @@ GapState state_of(std::optional<bool> ignites) {
 double friction_share(const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const materials::Charge& charge = scene.charge();
-  const double capacity = charge.eos.initial_density * charge.specific_heat;  // J/(m3 K)
+  const double capacity = charge.density * charge.specific_heat;  // J/(m3 K)
   const double diffused =
       0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::read_time(scene.load) / capacity);
   const double heat =

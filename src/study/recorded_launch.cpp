@@ -35,7 +35,7 @@ double air_heating_of(const scene::Scene& scene, double peak) {
   const scene::Surface& surface = scene.surface;
   const scene::Charge& charge = scene.charge();
   const double share = surface.air.density * surface.air.specific_heat /
-                       (charge.eos.initial_density * charge.specific_heat * surface.skin_thickness);
+                       (charge.density * charge.specific_heat * surface.skin_thickness);
   const double rise =
       materials::adiabatic_temperature(surface.air, std::max(peak, surface.air.initial_pressure)) -
       surface.air.initial_temperature;

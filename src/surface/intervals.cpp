@@ -8,15 +8,8 @@ namespace launchsafe::surface::detail {
 namespace {
 
 const std::vector<double>* friction_of(const SkinModel& model, const trace::BottomTrace& trace) {
-  switch (model.surface.friction) {
-    case scene::FrictionClosure::total_strain_rate:
-      return &trace.friction[0];
-    case scene::FrictionClosure::inelastic:
-      return &trace.friction[1];
-    case scene::FrictionClosure::none:
-      break;
-  }
-  return nullptr;
+  const auto closure = static_cast<std::size_t>(model.surface.friction);
+  return closure < trace::traced_closures ? &trace.friction[closure] : nullptr;
 }
 
 bool from_chamber(const SkinModel& model) {

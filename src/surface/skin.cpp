@@ -78,7 +78,7 @@ SkinModel skin_model(const scene::Scene& scene) {
   SkinModel model;
   model.surface = scene.surface;
   model.kinetics = scene.charge().kinetics;
-  model.charge_density = scene.charge().eos.initial_density;
+  model.charge_density = scene.charge().density;
   model.specific_heat = scene.charge().specific_heat;
   model.initial_temperature = scene.initial_temperature;
   model.charge_conductivity = scene.charge().conductivity;

@@ -24,7 +24,7 @@ const ProductGas& products() {
 }
 /// Molecules without size and attraction: the ideal gas.
 ProductGas ideal_gas() { return ProductGas({{{"point", 100.0, 0.0}, 30.0}}, 1200.0); }
-BurningMixture mixture() { return BurningMixture(unreacted_composition_b(), products(), tension_cutoff); }
+BurningMixture mixture() { return BurningMixture(UnreactedJwl{}, 1717.0, products(), tension_cutoff); }
 
 TEST(ProductGas, PressureIsThatOfTheVirialSeries) {
   for (const double temperature : {250.0, 784.0, 2000.0, 6000.0})
@@ -112,9 +112,8 @@ TEST(Deflagration, IsThatOfTheResolvedHeatEquation) {
   const KineticsParameters kinetics;
   const Charge charge;
   const double unburnt = 500.0, burnt = kinetics.burnt_temperature;
-  const double alpha = charge.conductivity / (charge.eos.initial_density * specific_heat);
-  const double u =
-      deflagration_speed(kinetics, charge.conductivity, charge.eos.initial_density, specific_heat, unburnt);
+  const double alpha = charge.conductivity / (charge.density * specific_heat);
+  const double u = deflagration_speed(kinetics, charge.conductivity, charge.density, specific_heat, unburnt);
   const double h = alpha / u / 30.0, dt = 0.2 * h * h / alpha;
   const double ahead = arrhenius_heating(kinetics, specific_heat, unburnt);
   std::vector<double> temperature(2000, unburnt), next;
@@ -199,7 +198,7 @@ TEST(BurningMixture, PressureIsContinuousAndEnergyConservedInBetween) {
 TEST(BurningMixture, GasAloneIsCompressedAlongItsAdiabat) {
   // The ideal gas against p v^gamma, in steps of falling length: second order.
   const ProductGas gas = ideal_gas();
-  const BurningMixture law(unreacted_composition_b(), gas, tension_cutoff);
+  const BurningMixture law(UnreactedJwl{}, 1717.0, gas, tension_cutoff);
   const double gamma = 1.0 + 30.0 * gas_constant / 1200.0;
   const auto end = [&](int steps) {
     BurningState state = law.advance(law.unburnt(0.99), {0.99, 2.0, 1.0, 1200.0 * 1000.0});

@@ -94,7 +94,7 @@ TEST(Conduction, WarmsAHalfSpaceUnderAFluxAsTheClosedFormSays) {
   // Carslaw & Jaeger: a face under 1 MW/m2, 2 q sqrt(t/(pi k rho c)). Held hotter: tests/error_of_parts.
   mpm::Simulation simulation(test_support::half_space(0.5e-6));
   const scene::Charge& charge = simulation.scene().charge();
-  EXPECT_NEAR(charge.conductivity / (charge.eos.initial_density * charge.specific_heat) / 8.049053e-8, 1.0,
+  EXPECT_NEAR(charge.conductivity / (charge.density * charge.specific_heat) / 8.049053e-8, 1.0,
               1e-7);  // m2/s
   mpm::Conduction conduction(simulation);
   conduction.heat_base(1e6);

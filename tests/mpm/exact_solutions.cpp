@@ -162,7 +162,7 @@ double half_space_error(double cell, int steps) {
   conduction.hold_base(initial + 1.0);
   for (int step = 0; step < steps; ++step) conduction.advance(simulation, half_space_duration / steps);
   const scene::Charge& charge = simulation.scene().charge();
-  const double diffusivity = charge.conductivity / (charge.eos.initial_density * charge.specific_heat);
+  const double diffusivity = charge.conductivity / (charge.density * charge.specific_heat);
   const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const double face = p.lattice.x_begin() + p.lattice.columns() * p.lattice.length_x(0);
   RelativeError error;

@@ -70,7 +70,7 @@ TEST(CalibrationDomain, SeveralConstantsOfMaterialsAreOneProperty) {
   scene::Scene scene = calibration_scene();
   scene.material<scene::Charge>().title = "PBX 9501";
   EXPECT_EQ(foreign_in(scene), Keys{});
-  scene.charge().eos.initial_density = 1832;
+  scene.charge().density = 1832;
   EXPECT_EQ(foreign_in(scene), Keys{"charge.density"});
   scene.charge().kinetics.frequency = 5e19;
   scene.charge().kinetics.ignition_temperature = 700.0;
@@ -156,7 +156,7 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
       {"other points", [](auto& s) { s.output.observation_points.clear(); }, "", ""},
       {"wider stations", [](auto& s) { s.surface.station_width = 10e-3; }, "station.width", ""},
       {"shallower stations", [](auto& s) { s.surface.station_depth = 2.5e-3; }, "station.depth", ""},
-      {"explosive", [](auto& s) { s.charge().eos.initial_density = 1800.0; }, "charge.density", ""},
+      {"explosive", [](auto& s) { s.charge().density = 1800.0; }, "charge.density", ""},
       {"steel", [](auto& s) { s.steel().strength.a = 1e9; }, "steel.yield_stress", ""},
       {"closure", [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; }, "friction.closure",
        ""},

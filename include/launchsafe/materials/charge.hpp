@@ -1,17 +1,18 @@
-// The explosive charge: JWL pressure on its isentrope, Visco-SCRAM deviator with growing cracks, and the heat
-// of their sliding.
+// The explosive charge: pressure on the isentrope of its equation of state, Visco-SCRAM deviator with growing
+// cracks, and the heat of their sliding.
 #pragma once
 
-#include "launchsafe/materials/jwl_isentrope.hpp"
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/law.hpp"
+#include "launchsafe/materials/unreacted.hpp"
 #include "launchsafe/materials/visco_scram_step.hpp"
 
 namespace launchsafe::materials {
 
 struct Charge {
   ViscoScramParameters strength;
-  JwlParameters eos = unreacted_composition_b();
+  double density = 1717.0;  ///< kg/m3, before launch [P]
+  UnreactedEos eos;
   double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
   double specific_heat = 1780.0;   ///< J/(kg K)
   double conductivity = 0.246;     ///< W/(m K)
@@ -42,14 +43,19 @@ struct Charge {
                                                          {"element_5_shear", "Pa"},
                                                          {"crack_radius", "m"}}};
 
-  double initial_density() const { return eos.initial_density; }
+  double initial_density() const { return density; }
   double shear_modulus() const { return strength.shear_modulus(); }
   /// A soft body takes on what hourglassing a stiff neighbour has left, without stress; where it resists
   /// that, the pattern turns into pressure. A tenth of the shear modulus, in both, lets the pressure at the
   /// bottom of the 155 mm shell alternate by 0.17 %, a tenth in steel and a fiftieth here by 0.09 %, none
   /// here by 0.05 %, on cells of 2.5 mm under 50 MPa; G1 changes by 0.4 K, other points by 0.04 K.
   double hourglass_modulus() const { return 0.2 * shear_modulus(); }
-  double bulk_modulus() const { return jwl_bulk_modulus(eos, 1.0, eos.initial_energy); }
+  double bulk_modulus() const {
+    return std::visit([](const auto& each) { return each.bulk_modulus_at_rest(); }, eos);
+  }
+  double grueneisen() const {
+    return std::visit([](const auto& each) { return each.grueneisen(); }, eos);
+  }
   double heat_capacity() const { return specific_heat; }
   double heat_conductivity() const { return conductivity; }
 
@@ -76,7 +82,7 @@ struct Charge {
 class Charge::Integrator {
  public:
   explicit Integrator(const Charge& charge)
-      : charge_(charge), isentrope_(charge.eos), solid_(charge.strength) {}
+      : charge_(charge), isentrope_(isentrope_of(charge.eos)), solid_(charge.strength) {}
   void set_step(double dt) {
     if (dt < dt_ || dt > dt_) solid_.set_step(dt);
     dt_ = dt;
@@ -88,7 +94,9 @@ class Charge::Integrator {
     using math::max;
     using math::select;
     Response<Real> response;
-    const Real isentropic = isentrope_.pressure(increment.volume_after - Real(1.0));
+    const Real isentropic = std::visit(
+        [&](const auto& isentrope) { return isentrope.pressure(increment.volume_after - Real(1.0)); },
+        isentrope_);
     const Real cutoff(-charge_.tension_cutoff);
     response.tension_cutoff = select(isentropic < cutoff, Real(1.0), Real(0.0));
     response.pressure = max(isentropic, cutoff);
@@ -109,7 +117,7 @@ class Charge::Integrator {
   template <class Real>
   Real bulk_modulus(const State<Charge, Real>&, Real volume, Real) const {
     using math::max;
-    return max(jwl_isentropic_bulk_modulus(charge_.eos, volume), Real(0.0));
+    return max(std::visit([&](const auto& eos) { return eos.bulk_modulus(volume); }, charge_.eos), Real(0.0));
   }
 
  private:
@@ -139,7 +147,7 @@ class Charge::Integrator {
   }
 
   Charge charge_;
-  JwlIsentrope isentrope_;
+  UnreactedIsentrope isentrope_;
   ViscoScramStep solid_;
   double dt_ = 0;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "launchsafe/keys/key.hpp"
+#include "launchsafe/materials/friction_closure.hpp"
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
 
@@ -24,10 +25,7 @@ enum class Barrel { rigid, none };
 enum class Switch { automatic, on, off };
 /// Which configuration gradients and transfer refer to: the one at rest, or the present one (uGIMP).
 enum class Formulation { total_lagrangian, updated_lagrangian };
-/// Which strain rate of the charge the sliding friction heats with.
-enum class FrictionClosure { total_strain_rate, inelastic, none };
-/// The word of a closure in scene files and reports: "total strain rate", "inelastic" or "none".
-std::string_view word_of(FrictionClosure closure);
+using materials::FrictionClosure, materials::word_of;
 /// The analytic shapes of a load.
 enum class LoadShape { bell, power_exponential };
 /// The word of a shape in scene files and reports.

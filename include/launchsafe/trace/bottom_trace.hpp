@@ -1,6 +1,8 @@
 // What the mechanics hands to the surface: the history of the charge bottom, independent of any gap.
 #pragma once
 
+#include "launchsafe/materials/friction_closure.hpp"
+
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -19,8 +21,8 @@ struct Station {
   bool observation = false;  ///< false for a ring
 };
 
-/// Friction closures whose heat a trace carries, in this order (see scene::FrictionClosure).
-inline constexpr std::size_t traced_closures = 2;  // total strain rate, inelastic
+/// Friction closures whose heat a trace carries: all that heat.
+inline constexpr std::size_t traced_closures = materials::friction_closures.size();
 
 /// Samples at increasing times, the first at t = 0. Friction is kept as energy since the start, so thinning
 /// the trace loses none of it; pressure as the value and as the mean over the interval that ends at the

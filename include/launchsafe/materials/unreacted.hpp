@@ -1,0 +1,28 @@
+// The pressure of the explosive before it reacts. A new equation of state is its own file with what
+// UnreactedJwl has, and its name in the list here: the charge, its keys and its burning take it from there.
+#pragma once
+
+#include "launchsafe/materials/unreacted_jwl.hpp"
+
+#include <variant>
+
+namespace launchsafe::materials {
+
+using UnreactedEos = std::variant<UnreactedJwl>;
+
+namespace detail {
+template <class Laws>
+struct IsentropesOf;
+template <class... Each>
+struct IsentropesOf<std::variant<Each...>> {
+  using type = std::variant<typename Each::Isentrope...>;
+};
+}  // namespace detail
+/// Its pressure (Pa) at V = 1 + x, as a step computes it.
+using UnreactedIsentrope = detail::IsentropesOf<UnreactedEos>::type;
+
+inline UnreactedIsentrope isentrope_of(const UnreactedEos& eos) {
+  return std::visit([](const auto& each) -> UnreactedIsentrope { return each.isentrope(); }, eos);
+}
+
+}  // namespace launchsafe::materials

@@ -1,0 +1,65 @@
+#include "launchsafe/materials/unreacted_jwl.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace launchsafe::materials {
+using namespace keys;
+
+namespace {
+
+/// Whenever a JWL constant changes, the initial energy follows, so that p(V = 1) = 0.
+void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 1.0) / eos.omega; }
+
+std::vector<Key<JwlParameters>> constants_keys() {
+  return {
+      plausibly(then(number_key("jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper,
+                                "A of the unreacted JWL.", &JwlParameters::a),
+                     balance),
+                between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
+      plausibly(then(number_key("jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
+                                "B of the unreacted JWL.", &JwlParameters::b),
+                     balance),
+                between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
+      plausibly(then(number_key("jwl.r1", Dimension::number, above_to(0, 100), Standing::paper,
+                                "R1 of the unreacted JWL.", &JwlParameters::r1),
+                     balance),
+                between(6, 20), "unreacted explosives are fitted with 10 to 14"),
+      plausibly(then(number_key("jwl.r2", Dimension::number, above_to(0, 100), Standing::paper,
+                                "R2 of the unreacted JWL.", &JwlParameters::r2),
+                     balance),
+                between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
+      plausibly(then(number_key("jwl.omega", Dimension::number, above_to(0, 10), Standing::paper,
+                                "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
+                                &JwlParameters::omega),
+                     balance),
+                between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
+  };
+}
+
+}  // namespace
+
+double UnreactedJwl::energy(double volume) const {
+  const JwlParameters& m = constants;
+  const double thermal = m.initial_energy - jwl_cold_energy(m, 1.0);
+  return jwl_cold_energy(m, volume) + thermal * std::pow(volume, -m.omega) - m.initial_energy;
+}
+
+std::optional<ConstantsFault> UnreactedJwl::fault() const {
+  if (!(constants.r1 > constants.r2))
+    return ConstantsFault{{"jwl.r2", "jwl.r1"},
+                          fmt::format("R1 = {:.6g} and R2 = {:.6g}", constants.r1, constants.r2),
+                          "R1 above R2"};
+  const double bulk = bulk_modulus_at_rest();
+  if (bulk > 0.0) return std::nullopt;
+  return ConstantsFault{{"jwl.a", "jwl.omega", "jwl.r2", "jwl.r1", "jwl.b"},
+                        fmt::format("a JWL with a bulk modulus of {:.4g} GPa before launch", 1e-9 * bulk),
+                        "constants whose bulk modulus is above 0 GPa"};
+}
+
+std::vector<Key<UnreactedJwl>> UnreactedJwl::parameters() {
+  return keys_of_part("", &UnreactedJwl::constants, constants_keys());
+}
+
+}  // namespace launchsafe::materials
