@@ -22,7 +22,7 @@ constexpr std::size_t most_maps = 9;
 /// What the pictures show, for who cannot see them.
 constexpr const char* picture_text = "critical gap";
 
-/// An axis of the sweep with its values in the unit shown, ascending, each once.
+/// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
   std::size_t index;  ///< among the study's axes
   ShownKey key;

@@ -189,6 +189,7 @@ StudyTable vary_table() {
   for (const StudyTable& more :
        {study_table_of(table_name, vary_record_keys()), study_table_of("vary.variants", variant_keys())})
     table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
+  for (scene::DocumentedKey& key : table.keys) key.default_text.clear();  // an entry has what its form needs
   return table;
 }
 
