@@ -107,7 +107,7 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
     text += forecast_line(
         "coupled runs", fmt::format("at most {} more, to confirm the critical gap{}", forecast.confirmations,
                                     confirmation_text(file.scene.scene, forecast)));
-  if (!file.study.kind.gaps_key.empty())
+  if (file.study.kind.judges_gaps)
     text += forecast_line(
         "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));
   text += forecast_line("at a time", fmt::format("{}", forecast.jobs));

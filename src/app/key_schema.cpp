@@ -214,20 +214,24 @@ Json with_head(Json schema, const char* title) {
   return whole;
 }
 
-/// Numbers of an uncertain input are in a unit of its key, which a schema cannot follow.
-void free_of_unit(Json& input) {
-  for (const char* name : {"range", "mean", "deviation"})
-    for (const char* rule : {"type", "pattern", "minimum", "exclusiveMinimum"})
-      input["properties"][name].erase(rule);
+/// Numbers of what varies are in a unit of its key, which a schema cannot follow.
+void free_of_unit(Json& entry) {
+  for (const char* name : {"values", "range", "mean", "deviation"})
+    for (const char* rule : {"type", "pattern", "minimum", "exclusiveMinimum", "anyOf", "items"})
+      entry["properties"][name].erase(rule);
 }
 
 /// What stands in a table of a study besides its documented keys.
 Json with_other_tables(Json entry, const std::string& table, const Json& changes) {
   Json& properties = entry["properties"];
-  if (table == "input") {
+  if (table == "vary") {
     free_of_unit(entry);
-    entry["anyOf"] = Json::array({{{"required", entry["required"]}}, {{"required", {"calibration"}}}});
     entry.erase("required");
+    for (const Json& form : {Json{"key", "values"}, Json{"key", "range", "count"},
+                             Json{"key", "distribution"}, Json{"calibration"}, Json{"variants"}})
+      entry["anyOf"].push_back({{"required", form}});
+    Json variant = with_other_tables(std::move(properties["variants"]), "variant", changes);
+    properties["variants"] = array_of(std::move(variant));
   }
   if (table == "group") {
     // Some cases are of values that are refused.
@@ -240,7 +244,7 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
     properties["accept"] = array_of(schema_of_table("accept", scene::describe_keys()));
   }
   // Values of any scene key, under names that the schema of a scene explains.
-  if (table == "axes" || table == "settings" || table == "variant") entry["additionalProperties"] = true;
+  if (table == "settings" || table == "variant") entry["additionalProperties"] = true;
   return entry;
 }
 
@@ -269,7 +273,7 @@ nlohmann::ordered_json study_schema() {
   const Json changes = changes_schema();
   for (const std::string& table : tables) {
     Json entry = with_other_tables(schema_of_table(table, keys), table, changes);
-    schema["properties"][table] = table == "axes" ? entry : array_of(std::move(entry));
+    schema["properties"][table] = array_of(std::move(entry));
   }
   schema["properties"]["set"] = changes;
   return with_head(std::move(schema), "Study of launchsafe");

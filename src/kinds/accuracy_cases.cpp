@@ -280,10 +280,7 @@ Fault read_accuracy(const StudySource& source, StudyFile& study) {
 
 Kind accuracy_kind() {
   return {
-      .traits = {.name = "accuracy",
-                 .gaps_key = "gaps",
-                 .gives_verdicts = false,
-                 .bounds_critical_gaps = false},
+      .traits = {.name = "accuracy", .gives_verdicts = false, .bounds_critical_gaps = false},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys())}),
       .tables = {{"settings", {}}, {variant_key, {}}},
       .read = read_accuracy,

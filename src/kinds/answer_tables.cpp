@@ -59,10 +59,8 @@ std::string limited_text(const SweepCounts& counts, const std::string& noun) {
                      counted(counts.limited, noun), limiters_text(counts.limiters));
 }
 
-std::string answer_of(std::vector<std::string> lines, const StudyFile& study,
-                      const std::string& interrupted) {
+std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {
   for (std::string& note : mesh_notes(study)) lines.push_back(std::move(note));
-  lines.push_back(interrupted);
   std::erase(lines, "");
   return fmt::format("{}", fmt::join(lines, "\n"));
 }

@@ -45,12 +45,8 @@ std::string limited_text(const SweepCounts& counts, const std::string& noun);
 using report::counted;
 
 /// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
-/// left out. `interrupted`: what is said last of a study that was.
-std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study,
-                      const std::string& interrupted);
-
-inline constexpr const char* interrupted_note =
-    "The study was interrupted: cases without a run are indeterminate.";
+/// left out.
+std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study);
 
 /// A case with its answer, and where it lies.
 struct AnsweredCase {
@@ -59,6 +55,7 @@ struct AnsweredCase {
   const study::CaseAnswer* answer;
   const std::vector<double>& coordinates() const { return study->cases.coordinates(index); }
   const std::string& label() const { return study->cases.label(index); }
+  study::StudyCase input() const { return study->cases[index]; }
 };
 std::vector<AnsweredCase> answered(const study::StudyFile& study,
                                    const std::vector<study::CaseAnswer>& answers);

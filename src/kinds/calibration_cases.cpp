@@ -138,7 +138,7 @@ std::vector<Failure> calibration_failures(const CalibrationResult& result) {
 Kind calibration_kind() {
   return {
       .traits = {.name = "calibration",
-                 .gaps_key = {},
+                 .judges_gaps = false,
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false},
       .keys = joined({reference_keys(), own_keys(calibration_keys())}),

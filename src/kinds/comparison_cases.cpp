@@ -6,6 +6,7 @@
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
 #include "study_scene.hpp"
+#include "vary.hpp"
 
 #include <fmt/format.h>
 
@@ -19,28 +20,6 @@ using namespace study;
 
 namespace {
 
-/// One [[variant]] as read, without its tables.
-struct VariantText {
-  std::string name, description, calibration;
-};
-
-std::vector<scene::Key<VariantText>> variant_keys() {
-  using scene::Standing;
-  return {
-      scene::required(scene::text_key<VariantText>("name", Standing::input,
-                                                   "What it is called in tables; each once.", "bonded charge",
-                                                   &VariantText::name)),
-      scene::text_key<VariantText>("description", Standing::input, "What it is, a phrase.",
-                                   "the charge is glued to the wall", &VariantText::description),
-      scene::text_key<VariantText>(
-          "calibration", Standing::input,
-          "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
-          "or where the record found no constants. Its scene keys are in the table set, and what it accepts "
-          "in accept.",
-          "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
-  };
-}
-
 std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
   return {
       scene::text_key<ComparisonSettings>("name", scene::Standing::input,
@@ -48,16 +27,7 @@ std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
                                           &ComparisonSettings::name),
       scene::text_key<ComparisonSettings>("description", scene::Standing::input, "What that is, a phrase.",
                                           "frictionless wall", &ComparisonSettings::description),
-      scene::list_key<ComparisonSettings>(
-          "peak_pressures", scene::Dimension::pressure, scene::above_to(0, 10e9), scene::Standing::assumed,
-          "Peak chamber pressures, each a mechanical run of every variant; the scene's if absent.",
-          &ComparisonSettings::peak_pressures),
   };
-}
-
-Fault read_comparison(const StudySource&, StudyFile& study) {
-  const auto& own = settings_of<ComparisonSettings>(study.study);
-  return add_axis(study, "peak_pressure", "peak_pressures", own.peak_pressures);
 }
 
 /// The record of a calibration, with or without constants.
@@ -83,7 +53,7 @@ class VariantMaker {
   Fault add_variant(const toml::table& table, const std::string& key) {
     VariantText text;
     auto read = scene::read_table(table, variant_keys(), {"set", "accept"}, study_.file, text);
-    if (!read) return in_table(read.error(), "variant");
+    if (!read) return in_table(read.error(), "vary.variants");
     for (const auto& [name, place] : *read) study_.places[key + "." + name] = place;
     for (const Variant& other : variants()) {
       if (other.name == text.name)
@@ -99,7 +69,7 @@ class VariantMaker {
     }
     const bool own_constants = variant.calibration && variant.calibration->failure.empty();
     return add(std::move(variant), own_constants ? text.calibration : std::string{},
-               {{"set", source_.root.get("set")}, {"variant.set", table.get("set")}}, table);
+               {{"set", source_.root.get("set")}, {"vary.variants.set", table.get("set")}}, table);
   }
 
  private:
@@ -111,7 +81,7 @@ class VariantMaker {
     if (!set || !set->is_table()) return std::nullopt;
     for (const Leaf& leaf : leaves_as_written(*set->as_table())) {
       if (leaf.name != "gap.thickness") continue;
-      return scene::error_at(scene::place_of(*leaf.node, study_.file), "variant.set.gap.thickness",
+      return scene::error_at(scene::place_of(*leaf.node, study_.file), "vary.variants.set.gap.thickness",
                              "gaps of a variant", "the study's gaps, which all variants share");
     }
     return std::nullopt;
@@ -138,7 +108,7 @@ class VariantMaker {
                       fmt::format("an instant after the launch of variant \"{}\"", variant.name),
                       "a time within the load's duration of every variant");
     }
-    if (Fault fault = make_factorial(own, launch_label)) return fault;
+    if (Fault fault = make_factorial(own)) return fault;
     return take(std::move(variant), own);
   }
 
@@ -160,7 +130,7 @@ class VariantMaker {
   /// A variant accepts for itself.
   Fault accept_also(const toml::table& table, StudyFile& own) const {
     auto accepted = scene::read_acceptances(table, scene::acceptable_keys(own.scene.scene), study_.file);
-    if (!accepted) return in_table(accepted.error(), "variant");
+    if (!accepted) return in_table(accepted.error(), "vary.variants");
     for (scene::Acceptance& each : *accepted) scene::accept(own.scene.scene.accepted, std::move(each));
     return std::nullopt;
   }
@@ -169,7 +139,7 @@ class VariantMaker {
   Fault take(Variant variant, StudyFile& own) {
     const std::size_t count = study_.cases.size() + own.cases.size();
     if (count > study_.most_cases) {
-      return fault_at(study_, "variant", fmt::format("{} mechanical runs", count),
+      return fault_at(study_, "vary", fmt::format("{} mechanical runs", count),
                       fmt::format("at most {} mechanical runs", study_.most_cases));
     }
     if (!variant.calibration && !own.study.calibration_record.empty()) {
@@ -183,7 +153,7 @@ class VariantMaker {
         variant.changes.push_back(key + " = " + value);
     }
     if (!variants().empty() && variant.changes.empty())
-      return fault_at(study_, "variant", fmt::format("\"{}\", which is the scene as it is", variant.name),
+      return fault_at(study_, "vary", fmt::format("\"{}\", which is the scene as it is", variant.name),
                       "a variant with set or calibration");
     variant.scene = own.scene.scene;
     for (StudyCase each : own.cases) {
@@ -203,36 +173,27 @@ class VariantMaker {
 };
 
 Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
-  const auto tables = some_tables_of(source.root, "variant", study, "with a name and what it changes");
+  const auto tables = variants_in(source, study);
   if (!tables) return tables.error();
   VariantMaker maker(source, study);
   if (Fault fault = maker.add_scene_itself()) return fault;
   std::size_t index = 0;
   for (const toml::table* table : *tables) {
-    if (Fault fault = maker.add_variant(*table, fmt::format("variant.{}", index++))) return fault;
+    if (Fault fault = maker.add_variant(*table, fmt::format("vary.{}.variants", index++))) return fault;
   }
   return std::nullopt;
-}
-
-std::vector<Failure> comparison_failures(const ComparisonResult& result) {
-  std::vector<Failure> failures;
-  for (std::size_t i = 0; i < result.cases.size(); ++i)
-    add_failure(failures, result.study.cases.label(i), result.cases[i].answer.outcome,
-                result.cases[i].answer.failure);
-  return failures;
 }
 
 }  // namespace
 
 Kind comparison_kind() {
   return {
-      .traits = {.name = "comparison", .gaps_key = "gaps", .bounds_critical_gaps = false, .own_scenes = true},
+      .traits = {.name = "comparison", .bounds_critical_gaps = false, .own_scenes = true},
       .keys = joined({gaps_keys(), own_keys(comparison_keys()), search_keys(), calibration_record_keys()}),
-      .tables = {study_table_of("variant", variant_keys())},
-      .instead_of = {{"gap", "gaps"}},
-      .read = read_comparison,
+      .tables = {vary_table()},
+      .varies = {.values = true, .variants = true, .needed = "with variants"},
       .make_cases = make_comparison_cases,
-      .run = outcome_of<run_comparison, comparison_failures>,
+      .run = outcome_of<run_comparison, failures_of<ComparisonResult>>,
       .files =
           {{"comparison.csv"}, {"stations.csv"}, {"model_form.json"}, {"model_form.csv"}, {"model_form.svg"}},
       .results = comparison_results,

@@ -44,7 +44,7 @@ const study::ModelAlternative* alternative_of(const ModelFormRecord& record, con
   return found == record.alternatives.end() ? nullptr : &*found;
 }
 
-constexpr std::size_t marks = static_cast<std::size_t>(Mark::cross) + 1;
+constexpr std::size_t mark_count = static_cast<std::size_t>(Mark::cross) + 1;
 
 /// m; critical gaps are bracketed to a tenth of it.
 constexpr double least_shift = 1e-6;
@@ -166,7 +166,7 @@ Plot model_form_plot(const ModelForm& form) {
   for (const ModelFormEntry& each : form.entries) {
     Series series{each.name, {}, {}, Style::line_and_points};
     // More models than colours: marks repeat at another length, so that no two lines look alike.
-    series.mark = static_cast<Mark>(plot.series.size() % marks);
+    series.mark = static_cast<Mark>(plot.series.size() % mark_count);
     const study::ModelAlternative* alternative = alternative_of(form.record, each.name);
     if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
@@ -214,7 +214,7 @@ std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::stri
     ModelFormEntry& entry = form.entries.emplace_back();
     entry = {each.name, each.description, &*each.calibration, each.scene, {}};
     for (const std::size_t i : order)
-      entry.critical_gap.push_back(gap_or_bound(result.cases[first + i].answer.critical));
+      entry.critical_gap.push_back(gap_or_bound(result.answers[first + i].critical));
   }
   std::vector<double> pressures;
   for (const std::size_t i : order) pressures.push_back(result.study.cases[i].peak_pressure);

@@ -28,7 +28,7 @@ struct CaseRow {
   const ComparisonResult* result;
   std::size_t index;
 
-  const ComparedCase& compared() const { return result->cases[index]; }
+  const ComparedCase& compared() const { return result->answers[index]; }
   const std::vector<double>& coordinates() const { return result->study.cases.coordinates(index); }
   const std::string& variant() const { return result->variants()[compared().variant].name; }
 };
@@ -41,7 +41,7 @@ Quantities<CaseRow> place_quantities(const study::Study& study) {
 
 double hottest(const ComparedCase& each) {
   double highest = not_a_number;
-  for (const double temperature : each.answer.heated_temperature) {
+  for (const double temperature : each.heated_temperature) {
     if (!(temperature <= highest)) highest = temperature;
   }
   return highest;
@@ -62,16 +62,16 @@ std::string changes_text(const std::vector<Variant>& variants) {
 
 /// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
 double shift_of(const ComparisonResult& result, std::size_t index) {
-  return value_of(result.cases[index].answer.critical) -
-         value_of(result.cases[result.counterpart(index)].answer.critical);
+  return value_of(result.answers[index].critical) -
+         value_of(result.answers[result.counterpart(index)].critical);
 }
 
 /// The variant with the smallest critical gap against that of the scene as it is.
 std::string largest_shift_text(const ComparisonResult& result) {
   std::optional<std::size_t> most;
   std::size_t unknown = 0;
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    if (result.cases[i].variant == 0) continue;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    if (result.answers[i].variant == 0) continue;
     const double shift = shift_of(result, i);
     if (std::isnan(shift)) ++unknown;
     if (shift < 0.0 && (!most || shift < shift_of(result, *most))) most = i;
@@ -94,8 +94,7 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
   };
   return keys::joined<CaseRow>(
       {place_quantities(study),
-       of_part<CaseRow>(critical_gap_quantities(), &CaseRow::compared, &ComparedCase::answer,
-                        &CaseAnswer::critical),
+       of_part<CaseRow>(critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
        {{{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
           "Critical gap minus that of the scene as it is."},
          unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
@@ -103,16 +102,14 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
         {{"temperature_max_inert_difference", "less that of the scene", fixed(1, kelvin),
           "The same minus that of the scene as it is."},
          unless_own([](const CaseRow& row) {
-           return hottest(row.compared()) - hottest(row.result->cases[row.result->counterpart(row.index)]);
+           return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
          })},
         {quantity::processor_time(), [](const CaseRow& row) { return row.compared().processor_time; }},
-        {quantity::particles(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run,
-         &RunSummary::particles},
-        {quantity::steps(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run, &RunSummary::steps},
-        {quantity::energy_drift(), &CaseRow::compared, &ComparedCase::answer, &CaseAnswer::run,
-         &RunSummary::energy_drift},
+        {quantity::particles(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
+        {quantity::steps(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
+        {quantity::energy_drift(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::energy_drift},
         {quantity::reason(), [](const CaseRow& row) {
-           const CaseAnswer& answer = row.compared().answer;
+           const CaseAnswer& answer = row.compared();
            return answer.completed() ? answer.critical.reason : answer.failure;
          }}}});
 }
@@ -120,7 +117,7 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
 /// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
 Table comparison_table(const ComparisonResult& result) {
   std::vector<CaseRow> rows;
-  for (std::size_t i = 0; i < result.cases.size(); ++i) rows.push_back({&result, i});
+  for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
   Table table = table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
   table.notes.emplace_back(
       "T max without reaction: over stations and gaps. Only a critical gap that is a value has a "
@@ -146,8 +143,8 @@ Quantities<StationRow> station_quantities(const study::Study& study) {
 /// A row for every station of every gap and case.
 Table station_table(const ComparisonResult& result) {
   std::vector<StationRow> rows;
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const auto& stations = result.cases[i].stations;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const auto& stations = result.answers[i].stations;
     for (std::size_t gap = 0; gap < stations.size(); ++gap)
       for (const StationTemperature& each : stations[gap])
         rows.push_back({{&result, i}, result.study.study.gaps[gap], &each});
@@ -162,8 +159,8 @@ Table stations_side_by_side(const ComparisonResult& result) {
   const auto gap = static_cast<std::size_t>(std::max_element(gaps.begin(), gaps.end()) - gaps.begin());
   std::vector<std::string> rows;
   Quantities<std::string> quantities{{quantity::station(), std::identity{}}};
-  for (std::size_t i = 0; i < result.cases.size(); ++i) {
-    const ComparedCase& each = result.cases[i];
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const ComparedCase& each = result.answers[i];
     for (const StationTemperature& station :
          each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap])
       if (std::find(rows.begin(), rows.end(), station.name) == rows.end()) rows.push_back(station.name);
@@ -188,13 +185,13 @@ Table stations_side_by_side(const ComparisonResult& result) {
 
 std::string answer(const ComparisonResult& result) {
   std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each at {} gaps.",
-                                             result.variants().size() - 1, result.cases.size(),
+                                             result.variants().size() - 1, result.answers.size(),
                                              result.study.study.gaps.size())};
-  for (std::size_t i = 0; i < result.cases.size() && result.cases[i].variant == 0; ++i)
+  for (std::size_t i = 0; i < result.answers.size() && result.answers[i].variant == 0; ++i)
     lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
-                                reads_as(result.cases[i].answer.critical)));
+                                reads_as(result.answers[i].critical)));
   lines.push_back(largest_shift_text(result));
-  return answer_of(std::move(lines), result.study, result.interrupted ? interrupted_note : "");
+  return answer_of(std::move(lines), result.study);
 }
 
 Report report_of(const ComparisonResult& result) {

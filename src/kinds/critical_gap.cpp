@@ -2,7 +2,7 @@
 
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 #include "study_outcome.hpp"
@@ -22,15 +22,15 @@ std::string label_with_skin(const CaseOutcome& outcome, double gap) {
 }
 
 bool CriticalGapResult::any_indeterminate() const {
-  return std::any_of(cases.begin(), cases.end(), is_indeterminate<CaseOutcome>);
+  return std::any_of(answers.begin(), answers.end(), is_indeterminate<CaseAnswer>);
 }
 
 namespace {
 
-/// One case on its runs: the mechanics, and those under a raised load where there are.
+/// One case on its runs: the mechanics, those under a raised load where there are, and of its longer launch.
 CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
   std::optional<FinishedRun> longer_launch;
-  if (study.kind.runs_longer_launches && scene::longer_launch(input.scene.scene.load)) {
+  if (scene::longer_launch(input.scene.scene.load)) {
     longer_launch = std::move(runs.back());
     runs.pop_back();
   }
@@ -93,7 +93,7 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
 void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
   std::vector<CaseRuns> runs;
   std::vector<std::pair<CaseOutcome*, std::size_t>> places;
-  for (CaseOutcome& outcome : result.cases) {
+  for (CaseOutcome& outcome : result.details) {
     if (outcome.critical.kind != CriticalGapKind::value) continue;
     outcome.confirmations = {expectation(outcome.critical.lower, false),
                              expectation(outcome.critical.upper, true)};
@@ -110,31 +110,39 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
     const auto [outcome, side] = places[i];
     take_confirmation(*outcome, finished.front(), outcome->confirmations[side]);
   });
-  for (CaseOutcome& outcome : result.cases) outcome.result.mechanics.checkpoints.reset();
+  for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
+}
+
+void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
+  const StudyFile& study = result.study;
+  const bool confirm = study.confirmations_per_case > 0;
+  ProgressTracker tracker(options.progress);
+  result.details.resize(study.cases.size());
+  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
+  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    for (const std::size_t member : runs[i].members) {
+      result.details[member] = judged(study.study, study.cases[member], finished);
+      result.details[member].hash = finished.front().hash;
+    }
+  });
+  if (confirm) run_confirmations(result, options, tracker);
+  for (CaseOutcome& outcome : result.details) {
+    apply_confirmations(study.study, outcome);
+    conclude(study.study, outcome);
+    result.answers.push_back(answer_of(outcome));
+  }
 }
 
 }  // namespace
 
 CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
-  const bool confirm = settings_of<CriticalGapSettings>(study.study).confirm;
   return run_timed<CriticalGapResult>(
       study, options,
       [&](CriticalGapResult& result) {
-        ProgressTracker tracker(options.progress);
-        result.cases.resize(study.cases.size());
-        const std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
-        run_cases(runs, options, tracker, result.timing,
-                  [&](std::size_t i, std::vector<FinishedRun>& finished) {
-                    for (const std::size_t member : runs[i].members) {
-                      result.cases[member] = judged(study.study, study.cases[member], finished);
-                      result.cases[member].hash = finished.front().hash;
-                    }
-                  });
-        if (confirm) run_confirmations(result, options, tracker);
-        for (CaseOutcome& outcome : result.cases) {
-          apply_confirmations(study.study, outcome);
-          conclude(study.study, outcome);
-        }
+        if (study.in_detail)
+          run_in_detail(result, options);
+        else
+          result.answers = answer_cases(study, options, result.timing);
       },
       [](CriticalGapResult&) {});
 }

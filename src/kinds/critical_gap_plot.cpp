@@ -1,5 +1,4 @@
-// The pictures of a critical-gap study.
-#include "critical_gap_marks.hpp"
+// T max against gap, of a critical-gap study in detail.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -69,8 +68,8 @@ Series fitted_line(const GapFit& fit, const std::string& label) {
 }
 
 void add_case(const CriticalGapResult& result, std::size_t index, Plot& plot) {
-  const CaseOutcome& outcome = result.cases[index];
-  const bool only = result.cases.size() == 1;
+  const CaseOutcome& outcome = result.details[index];
+  const bool only = result.details.size() == 1;
   if (outcome.fit) {
     Series line = fitted_line(*outcome.fit, only ? "least squares" : "");
     line.colour = only ? 7 : static_cast<int>(index);
@@ -97,9 +96,9 @@ void name_ignitions(Plot& plot) {
 /// Where no case has the launch that was published there is nothing to compare; under constants that miss the
 /// calibrated rows none counts as calibrated.
 void add_published(const CriticalGapResult& result, Plot& plot) {
-  const auto own = std::find_if(result.cases.begin(), result.cases.end(),
+  const auto own = std::find_if(result.details.begin(), result.details.end(),
                                 [](const CaseOutcome& each) { return each.input.own_conditions; });
-  if (own == result.cases.end()) return;
+  if (own == result.details.end()) return;
   const bool foreign = misses_calibrated_rows(*own);
   Series published{.label = "published"};
   std::map<std::string, Series> by_use;
@@ -125,7 +124,7 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
 void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
   const CriticalGap& gap = outcome.critical;
-  if (drawn_kind(gap) != CriticalGapKind::value) {
+  if (gap.kind != CriticalGapKind::value) {
     plot.subtitle = "critical gap: " + reads_as(gap);
     return;
   }
@@ -144,33 +143,14 @@ Plot temperature_plot(const CriticalGapResult& result) {
   plot.x.label = quantity::gap().label();
   plot.y.label = quantity::temperature_max().label();
   // The legend stands below and takes two cases a line.
-  plot.height = 600 + 14 * static_cast<int>(result.cases.size());
-  for (std::size_t i = 0; i < result.cases.size(); ++i) add_case(result, i, plot);
+  plot.height = 600 + 14 * static_cast<int>(result.details.size());
+  for (std::size_t i = 0; i < result.details.size(); ++i) add_case(result, i, plot);
   name_ignitions(plot);
   add_published(result, plot);
-  if (result.cases.size() == 1) add_critical_gap(result.cases.front(), plot);
+  if (result.details.size() == 1) add_critical_gap(result.details.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   plot.horizontal_lines.push_back(
       {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin))});
-  return plot;
-}
-
-Plot critical_gaps_plot(const CriticalGapResult& result) {
-  Plot plot;
-  plot.title = "Critical gaps with their uncertainty";
-  plot.x.label = quantity::critical_gap().label();
-  plot.x.minimum = 0.0;
-  const std::size_t count = result.cases.size();
-  GapMarks marks(critical_gaps_of(result.cases), Style::horizontal_bars);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto line = static_cast<double>(count - i);
-    plot.y.tics.push_back({line, result.cases[i].input.label});
-    marks.add(result.cases[i].critical, line);
-  }
-  marks.put_into(plot);
-  plot.y.minimum = 0.4;
-  plot.y.maximum = static_cast<double>(count) + 0.6;
-  plot.height = std::min(190 + 34 * static_cast<int>(count), 1600);
   return plot;
 }
 

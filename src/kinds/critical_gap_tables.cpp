@@ -1,12 +1,14 @@
-// The tables of a critical-gap study.
-#include "critical_gap_marks.hpp"
-#include "launchsafe/kinds/critical_gap.hpp"
+// The tables of every critical-gap study.
+#include "critical_gap_tables.hpp"
+
+#include "answer_tables.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/kinetics_text.hpp"
+#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/study_axes.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +21,134 @@ using namespace study;
 using namespace report;
 namespace {
 
+using keys::fixed, keys::text;
+
+/// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
+Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
+  Quantities<std::vector<double>> axes = axis_quantities(study.study), launch, others;
+  const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
+  const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure(), first.peak_pressure},
+                                                    {quantity::crack_radius(), first.crack_radius},
+                                                    {quantity::flaw_size(), first.flaw_size}};
+  for (const auto& [column, value] : fixed_values) {
+    const auto axis = std::ranges::find(study.study.axes, column.name, &Axis::name);
+    if (axis == study.study.axes.end())
+      launch.emplace_back(column, [value = value](const std::vector<double>&) { return value; });
+    else
+      launch.push_back(axes[static_cast<std::size_t>(axis - study.study.axes.begin())]);
+  }
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (std::ranges::find(named_axes(), study.study.axes[i].name, &NamedAxis::name) == named_axes().end())
+      others.push_back(axes[i]);
+  return keys::joined<std::vector<double>>({launch, others});
+}
+
+Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
+  return keys::joined<VerdictRow>({{{quantity::gap(), &VerdictRow::width}},
+                                   of_part<VerdictRow>(launch_quantities(study), &VerdictRow::coordinates),
+                                   verdict_quantities(study.study)});
+}
+
+/// Places of the smallest and largest gap among those judged; one of them where they are the same.
+std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
+  if (gaps.empty()) return {};
+  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  std::vector<std::size_t> places{static_cast<std::size_t>(least - gaps.begin())};
+  if (*most > *least) places.push_back(static_cast<std::size_t>(most - gaps.begin()));
+  return places;
+}
+
+/// T max at the smallest and the largest gap.
+Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
+  Quantities<AnsweredCase> quantities;
+  for (const std::size_t place : outer_gaps(gaps)) {
+    const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
+    quantities.emplace_back(
+        Column{name, "T max at " + centimetres(gaps[place]), fixed(1, kelvin),
+               "Highest temperature at that gap; of one that ignites the burning skin's."},
+        [place](const AnsweredCase& row) {
+          const auto& verdicts = row.answer->verdicts;
+          return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
+        });
+  }
+  return quantities;
+}
+
+/// What a case is called, and where it lies: of few cases the name says it.
+Quantities<JudgedCase> place_quantities(const study::Study& study, bool in_detail) {
+  Quantities<JudgedCase> place = of_part<JudgedCase>(answered_axes(study), &JudgedCase::answered);
+  if (!in_detail) return place;
+  for (auto& each : place) each = for_programs(each);
+  place.emplace(place.begin(), quantity::case_name(), &JudgedCase::answered, &AnsweredCase::label);
+  return place;
+}
+
+/// How the run of a case went, which a study in detail has in a table of its own.
+Quantities<AnsweredCase> run_quantities(const std::vector<double>& gaps) {
+  return keys::joined<AnsweredCase>(
+      {outer_gap_quantities(gaps),
+       {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {quantity::energy_drift(), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::energy_drift},
+        {for_programs(quantity::steps()), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::particles()), &AnsweredCase::answer, &CaseAnswer::run,
+         &RunSummary::particles},
+        {quantity::limiters(),
+         [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }}}});
+}
+
+Quantities<JudgedCase> judged_case_quantities(const study::Study& study, bool in_detail) {
+  Column assumed{"assumed_shares", "assumed", text(),
+                 "What the bounds rest on and nothing says of the case."};
+  Quantities<JudgedCase> confirmed{
+      {for_programs(Column{"coupled_runs", "coupled runs", text(),
+                           "What the coupled runs on both sides of the bracket did."}),
+       [](const JudgedCase& row) { return confirmation_text(*row.detail); }}};
+  return keys::joined<JudgedCase>(
+      {place_quantities(study, in_detail),
+       of_part<JudgedCase>(bounded_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer,
+                           &CaseAnswer::critical),
+       in_detail ? confirmed : Quantities<JudgedCase>{},
+       {{in_detail ? for_programs(assumed) : assumed,
+         [study](const JudgedCase& row) {
+           return assumed_shares(study, row.answered.input(), row.answered.answer->critical.value);
+         }},
+        {quantity::recorded_uncertainty(),
+         [](const JudgedCase& row) { return row.answered.input().recorded_uncertainty(); }}},
+       in_detail ? Quantities<JudgedCase>{}
+                 : of_part<JudgedCase>(run_quantities(study.gaps), &JudgedCase::answered),
+       {{quantity::remark(), [](const JudgedCase& row) {
+           const CaseAnswer& answer = *row.answered.answer;
+           return answer.completed() ? answer.critical.reason : answer.failure;
+         }}}});
+}
+
+/// SAFE, UNSAFE or INDET. by gap.
+Quantities<AnsweredCase> matrix_quantities(const study::Study& study) {
+  Quantities<AnsweredCase> quantities = answered_axes(study);
+  for (std::size_t i = 0; i < study.gaps.size(); ++i)
+    quantities.emplace_back(Column{"gap_" + digits_of(study.gaps[i], quantity::gap().form) + "_cm",
+                                   centimetres(study.gaps[i]), text(), "The verdict at that gap."},
+                            [i](const AnsweredCase& row) -> std::string {
+                              if (i >= row.answer->verdicts.size()) return {};
+                              const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
+                              return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
+                            });
+  return quantities;
+}
+
+/// What the audit of the air says of the gap where most was taken; there may be millions of others.
+std::string air_energy_note(const CriticalGapResult& result, const std::vector<ShownKey>& keys) {
+  std::vector<AuditedGap> worst;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    for (const study::GapVerdict& row : result.answers[i].verdicts) {
+      if (!std::isfinite(row.air.ratio())) continue;
+      if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
+        worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
+    }
+  }
+  return air_energy_statement(result.study.scene.scene.surface.air_model, worst);
+}
+
 /// What the published temperature at the early time was used for.
 std::string early_used_for(const study::Reference& published) {
   using enum study::Use;
@@ -29,8 +159,6 @@ std::string early_used_for(const study::Reference& published) {
 /// Computed minus published (K) of a calibrated row above which the scene's constants are not those of its
 /// calibration.
 constexpr double calibration_slack = 0.5;
-
-using keys::fixed, keys::scientific, keys::text;
 
 /// A row that stands beside a published one.
 using ComparedRow = const GapVerdict*;
@@ -73,33 +201,62 @@ Quantities<ComparedRow> comparison_quantities(double early_time) {
       {published(ignition_time()), &GapVerdict::reference, &study::Reference::ignition_time}};
 }
 
-Quantities<VerdictRow> judged_gap_quantities(const study::Study& study) {
-  using namespace quantity;
-  return keys::joined<VerdictRow>({{{gap(), &VerdictRow::width},
-                                    {peak_pressure(), &VerdictRow::input, &study::StudyCase::peak_pressure},
-                                    {crack_radius(), &VerdictRow::input, &study::StudyCase::crack_radius},
-                                    {flaw_size(), &VerdictRow::input, &study::StudyCase::flaw_size}},
-                                   verdict_quantities(study)});
-}
-
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
   std::vector<VerdictRow> rows;
-  for (const CaseOutcome& outcome : result.cases)
-    for (const GapVerdict& row : outcome.verdicts) rows.push_back({&outcome.input, &row, row.heated});
-  Table table = table_of("Verdicts", judged_gap_quantities(result.study.study), rows);
+  for (const AnsweredCase& each : answered(result.study, result.answers)) {
+    const CaseAnswer* answer = each.answer;
+    for (std::size_t i = 0; i < answer->verdicts.size(); ++i) {
+      const bool known = i < answer->heated_temperature.size();
+      rows.push_back(
+          {&each.coordinates(), &answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number});
+    }
+  }
+  Table table = table_of("Verdicts", judged_gap_quantities(result.study), rows);
   table.notes = mesh_notes(result.study);
   table.notes.push_back(station_note(result.study));
   return table;
+}
+
+Table critical_gap_table(const CriticalGapResult& result) {
+  const bool in_detail = !result.details.empty();
+  std::vector<JudgedCase> rows;
+  for (const AnsweredCase& each : answered(result.study, result.answers))
+    rows.push_back({each, in_detail ? &result.details[each.index] : nullptr});
+  Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
+                         judged_case_quantities(result.study.study, in_detail), rows);
+  if (in_detail) return table;
+  table.notes.emplace_back(
+      "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
+      "skin.");
+  table.notes.emplace_back(
+      "Assumed: what the bounds rest on and neither the study nor its records say of the case. What is said "
+      "of the uncertainty names why, the commonest reason first.");
+  table.notes.push_back(air_energy_note(result, shown_axes(result.study.study)));
+  return table;
+}
+
+Table verdict_matrix(const CriticalGapResult& result) {
+  Table table = table_of("Verdicts by gap", matrix_quantities(result.study.study),
+                         answered(result.study, result.answers));
+  if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
+    table.notes.emplace_back(indeterminate_note);
+  return table;
+}
+
+Table cited_limit_table(const CriticalGapResult& result) {
+  std::vector<const CriticalGap*> gaps;
+  for (const CaseAnswer& answer : result.answers) gaps.push_back(&answer.critical);
+  return report::cited_limit_table(result.study, gaps);
 }
 
 Table comparison_table(const CriticalGapResult& result) {
   std::vector<ComparedRow> rows;
   bool ignited = false;
   double worst = 0;  // |computed - published| of a calibrated row, K
-  for (const CaseOutcome& outcome : result.cases) {
-    for (const GapVerdict& row : outcome.verdicts) {
+  for (const CaseAnswer& answer : result.answers) {
+    for (const GapVerdict& row : answer.verdicts) {
       if (!row.reference) continue;
       ignited = ignited || row.reference->ignited() || row.ignition;
       if (row.reference->calibrated)
@@ -128,278 +285,19 @@ Table comparison_table(const CriticalGapResult& result) {
   return table;
 }
 
-namespace {
-
-std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
-
-std::string outcome_word(const Confirmation& each) {
-  return each.completed ? ignition_word(each.ignited) : "failed";
-}
-
-std::string confirmation_text(const CaseOutcome& outcome) {
-  if (outcome.confirmations.empty()) return "not confirmed";
-  std::string text;
-  for (const study::Confirmation& each : outcome.confirmations)
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), outcome_word(each));
-  return text;
-}
-
-}  // namespace
-
-namespace {
-
-using NamedOutcome = const CaseOutcome*;
-
-Quantities<NamedOutcome> judged_case_quantities() {
-  return keys::joined<NamedOutcome>(
-      {{{quantity::case_name(), &CaseOutcome::input, &StudyCase::label}},
-       of_part<NamedOutcome>(bounded_gap_quantities(), &CaseOutcome::critical),
-       {{for_programs(Column{"coupled_runs", "coupled runs", text(),
-                             "What the coupled runs on both sides of the bracket did."}),
-         [](NamedOutcome outcome) { return confirmation_text(*outcome); }},
-        {quantity::recorded_uncertainty(), &CaseOutcome::input, &StudyCase::recorded_uncertainty},
-        {quantity::remark(), [](NamedOutcome outcome) { return outcome->critical.reason; }}}});
-}
-
-/// A coupled run of a case.
-struct CoupledRow {
-  NamedOutcome of;
-  const Confirmation* run;
-};
-
-Quantities<CoupledRow> coupled_quantities() {
-  return keys::joined<CoupledRow>(
-      {{{quantity::case_name(), &CoupledRow::of, &CaseOutcome::input, &StudyCase::label},
-        {quantity::gap(), &CoupledRow::run, &Confirmation::gap},
-        {{"expected", "expected", text(), "What the bracket says of the gap."},
-         [](const CoupledRow& row) { return ignition_word(row.run->expected_ignition); }},
-        {{"outcome", "outcome", text(), "What the coupled run did."},
-         [](const CoupledRow& row) { return outcome_word(*row.run); }},
-        {quantity::temperature_max(),
-         [](const CoupledRow& row) { return known(row.run->maximum_temperature); }},
-        {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
-          "T max of the coupled run less that on the trace; none where either ignited."},
-         &CoupledRow::run,
-         &Confirmation::difference}},
-       of_part<CoupledRow>(burnt_state_quantities(), &CoupledRow::run,
-                           [](const Confirmation& run) {
-                             const auto& combustion = run.combustion;
-                             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
-                           }),
-       {{quantity::reason(), &CoupledRow::run, &Confirmation::failure}}});
-}
-
-/// A gap of a case that also has an answer on other terms.
-struct OtherRow {
-  NamedOutcome of;
-  std::size_t gap;
-};
-
-/// T max with and without those terms. `name`: of what stands beside the answer.
-Quantities<OtherRow> other_quantities(Column usual, Column other,
-                                      std::optional<OtherAnswer> CaseOutcome::*member) {
-  return {
-      {quantity::case_name(), &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
-      {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
-      {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
-      {std::move(other),
-       [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
-}
-
-Quantities<OtherRow> film_quantities() {
-  return other_quantities({"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
-                           "Highest temperature under the reservoir of air."},
-                          {"temperature_max_film", "T max, film", fixed(1, kelvin),
-                           "Highest temperature under the film of air: an optimistic bound."},
-                          &CaseOutcome::film);
-}
-
-Quantities<OtherRow> longer_launch_quantities() {
-  Quantities<OtherRow> quantities =
-      other_quantities({"temperature_max_with_exit", "T max, muzzle exit", fixed(1, kelvin),
-                        "Highest temperature with the muzzle exit."},
-                       {"temperature_max_without_exit", "T max, without", fixed(1, kelvin),
-                        "Highest temperature in a barrel without end."},
-                       &CaseOutcome::longer_launch);
-  quantities.emplace_back(for_programs(Column{"critical_gap_without_exit", "critical gap, without", text(),
-                                              "Critical gap in a barrel without end, in words."}),
-                          [](const OtherRow& row) { return reads_as(row.of->longer_launch->critical); });
-  return quantities;
-}
-
-/// The rows of a case, and the note on its critical gap.
-void add_other(const CaseOutcome& outcome, const OtherAnswer& other, const char* words,
-               std::vector<OtherRow>& rows, std::vector<std::string>& notes) {
-  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
-  notes.push_back(fmt::format(fmt::runtime(words), outcome.input.label, reads_as(outcome.critical),
-                              reads_as(other.critical)));
-}
-
-}  // namespace
-
-Table critical_gap_table(const CriticalGapResult& result) {
-  std::vector<NamedOutcome> rows;
-  for (const CaseOutcome& outcome : result.cases) rows.push_back(&outcome);
-  return table_of("Critical gap", judged_case_quantities(), rows);
-}
-
-Table coupled_run_table(const CriticalGapResult& result) {
-  std::vector<CoupledRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.cases)
-    for (const Confirmation& each : outcome.confirmations) {
-      rows.push_back({&outcome, &each});
-      if (each.combustion && notes.empty()) notes = {flame_kinetics_note(outcome.input.scene.scene)};
-    }
-  Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
-  table.notes = std::move(notes);
-  return table;
-}
-
-Table air_energy_table(const CriticalGapResult& result) {
-  std::vector<AuditedGap> gaps;
-  for (const CaseOutcome& outcome : result.cases) {
-    const std::string label = result.cases.size() > 1 ? outcome.input.label : std::string{};
-    for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
-  }
-  return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
-}
-
-Table air_model_table(const CriticalGapResult& result) {
-  std::vector<OtherRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.cases)
-    if (outcome.film)
-      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows,
-                notes);
-  if (!rows.empty())
-    notes.emplace_back(
-        "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
-        "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
-        "surface.");
-  Table table = table_of("Under both models of the air", film_quantities(), rows);
-  table.notes = std::move(notes);
-  return table;
-}
-
-Table without_exit_table(const CriticalGapResult& result) {
-  std::vector<OtherRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.cases)
-    if (outcome.longer_launch && !scene::is_cut_short(outcome.input.scene.scene.load))
-      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.",
-                rows, notes);
-  if (!rows.empty())
-    notes.emplace_back(
-        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
-        "below "
-        "1 % of its peak: what the answer would be if the exit were wrong.");
-  Table table = table_of("In a barrel without end", longer_launch_quantities(), rows);
-  table.notes = std::move(notes);
-  return table;
-}
-
-namespace {
-
-/// A line over the gap; only that of least squares has errors.
-struct FittedLine {
-  std::string label, name;
-  const study::Line* line;
-  const math::LeastSquares* errors = nullptr;
-};
-
-Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
-  Quantities<FittedLine> quantities{
-      {for_programs(quantity::case_name()), &FittedLine::label},
-      {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
-      {{"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap."},
-       &FittedLine::line,
-       &study::Line::slope},
-      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."},
-       &FittedLine::line,
-       &study::Line::intercept},
-      {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
-       &FittedLine::line,
-       &study::Line::root_mean_square}};
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Form form = quantity::gap().form;
-    quantities.emplace_back(
-        Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
-               "residual " + digits_of(gaps[i], form), fixed(2, kelvin), "T max at that gap less the line."},
-        [i](const FittedLine& row) {
-          return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
-        });
-  }
-  return keys::joined<FittedLine>(
-      {quantities,
-       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre),
-                             "Standard error of the slope."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[1]; }},
-        {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
-                             "Standard error of the intercept."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[0]; }},
-        {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.r_squared; }},
-        {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
-                             "Standard deviation of the residuals."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.residual_deviation; }}}});
-}
-
-}  // namespace
-
-Table fit_table(const CaseOutcome& outcome) {
-  if (!outcome.fit) return {};
-  const study::GapFit& fit = *outcome.fit;
-  const auto& ols = fit.least_squares;
-  const std::string& label = outcome.input.label;
-  std::vector<FittedLine> rows{{label, "least squares", &fit.ordinary, &ols}};
-  if (fit.mixed)
-    rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
-  if (fit.published) rows.push_back({label, "as published", &*fit.published});
-  Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
-                         line_quantities(fit.gaps), rows);
-  if (ols.degrees_of_freedom > 0) {
-    table.notes.push_back(
-        fmt::format("Least squares: slope {:.1f} +- {:.1f} K/cm, intercept {:.2f} +- {:.2f} K "
-                    "(standard errors), R^2 {:.5f}, residual deviation {:.2f} K.",
-                    ols.coefficients[1], ols.standard_errors[1], ols.coefficients[0], ols.standard_errors[0],
-                    ols.r_squared, ols.residual_deviation));
-  }
-  return table;
-}
-
-Table run_table(const CriticalGapResult& result) {
-  std::vector<NamedRun> runs;
-  for (const CaseOutcome& outcome : result.cases)
-    runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
-                    outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
-  return report::run_table(runs);
-}
-
-Table gap_share_table(const CriticalGapResult& result) {
-  std::vector<NamedGap> cases;
-  for (const CaseOutcome& outcome : result.cases) cases.push_back({outcome.input.label, &outcome.critical});
-  return report::gap_share_table(cases);
-}
-
-Table cited_limit_table(const CriticalGapResult& result) {
-  return report::cited_limit_table(result.study, critical_gaps_of(result.cases));
-}
-
 std::vector<ResultTable> critical_gap_results() {
-  const study::Study study;
-  return {{"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(study))},
-          {"comparison", "", keys::described(comparison_quantities(study.early_time))},
-          {"cases", "", keys::described(judged_case_quantities())},
-          {"coupled_runs", "", keys::described(coupled_quantities())},
-          {"cited_limits", "", cited_limit_columns()},
-          {"as_calibrated", "", as_calibrated_columns()},
-          {"without_exit", "", keys::described(longer_launch_quantities())},
-          {"air_models", "", keys::described(film_quantities())},
-          {"air_energy", "", air_energy_columns()},
-          {"gap_shares", "", gap_share_columns()},
-          {"fit", "", keys::described(line_quantities({}))},
-          {"runs", "", run_columns()}};
+  StudyFile file;
+  file.study.gaps = {0.0, 0.4e-3};
+  std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true));
+  for (const Column& column : keys::described(run_quantities(file.study.gaps))) cases.push_back(column);
+  std::vector<ResultTable> tables{
+      {"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(file))},
+      {"comparison", "", keys::described(comparison_quantities(file.study.early_time))},
+      {"cases", "critical_gaps.csv", std::move(cases)},
+      {"cited_limits", "", cited_limit_columns()},
+      {"axis_effects", "", axis_effect_columns()}};
+  for (ResultTable& each : detail_results()) tables.push_back(std::move(each));
+  return tables;
 }
 
 }  // namespace launchsafe::kinds

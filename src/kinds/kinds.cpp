@@ -5,7 +5,6 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -14,7 +13,7 @@ namespace launchsafe::kinds {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
-      critical_gap_kind(), calibration_kind(), sweep_kind(),      sensitivity_kind(),
+      critical_gap_kind(), calibration_kind(), sensitivity_kind(),
       accuracy_kind(),     stability_kind(),   comparison_kind(),
   };
   return all;

@@ -7,6 +7,7 @@
 #include "launchsafe/study/study_uncertainty.hpp"
 #include "study_keys.hpp"
 #include "study_scene.hpp"
+#include "vary.hpp"
 
 #include <fmt/format.h>
 
@@ -53,6 +54,36 @@ void add_keys_of_all_kinds(StudyKeys& keys, std::vector<std::string>& tables) {
   }
 }
 
+/// What study files of earlier versions said, and how that is written now.
+struct FormerKey {
+  std::string_view name, now;
+  std::string_view kind = {};  ///< where another one has such a key still
+};
+constexpr FormerKey former_keys[] = {
+    {"axes", "a [[vary]] with key and values for each axis, and gaps for gap"},
+    {"peak_pressures", "a [[vary]] with key = \"peak_pressure\" and values"},
+    {"crack_radii", "a [[vary]] with key = \"crack_radius\" and values"},
+    {"flaw_sizes", "a [[vary]] with key = \"flaw_size\" and values"},
+    {"input", "a [[vary]] with the same keys for each input"},
+    {"gap", "gaps, in every kind of study"},
+    {"variant", "one [[vary]], and [[vary.variants]] for each variant", "comparison"},
+};
+
+Fault check_former(const toml::table& root, const std::string& file) {
+  const toml::node* kind = root.get("kind");
+  const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
+  if (name == "sweep")
+    return scene::error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
+                           "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
+                           "kind = \"critical-gap\"");
+  for (const FormerKey& former : former_keys)
+    if (const toml::node* node = root.get(former.name);
+        node != nullptr && (former.kind.empty() || former.kind == name))
+      return scene::error_at(scene::place_of(*node, file), former.name, "a key of an earlier version",
+                             former.now);
+  return std::nullopt;
+}
+
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
 scene::Expected<const Kind*> read_kind(const toml::table& root, const std::string& file) {
   const toml::node* node = root.get("kind");
@@ -96,12 +127,9 @@ Fault check_kind(const toml::table& root, const Kind& kind, const std::string& f
     if (!first || each.node->source().begin.line < first->node->source().begin.line) first = &each;
   }
   if (!first) return std::nullopt;
-  const auto instead = std::find_if(kind.instead_of.begin(), kind.instead_of.end(),
-                                    [&](const auto& each) { return each.first == first->name; });
   return scene::error_at(scene::place_of(*first->node, file), first->name,
                          "a key of kind " + scene::quoted_list(kinds_with(first->name)),
-                         "keys of kind \"" + kind.traits.name + '"',
-                         instead == kind.instead_of.end() ? std::string{} : instead->second);
+                         "keys of kind \"" + kind.traits.name + '"');
 }
 
 /// The keys of the study file, with their places.
@@ -128,7 +156,10 @@ void tell_cases_apart(Cases& cases) {
 
 /// What varies, and the cases that follow.
 Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
-  if (Fault fault = kind.read(source, study)) return fault;
+  if (kind.read != nullptr)
+    if (Fault fault = kind.read(source, study)) return fault;
+  if (kind.varies.values || kind.varies.distributions)
+    if (Fault fault = read_vary(source, kind.varies, study)) return fault;
   if (Fault fault = check_load_axes(study)) return fault;
   if (Fault fault = settle_acceptances(source.root, keys, study)) return fault;
   if (Fault fault = settle_gaps(study)) return fault;
@@ -137,7 +168,7 @@ Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys&
   return std::nullopt;
 }
 
-/// People do not number the tables of a study: "input.0.range" is input.range to them.
+/// People do not number the tables of a study: "vary.0.range" is vary.range to them.
 InputError unnumbered(InputError error, const std::string& file) {
   if (error.file != file) return error;
   const std::size_t first = error.key.find('.');
@@ -159,6 +190,7 @@ scene::Expected<StudyFile> read_study_table(const StudySource& source, const std
   study.file = file;
   study.most_cases = most_cases;
   if (Fault fault = scene::check_content(source.root, study.file, scene::InputContent::study)) return *fault;
+  if (Fault fault = check_former(source.root, study.file)) return *fault;
   const auto kind = read_kind(source.root, study.file);
   if (!kind) return kind.error();
   const StudyKeys keys = joined({common_keys(), (*kind)->keys});
@@ -190,7 +222,7 @@ scene::Expected<StudyFile> read_study(const std::filesystem::path& file, const S
 
 namespace {
 
-/// " (kind critical-gap, sweep)": the kinds that have a key.
+/// " (kind critical-gap, comparison)": the kinds that have a key.
 std::string kinds_text(const std::string& name) {
   return fmt::format(" (kind {})", fmt::join(kinds_with(name), ", "));
 }

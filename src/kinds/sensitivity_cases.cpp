@@ -2,9 +2,9 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "sensitivity_inputs.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
+#include "vary.hpp"
 
 #include <fmt/format.h>
 
@@ -27,22 +27,6 @@ scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension d
                                                    Number SensitivitySettings::*member) {
   return scene::number_key<SensitivitySettings>(std::move(name), dimension, limits, scene::Standing::assumed,
                                                 std::move(sentence), member);
-}
-
-/// The one gap of a sensitivity study.
-scene::Key<Study> one_gap_key() {
-  scene::Key<Study> key{
-      {.name = "gap",
-       .dimension = Dimension::length,
-       .limits = scene::between(0, 0.01),
-       .sentence = "The gap at which temperatures are compared; the scene's if it has one alone."},
-      {},
-      {}};
-  key.set = [](Study& study, const scene::Value& value) { study.gaps = {std::get<double>(value)}; };
-  key.get = [](const Study& study) {
-    return scene::Value(study.gaps.empty() ? not_a_number : study.gaps[0]);
-  };
-  return key;
 }
 
 std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
@@ -149,8 +133,9 @@ Fault make_saltelli(StudyFile& study) {
 Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
   const std::vector<double>& gaps = study.study.gaps;
   if (gaps.size() != 1) {
-    return fault_at(study, "gap", fmt::format("no gap, and {} gaps in the scene", gaps.size()), "one gap",
-                    fmt::format("gap = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+    const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
+    return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
+                    fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
   return make_saltelli(study);
 }
@@ -160,18 +145,13 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
 Kind sensitivity_kind() {
   return {
       .traits = {.name = "sensitivity",
-                 .gaps_key = "gap",
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false,
                  .keeps_answers = true},
-      .keys = joined({{one_gap_key()},
-                      judging_keys(),
-                      calibration_record_keys(),
-                      uncertainty_keys(),
+      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
                       own_keys(sensitivity_keys())}),
-      .tables = {input_table()},
-      .instead_of = {{"gaps", "gap"}},
-      .read = read_inputs,
+      .tables = {vary_table()},
+      .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
       .files = {{"sensitivity.csv"},

@@ -232,7 +232,7 @@ std::string answer(const SensitivityResult& result) {
   lines.push_back(samples_text(result));
   lines.push_back(share_failed(result));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
-  return answer_of(std::move(lines), result.study, result.interrupted ? "The study was interrupted." : "");
+  return answer_of(std::move(lines), result.study);
 }
 
 Report report_of(const SensitivityResult& result) {

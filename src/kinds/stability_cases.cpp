@@ -252,13 +252,11 @@ std::string to_string(Outcome outcome) {
 Kind stability_kind() {
   return {
       .traits = {.name = "stability",
-                 .gaps_key = "gaps",
                  .gives_verdicts = false,
                  .own_scenes = true,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {study_table_of("group", case_keys())},
-      .read = [](const StudySource&, StudyFile&) -> Fault { return std::nullopt; },
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
       .files = {{"stability.csv"}, {"outcomes.svg"}},

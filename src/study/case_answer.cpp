@@ -12,15 +12,6 @@
 namespace launchsafe::study {
 namespace {
 
-CaseAnswer without_histories(CaseOutcome& outcome) {
-  CaseAnswer answer;
-  answer.outcome = outcome.outcome;
-  answer.failure = std::move(outcome.failure);
-  answer.critical = std::move(outcome.critical);
-  answer.verdicts = std::move(outcome.verdicts);
-  return answer;
-}
-
 /// What every verdict of a case has to say, as its input alone shows.
 struct InputStatements {
   std::vector<std::string> validity_warnings;
@@ -89,9 +80,14 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
   evaluate(study, outcome);
   apply_confirmations(study, outcome);
   conclude(study, outcome);
-  CaseAnswer answer = without_histories(outcome);
+  return answer_of(outcome);
+}
+
+CaseAnswer answer_of(const CaseOutcome& outcome) {
+  CaseAnswer answer{outcome.outcome, outcome.failure, {}, outcome.critical, outcome.verdicts, {}};
   for (const GapVerdict& row : answer.verdicts)
     answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
+  const run::MechanicsResult& mechanics = outcome.result.mechanics;
   answer.run = {mechanics.status, mechanics.steps, mechanics.particles, run::largest_energy_drift(mechanics),
                 mechanics.limiters};
   return answer;
@@ -100,9 +96,7 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome of_run, std::string failure) {
   CaseOutcome outcome = without_result(study, input, of_run, std::move(failure));
   conclude(study, outcome);
-  CaseAnswer answer = without_histories(outcome);
-  answer.heated_temperature.assign(study.gaps.size(), not_a_number);
-  return answer;
+  return answer_of(outcome);
 }
 
 bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) {

@@ -155,7 +155,7 @@ double confirmation_time(const StudyFile& study, const CaseRuns& runs, double up
 /// Bytes of a study's cases and of what is kept of them till the report: the answers, or whole outcomes with
 /// the traces of their runs. Measured beside the traces, on studies of 200 and 1000 cases.
 double memory_of_plan(const StudyFile& study, const Forecast& forecast) {
-  const bool keeps_outcomes = !study.study.kind.keeps_answers;
+  const bool keeps_outcomes = study.in_detail || !study.study.kind.keeps_answers;
   // A point of a measured curve has a time and a pressure, as they are and as they were given.
   const double of_case = keeps_outcomes ? 200e3 : 60e3, of_point = 4 * 8.0;
   const auto points = static_cast<double>(study.scene.scene.load.curve_time.size());

@@ -82,6 +82,11 @@ std::vector<Leaf> leaves_as_written(const toml::table& table) {
   return leaves;
 }
 
+std::string name_of_axis(const std::string& scene_key) {
+  const auto named = std::ranges::find(named_axes(), scene_key, &NamedAxis::key);
+  return named == named_axes().end() ? scene_key : named->name;
+}
+
 const std::vector<NamedAxis>& named_axes() {
   static const std::vector<NamedAxis> axes{{"peak_pressure", "load.peak"},
                                            {"crack_radius", "charge.crack_radius"},
@@ -90,15 +95,15 @@ const std::vector<NamedAxis>& named_axes() {
 }
 
 scene::Expected<KeyDescription> varied_key(const StudyFile& study, const std::string& name,
-                                           const std::string& faulty_key, const Place& place,
-                                           std::vector<std::string> other_names) {
+                                           const std::string& faulty_key, const Place& place) {
   const auto named = std::find_if(named_axes().begin(), named_axes().end(),
                                   [&](const NamedAxis& axis) { return axis.name == name; });
   const std::string& wanted = named == named_axes().end() ? name : named->key;
   auto key = scene::describe_key(study.scene, wanted, place);
   if (!key || key->kind != KeyKind::number) {
-    for (const NamedAxis& axis : named_axes()) other_names.push_back(axis.name);
-    return unfit_key(study, name, faulty_key, place, other_names);
+    std::vector<std::string> short_names;
+    for (const NamedAxis& axis : named_axes()) short_names.push_back(axis.name);
+    return unfit_key(study, name, faulty_key, place, short_names);
   }
   return key;
 }
@@ -120,15 +125,15 @@ Fault add_axis(StudyFile& study, const std::string& name, const std::string& stu
   auto key = varied_key(study, name, study_key, place_of_key(study, study_key));
   if (!key) return key.error();
   if (Fault fault = check_twice(study, study_key, key->dimension, values)) return fault;
-  study.study.axes.push_back({name, study_key, std::move(*key), std::move(values)});
+  study.study.axes.push_back({name_of_axis(key->name), study_key, std::move(*key), std::move(values)});
   return std::nullopt;
 }
 
-Fault check_free(const StudyFile& study, const std::string& scene_key, const std::string& here,
-                 const Place& place, const std::string& faulty_key) {
+Fault check_free(const StudyFile& study, const std::string& scene_key, const Place& place,
+                 const std::string& faulty_key) {
   if (study.overrides.contains(scene_key)) {
     return scene::error_at(place, faulty_key, scene_key + ", which [set] or the calibration fixes",
-                           fmt::format("{} either {}, or in [set] or a calibration", scene_key, here));
+                           fmt::format("{} either in [[vary]], or in [set] or a calibration", scene_key));
   }
   for (const Axis& other : study.study.axes) {
     if (other.key.name != scene_key) continue;

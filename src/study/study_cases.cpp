@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <memory>
@@ -132,13 +133,13 @@ Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf&
   return std::nullopt;
 }
 
-std::string launch_label(const StudyCase& made) {
-  return fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
-                     1e3 * made.flaw_size);
-}
-
-std::string axes_label(const Study& study, const StudyCase& made) {
-  if (study.axes.empty()) return launch_label(made);
+std::string case_label(const Study& study, const StudyCase& made) {
+  const bool of_launch = std::ranges::all_of(study.axes, [](const Axis& axis) {
+    return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
+  });
+  if (of_launch)
+    return fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
+                       1e3 * made.flaw_size);
   std::string text;
   for (std::size_t i = 0; i < study.axes.size(); ++i)
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
@@ -152,13 +153,15 @@ Fault make_factorial(StudyFile& study, const std::function<std::string(const Stu
   std::vector<std::string> sizes;
   for (const Axis& axis : axes) {
     count *= static_cast<double>(axis.values.size());
-    sizes.push_back(fmt::format("{} of {}", axis.values.size(), axis.study_key));
+    sizes.push_back(fmt::format("{} of {}", axis.values.size(), axis.name));
   }
   const std::string key = axes.empty() ? std::string{} : axes.front().study_key;
   if (Fault fault = check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")))) return fault;
   return add_varied_cases(
       study, static_cast<std::size_t>(count), [&](std::size_t place) { return values_at(axes, place); },
-      [&](std::size_t, const StudyCase& made) { return label_of(made); });
+      [&](std::size_t, const StudyCase& made) {
+        return label_of ? label_of(made) : case_label(study.study, made);
+      });
 }
 
 Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {
@@ -168,11 +171,10 @@ Fault check_count(const StudyFile& study, const std::string& key, double count, 
 }
 
 Fault settle_gaps(StudyFile& study) {
-  const std::string& key = study.study.kind.gaps_key;
-  if (key.empty() || !study.study.gaps.empty()) return std::nullopt;
+  if (!study.study.kind.judges_gaps || !study.study.gaps.empty()) return std::nullopt;
   study.study.gaps = study.scene.scene.surface.gaps;
   if (!study.study.gaps.empty()) return std::nullopt;
-  return fault_at(study, key, "no gap", "at least one gap, in the study or its scene");
+  return fault_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
 }
 
 }  // namespace launchsafe::study

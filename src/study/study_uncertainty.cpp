@@ -146,7 +146,7 @@ Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& reco
     return fault_at(study, "accuracy", asked + ", and no accuracy record", "accuracy = \"...accuracy.json\"");
   if (has_other_numerics(study)) {
     return fault_at(study, "set", asked + ", and numerics of the study's own",
-                    "a tolerance, or numerics in [set], [axes] or [[input]]");
+                    "a tolerance, or numerics in [set] or [[vary]]");
   }
   const scene::Scene& own = study.scene.scene;
   const std::string foreign = why_foreign(*record, own);

@@ -49,7 +49,7 @@ TEST_F(AccuracyRecordProgram, HelpsWithTheSettingsThatItVaried) {
   EXPECT_NE(read("used/report.md").find("it does not have these settings"), std::string::npos);
   use(key + "[set]\nstation.depth = \"0.8 cm\"\n");  // issue 31, point 6
   EXPECT_NE(read("used/report.md").find("another shell or model (station.depth)"), std::string::npos);
-  use(key + "peak_pressures = \"100 MPa\"\n");
+  use(key + "[[vary]]\nkey = \"peak_pressure\"\nvalues = \"100 MPa\"\n");
   EXPECT_NE(read("used/report.md").find("more than 1.25 times that"), std::string::npos);
   const Outcome chosen = use(key, {"--tolerance", "500 K"});
   EXPECT_TRUE(chosen.says("setting: ")) << chosen.err;

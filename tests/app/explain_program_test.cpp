@@ -65,7 +65,7 @@ TEST_F(ExplainedProgram, TellsAllStudiesInOneSchema) {
   const Json schema = Json::parse(run({"explain", "--schema", "study"}).out);
   EXPECT_EQ(schema["required"], Json({"kind", "scene"}));
   EXPECT_FALSE(schema["additionalProperties"]);
-  for (const char* table : {"set", "axes", "input", "variant", "group", "settings", "reference"})
+  for (const char* table : {"set", "vary", "variant", "group", "settings", "reference"})
     EXPECT_TRUE(schema["properties"].contains(table)) << table;
   for_each_key(schema, "", [&](const std::string& name, const Json& key) {
     for (const char* part : {"description", "unit", "range", "example"})
@@ -102,7 +102,7 @@ TEST_F(WrongFile, IsToldByWhatItHolds) {
 }
 
 TEST_F(WrongFile, WithoutAKindNamesEveryKeyOnce) {
-  write("study.toml", "knd = \"sweep\"\n");
+  write("study.toml", "knd = \"critical-gap\"\n");
   const std::string message = run({"study", "study.toml", "--dry-run"}).err;
   EXPECT_NE(message.find("did you mean kind?"), std::string::npos) << message;
   EXPECT_EQ(message.find("calibration,"), message.rfind("calibration,")) << message;

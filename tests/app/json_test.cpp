@@ -11,7 +11,7 @@ class JsonProgram : public StoredStudy {
   void SetUp() override {
     StoredStudy::SetUp();
     write("unknown_key.toml", with(tiny_scene, "peak_time = ", "peek_time = "));
-    write("odd.toml", "kind = \"sweep\"\nscene = \"none.toml\"\n");
+    write("odd.toml", "kind = \"critical-gap\"\nscene = \"none.toml\"\n");
     std::filesystem::create_directory(folder() / "foreign");
     write("foreign/report.md", "mine\n");
   }

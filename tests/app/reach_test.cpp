@@ -31,10 +31,11 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
 
 TEST_F(Reach, OneCaseThatIsRefusedIsItsRow) {
   write("study.toml",
-        "kind = \"sweep\"\nscene = \"shell.toml\"\nmodel_form_uncertainty = { value = \"1 K\", because = "
+        "kind = \"critical-gap\"\nconfirm = false\ngaps = \"0, 0.01 cm\"\nscene = "
+        "\"shell.toml\"\nmodel_form_uncertainty = { value = \"1 K\", because = "
         "\"for a test\" }\nearly_time = \"0.03 "
-        "ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\n[axes]\n"
-        "\"numerics.time_step_factor\" = [1e-300, 0.5]\ngap = \"0, 0.01 cm\"\n");
+        "ms\"\ninput_uncertainty = { value = \"2 K\", because = \"for a test\" }\n"
+        "[[vary]]\nkey = \"numerics.time_step_factor\"\nvalues = [1e-300, 0.5]\n");
   const Outcome outcome = run({"study", "study.toml", "-o", "out", "--json"});
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   const auto object = nlohmann::json::parse(outcome.out);

@@ -166,14 +166,16 @@ energy_drift_limit = 0.5
 trace_interval = "5 us"
 END
   cat >"$1/sweep.toml" <<END
-kind = "sweep"
+kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
 input_uncertainty = { value = "2 K", because = "for a test" }
+gaps = "0, 0.01 cm"
+confirm = false
 
-[axes]
-peak_pressure = "30, 40, 50, 60, 70, 80 MPa"
-gap = "0, 0.01 cm"
+[[vary]]
+key = "peak_pressure"
+values = "30, 40, 50, 60, 70, 80 MPa"
 END
 }
 

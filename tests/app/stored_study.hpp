@@ -16,10 +16,11 @@
 
 namespace launchsafe::app {
 
-/// 12 mechanical runs for 24 cases: the last key but the gap is thermal.
-inline const std::string sweep_study = R"(kind = "sweep"
+/// 12 mechanical runs for 24 cases: the last key is thermal.
+inline const std::string sweep_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
+gaps = "0, 0.01, 0.02 cm"
 input_uncertainty = { value = "2 K", because = "for a test" }
 model_form_uncertainty = { value = "1 K", because = "for a test" }
 accept = [
@@ -27,27 +28,33 @@ accept = [
   { key = "gap.exchange_time", value = "60 us", because = "the launch is as much faster" },
 ]
 
-[axes]
-peak_pressure = "250, 260, 270, 280 MPa"
-crack_radius = "20, 30, 40 um"
-"gap.exchange_time" = "20, 40 us"
-gap = "0, 0.01, 0.02 cm"
+[[vary]]
+key = "peak_pressure"
+values = "250, 260, 270, 280 MPa"
+
+[[vary]]
+key = "crack_radius"
+values = "20, 30, 40 um"
+
+[[vary]]
+key = "gap.exchange_time"
+values = "20, 40 us"
 )";
 
 /// 8 evaluations, each a mechanical run.
 inline const std::string sensitivity_study = R"(kind = "sensitivity"
 scene = "shell.toml"
 early_time = "0.03 ms"
-gap = "0.01 cm"
+gaps = "0.01 cm"
 samples = 2
 resamples = 100
 
-[[input]]
+[[vary]]
 key = "peak_pressure"
 distribution = "uniform"
 range = "250 to 280 MPa"
 
-[[input]]
+[[vary]]
 key = "crack_radius"
 distribution = "uniform"
 range = "20 to 40 um"
@@ -113,20 +120,21 @@ name = "as it is"
 gaps = "0, 0.01 cm"
 early_time = "0.03 ms"
 
-[[variant]]
+[[vary]]
+
+[[vary.variants]]
 name = "other cracks"
 set = { charge.crack_radius = "31 um" }
 
-[[variant]]
+[[vary.variants]]
 name = "larger cracks"
 set = { charge.crack_radius = "40 um" }
 )";
 
 inline const std::map<std::string, std::string> study_of_kind{
     {"comparison", comparison_study},   {"critical-gap", critical_gap_study},
-    {"calibration", calibration_study}, {"sweep", sweep_study},
-    {"sensitivity", sensitivity_study}, {"accuracy", accuracy_study},
-    {"stability", stability_study},
+    {"calibration", calibration_study}, {"sensitivity", sensitivity_study},
+    {"accuracy", accuracy_study},       {"stability", stability_study},
 };
 
 /// Tests of studies that leave a store.

@@ -16,12 +16,16 @@ using namespace launchsafe::study;
 const std::string comparison_start =
     "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\ngaps = \"0, 0.02, 0.04 cm\"\n";
 
-StudyFile comparison_of(const std::string& variants, const std::string& keys = {}) {
-  return study_of(comparison_start + keys + synthetic_constants + variants);
+/// What varies, and variants after it.
+const std::string variants_follow = "\n[[vary]]\n";
+const std::string two_pressures = "\n[[vary]]\nkey = \"peak_pressure\"\nvalues = \"450, 496 MPa\"\n";
+
+StudyFile comparison_of(const std::string& variants, const std::string& varied = {}) {
+  return study_of(comparison_start + synthetic_constants + varied + variants_follow + variants);
 }
 
 std::string variant(const std::string& name, const std::string& set) {
-  return "\n[[variant]]\nname = \"" + name + "\"\nset = { " + set + " }\n";
+  return "\n[[vary.variants]]\nname = \"" + name + "\"\nset = { " + set + " }\n";
 }
 
 TEST(Comparison, TheSceneItselfComesFirstAndEveryVariantHasItsOwnScene) {
@@ -35,24 +39,23 @@ TEST(Comparison, TheSceneItselfComesFirstAndEveryVariantHasItsOwnScene) {
 }
 
 TEST(Comparison, EveryVariantIsRunUnderEveryPeakPressure) {
-  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\""),
-                                        "peak_pressures = \"450, 496 MPa\"\n");
+  const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\""), two_pressures);
   ASSERT_EQ(study.cases.size(), 4u);
   EXPECT_EQ(study.cases[2].peak_pressure, 450e6);
   EXPECT_EQ(study.cases[3].peak_pressure, 496e6);
   const ComparisonResult result = run_comparison(study, synthetic_options());
   EXPECT_EQ(result.counterpart(3), 1u);
   // The launch in closed form knows no cells: nothing is different but what the peak does.
-  EXPECT_EQ(result.cases[3].answer.critical.value, result.cases[1].answer.critical.value)
-      << result.cases[3].answer.critical.reason;
-  EXPECT_LT(result.cases[1].answer.critical.value, result.cases[0].answer.critical.value);
+  EXPECT_EQ(result.answers[3].critical.value, result.answers[1].critical.value)
+      << result.answers[3].critical.reason;
+  EXPECT_LT(result.answers[1].critical.value, result.answers[0].critical.value);
 }
 
 // The constants say nothing of another way to hold the charge, unless the variant itself says why they may.
 TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat) {
   const std::string bonded = variant("bonded", "interface.wall.condition = \"bonded\"");
   const auto critical = [](const std::string& text) {
-    return run_comparison(comparison_of(text), synthetic_options()).cases[1].answer.critical;
+    return run_comparison(comparison_of(text), synthetic_options()).answers[1].critical;
   };
   const CriticalGap unknown = critical(bonded);
   EXPECT_EQ(unknown.kind, CriticalGapKind::indeterminate);
@@ -70,11 +73,11 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
 TEST(Comparison, StationsAreComparedOnASkinThatDoesNotReact) {
   const ComparisonResult result = run_comparison(
       comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"")), synthetic_options());
-  const auto& stations = result.cases[0].stations;
+  const auto& stations = result.answers[0].stations;
   ASSERT_EQ(stations.size(), 3u);
   ASSERT_EQ(stations[2].size(), 3u) << "the observation point G1 is no station of its own";
   // 0.04 cm ignites, and yet the second station, which friction heats most, is not as hot as a flame.
-  EXPECT_TRUE(result.cases[0].answer.verdicts[2].ignition.has_value());
+  EXPECT_TRUE(result.answers[0].verdicts[2].ignition.has_value());
   EXPECT_GT(stations[2][1].temperature, stations[2][2].temperature);
   EXPECT_LT(stations[2][1].temperature, 600.0);
 }
@@ -98,8 +101,9 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   };
   const std::string start =
       "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n"
-      "gaps = \"0, 0.02 cm\"\npeak_pressures = \"496, 450 MPa\"\n" +
-      calibrated("smooth_wall");
+      "gaps = \"0, 0.02 cm\"\n" +
+      calibrated("smooth_wall") + "[[vary]]\nkey = \"peak_pressure\"\nvalues = \"496, 450 MPa\"\n" +
+      variants_follow;
   const std::string bonded =
       variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");
   const ComparisonResult result =
@@ -111,7 +115,7 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   ASSERT_TRUE(record) << record.error().message();
   EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
   ASSERT_EQ(record->alternatives.size(), 1u);
-  EXPECT_EQ(record->alternatives[0].critical_gap[1], result.cases[2].answer.critical.value);
+  EXPECT_EQ(record->alternatives[0].critical_gap[1], result.answers[2].critical.value);
   const ComparisonResult without = run_comparison(
       study_of(start + bonded +
                "accept = [{ key = \"calibration.interfaces\", value = \"bonded for good\", because "
@@ -125,7 +129,7 @@ TEST(Comparison, AVariantTakesTheFitUncertaintyOfItsOwnCalibration) {
   const StudyFile study = study_of(
       "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\ngaps = \"0 cm\"\n"
       "calibration = \"../reports/model_form/smooth_wall/calibration/calibration.json\"\n" +
-      variant("inelastic", "friction.closure = \"inelastic\"") +
+      variants_follow + variant("inelastic", "friction.closure = \"inelastic\"") +
       "calibration = \"../reports/model_form/inelastic/calibration/calibration.json\"\n");
   const auto& variants = settings_of<ComparisonSettings>(study.study).variants;
   ASSERT_EQ(variants.size(), 2u);
@@ -138,20 +142,21 @@ TEST(Comparison, FaultsNameTheVariant) {
     const auto study = parse_here(comparison_start + text);
     return study ? std::string("none") : study.error().message();
   };
-  EXPECT_NE(fault("").find("variant: found no variant"), std::string::npos) << fault("");
-  const std::string unknown = fault(variant("a", "numerics.cell_sise = \"5 mm\""));
-  EXPECT_NE(unknown.find("variant.set.numerics.cell_sise"), std::string::npos) << unknown;
+  EXPECT_NE(fault("").find("vary: found no vary"), std::string::npos) << fault("");
+  EXPECT_NE(fault(two_pressures).find("vary.variants: found no variant"), std::string::npos);
+  EXPECT_NE(fault("[[variant]]\nname = \"a\"\n").find("[[vary.variants]]"), std::string::npos);
+  const std::string unknown = fault(variants_follow + variant("a", "numerics.cell_sise = \"5 mm\""));
+  EXPECT_NE(unknown.find("vary.variants.set.numerics.cell_sise"), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("cell_size"), std::string::npos) << unknown;
-  const std::string gaps = fault(variant("a", "gap.thickness = \"1 mm\""));
-  EXPECT_NE(gaps.find("variant.set.gap.thickness: found gaps of a variant"), std::string::npos) << gaps;
-  const std::string same = fault("\n[[variant]]\nname = \"a\"\n");
+  const std::string gaps = fault(variants_follow + variant("a", "gap.thickness = \"1 mm\""));
+  EXPECT_NE(gaps.find("vary.variants.set.gap.thickness: found gaps of a variant"), std::string::npos) << gaps;
+  const std::string same = fault(variants_follow + "[[vary.variants]]\nname = \"a\"\n");
   EXPECT_NE(same.find("\"a\", which is the scene as it is"), std::string::npos) << same;
-  const std::string twice =
-      fault(variant("a", "gap.air = \"film\"") + variant("a", "gap.exchange = \"per-step\""));
-  EXPECT_NE(twice.find("variant.name: found \"a\" a second time"), std::string::npos) << twice;
-  const std::string both =
-      fault("peak_pressures = \"450, 496 MPa\"\n" + variant("a", "load.peak = \"500 MPa\""));
-  EXPECT_NE(both.find("peak_pressures: found load.peak"), std::string::npos) << both;
+  const std::string twice = fault(variants_follow + variant("a", "gap.air = \"film\"") +
+                                  variant("a", "gap.exchange = \"per-step\""));
+  EXPECT_NE(twice.find("vary.variants.name: found \"a\" a second time"), std::string::npos) << twice;
+  const std::string both = fault(two_pressures + variants_follow + variant("a", "load.peak = \"500 MPa\""));
+  EXPECT_NE(both.find("vary.key: found load.peak"), std::string::npos) << both;
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ const std::string gap_keys = "gaps = \"0, 0.01, 0.02, 0.03, 0.06 cm\"\n";
 TEST(CriticalGapStudy, WithoutAStatedUncertaintyASmallMarginIsNotSafe) {
   const auto result =
       run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), synthetic_options());
-  for (const GapVerdict& row : result.cases.front().verdicts)
+  for (const GapVerdict& row : result.details.front().verdicts)
     if (row.judgement.verdict == Verdict::safe) {
       EXPECT_GT(row.margin, assumed_numerical_uncertainty);
     }
@@ -29,8 +29,8 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
                                 "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
                                 synthetic_constants),
                        synthetic_options());
-  ASSERT_EQ(result.cases.size(), 1u);
-  const CaseOutcome& outcome = result.cases[0];
+  ASSERT_EQ(result.details.size(), 1u);
+  const CaseOutcome& outcome = result.details[0];
   ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;
   EXPECT_LE(outcome.critical.upper - outcome.critical.lower, 1e-6);
   EXPECT_GT(outcome.critical.value, 3e-4);
@@ -55,13 +55,13 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
 }
 
 TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
-  const StudyFile study =
-      study_of(critical_text + gap_keys + "peak_pressures = \"410, 496, 450 MPa\"\n" + synthetic_constants);
+  const StudyFile study = study_of(critical_text + gap_keys + vary({{"peak_pressure", "410, 496, 450 MPa"}}) +
+                                   synthetic_constants);
   const CriticalGapResult one = run_critical_gap(study, synthetic_options(1));
   const CriticalGapResult many = run_critical_gap(study, synthetic_options(4));
-  ASSERT_EQ(one.cases.size(), 3u);
+  ASSERT_EQ(one.details.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
-    const CaseOutcome &a = one.cases[i], &b = many.cases[i];
+    const CaseOutcome &a = one.details[i], &b = many.details[i];
     EXPECT_EQ(a.input.label, b.input.label);
     EXPECT_EQ(a.critical.lower, b.critical.lower);
     EXPECT_EQ(a.critical.upper, b.critical.upper);
@@ -72,7 +72,7 @@ TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {
       EXPECT_EQ(a.verdicts[gap].judgement.reason, b.verdicts[gap].judgement.reason);
     }
   }
-  EXPECT_GT(one.cases[0].critical.value, one.cases[1].critical.value);  // less pressure, wider gap
+  EXPECT_GT(one.details[0].critical.value, one.details[1].critical.value);  // less pressure, wider gap
 }
 
 TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
@@ -86,10 +86,11 @@ TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
       result.reason = "at 3 ms";
       return result;
     };
-    const CriticalGapResult result = run_critical_gap(
-        study_of(critical_text + gap_keys + "peak_pressures = \"400, 450, 496 MPa\"\n" + synthetic_constants),
-        options);
-    const CaseOutcome& broken = result.cases[1];
+    const CriticalGapResult result =
+        run_critical_gap(study_of(critical_text + gap_keys + vary({{"peak_pressure", "400, 450, 496 MPa"}}) +
+                                  synthetic_constants),
+                         options);
+    const CaseOutcome& broken = result.details[1];
     EXPECT_FALSE(broken.completed());
     EXPECT_EQ(broken.critical.kind, CriticalGapKind::indeterminate);
     EXPECT_TRUE(std::isnan(broken.critical.value));
@@ -103,8 +104,8 @@ TEST(CriticalGapStudy, AFailingCaseIsIndeterminateAndTheOthersGoOn) {
           << row.judgement.reason;
     }
     for (const std::size_t i : {0u, 2u}) {
-      EXPECT_EQ(result.cases[i].critical.kind, CriticalGapKind::value);
-      EXPECT_EQ(result.cases[i].verdicts[0].judgement.verdict, Verdict::safe);
+      EXPECT_EQ(result.details[i].critical.kind, CriticalGapKind::value);
+      EXPECT_EQ(result.details[i].verdicts[0].judgement.verdict, Verdict::safe);
     }
   }
 }
@@ -114,7 +115,7 @@ TEST(CriticalGapStudy, ARunWithSkinThatDisagreesMakesItIndeterminate) {
   options.runners.with_skin = synthetic_runners(160.0).with_skin;
   const CriticalGapResult result =
       run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
-  const CaseOutcome& outcome = result.cases[0];
+  const CaseOutcome& outcome = result.details[0];
   EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
   EXPECT_TRUE(std::isnan(outcome.critical.value));
   EXPECT_NE(outcome.critical.reason.find("ignites"), std::string::npos) << outcome.critical.reason;
@@ -134,9 +135,9 @@ TEST(CriticalGapStudy, ARunWithSkinThatFailsMakesItIndeterminate) {
     };
     const CriticalGapResult result =
         run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
-    EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
-    EXPECT_NE(result.cases[0].critical.reason.find(throws ? "broken" : "non-finite"), std::string::npos);
-    EXPECT_FALSE(result.cases[0].confirmations[0].completed);
+    EXPECT_EQ(result.details[0].critical.kind, CriticalGapKind::indeterminate);
+    EXPECT_NE(result.details[0].critical.reason.find(throws ? "broken" : "non-finite"), std::string::npos);
+    EXPECT_FALSE(result.details[0].confirmations[0].completed);
   }
 }
 
@@ -154,8 +155,8 @@ TEST(CriticalGapStudy, ACoupledRunThatBurntConfirmsAnIgnitionUnlessItWasCutOff) 
     const CriticalGapResult result =
         run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
     const bool by_itself = status == run::RunStatus::outside_gas_law;
-    EXPECT_EQ(result.cases[0].confirmations[1].completed, by_itself);
-    EXPECT_EQ(result.cases[0].critical.kind,
+    EXPECT_EQ(result.details[0].confirmations[1].completed, by_itself);
+    EXPECT_EQ(result.details[0].critical.kind,
               by_itself ? CriticalGapKind::value : CriticalGapKind::indeterminate);
   }
 }
@@ -168,13 +169,13 @@ TEST(CriticalGapStudy, BoundsAreNotConfirmedAndNotNumbers) {
                            "accept = [{ key = \"largest_gap\", value = \"0.002 cm\", because = \"the search "
                            "is to end without a gap\" }]\n";
   const CriticalGapResult cold = run_critical_gap(study_of(text + synthetic_constants), options);
-  EXPECT_EQ(cold.cases[0].critical.kind, CriticalGapKind::all_safe);
-  EXPECT_TRUE(cold.cases[0].confirmations.empty());
-  EXPECT_EQ(cold.cases[0].verdicts[1].judgement.verdict, Verdict::safe);
+  EXPECT_EQ(cold.details[0].critical.kind, CriticalGapKind::all_safe);
+  EXPECT_TRUE(cold.details[0].confirmations.empty());
+  EXPECT_EQ(cold.details[0].verdicts[1].judgement.verdict, Verdict::safe);
   options.runners = synthetic_runners(400.0);
   const CriticalGapResult hot = run_critical_gap(study_of(text + synthetic_constants), options);
-  EXPECT_EQ(hot.cases[0].critical.kind, CriticalGapKind::all_ignite);
-  EXPECT_EQ(hot.cases[0].verdicts[0].judgement.verdict, Verdict::unsafe);
+  EXPECT_EQ(hot.details[0].critical.kind, CriticalGapKind::all_ignite);
+  EXPECT_EQ(hot.details[0].verdicts[0].judgement.verdict, Verdict::unsafe);
 }
 
 TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
@@ -183,7 +184,7 @@ TEST(CriticalGapStudy, TheStatedMeshUncertaintyCanMakeAGapIndeterminate) {
                                 "numerical_uncertainty = { value = \"60 K\", because = \"for a test\" }\n" +
                                 synthetic_constants),
                        synthetic_options());
-  const auto& rows = result.cases[0].verdicts;
+  const auto& rows = result.details[0].verdicts;
   EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << rows[0].judgement.reason;
   EXPECT_EQ(rows[3].judgement.verdict, Verdict::indeterminate) << rows[3].judgement.reason;
 }
@@ -199,8 +200,8 @@ TEST(CriticalGapStudy, AnEmptyOrBrokenTraceIsIndeterminate) {
     };
     const CriticalGapResult result =
         run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
-    EXPECT_EQ(result.cases[0].critical.kind, CriticalGapKind::indeterminate);
-    for (const GapVerdict& row : result.cases[0].verdicts) {
+    EXPECT_EQ(result.details[0].critical.kind, CriticalGapKind::indeterminate);
+    for (const GapVerdict& row : result.details[0].verdicts) {
       if (row.gap > 0 || empty) {
         EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << row.gap;
       }
@@ -216,7 +217,7 @@ TEST(CriticalGapStudy, StoppedBeforeItBeganNothingIsSafe) {
       run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(result.timing.runs, 0u);
-  for (const GapVerdict& row : result.cases[0].verdicts)
+  for (const GapVerdict& row : result.details[0].verdicts)
     EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
 }
 
@@ -227,7 +228,7 @@ TEST(CriticalGapStudy, ComparesWithPublishedRows) {
                                 "early_temperature = \"339.1 K\" }]\n" +
                                 synthetic_constants),
                        synthetic_options());
-  const auto& rows = result.cases[0].verdicts;
+  const auto& rows = result.details[0].verdicts;
   EXPECT_TRUE(std::isnan(rows[0].misfit()));
   EXPECT_NEAR(rows[1].misfit(), rows[1].maximum.temperature - 442.2, 1e-12);
   EXPECT_NEAR(rows[1].early_misfit(), rows[1].early.temperature - 339.1, 1e-12);

@@ -1,8 +1,8 @@
-// Sweeps and sensitivity studies made by hand, with every kind of answer in them.
+// Critical-gap and sensitivity studies of many cases made by hand, with every kind of answer in them.
 #pragma once
 
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "report/report_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ inline study::Axis axis(const study::StudyFile& file, const std::string& name, c
                         std::vector<double> values) {
   const auto description = scene::describe_key(file.scene, key, {});
   EXPECT_TRUE(description) << key;
-  return {name, "axes." + name, description ? *description : scene::KeyDescription{}, std::move(values)};
+  return {name, "vary.0.key", description ? *description : scene::KeyDescription{}, std::move(values)};
 }
 
 /// A gap that stays below ignition.
@@ -113,7 +113,7 @@ using Answerer = std::function<study::CaseAnswer(const study::Study&, const std:
 
 /// The full factorial of the study's axes, the last fastest, each case answered by a function of its
 /// coordinates.
-inline kinds::SweepResult swept(study::StudyFile file, const Answerer& answerer) {
+inline kinds::CriticalGapResult swept(study::StudyFile file, const Answerer& answerer) {
   std::vector<std::vector<double>> places{{}};
   for (const study::Axis& each : file.study.axes) {
     std::vector<std::vector<double>> longer;
@@ -125,7 +125,7 @@ inline kinds::SweepResult swept(study::StudyFile file, const Answerer& answerer)
     }
     places = std::move(longer);
   }
-  kinds::SweepResult result;
+  kinds::CriticalGapResult result;
   for (auto& place : places) {
     study::StudyCase input;
     input.coordinates = place;
@@ -146,8 +146,8 @@ inline double closed_form(double pressure, double crack_radius) {
 }
 
 /// Pressure x crack radius with values, both bounds, and a failure in the middle.
-inline kinds::SweepResult made_sweep(std::vector<double> more = {}, const std::string& more_key = {}) {
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0, 1e-4, 2e-4, 3.9e-4, 4e-4});
+inline kinds::CriticalGapResult made_sweep(std::vector<double> more = {}, const std::string& more_key = {}) {
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0, 1e-4, 2e-4, 3.9e-4, 4e-4});
   file.study.axes = {
       axis(file, "peak_pressure", "load.peak", {350e6, 400e6, 450e6, 496e6, 550e6, 600e6}),
       axis(file, "crack_radius", "charge.crack_radius", {10e-6, 20e-6, 30e-6, 50e-6, 100e-6, 200e-6})};
@@ -173,7 +173,7 @@ inline kinds::SensitivityResult made_sensitivity() {
   study::settings_of<kinds::SensitivitySettings>(file.study).samples = 4;
   study::settings_of<kinds::SensitivitySettings>(file.study).design = math::Design::scrambled_sobol;
   const auto input = [&](const std::string& name, const std::string& key, math::Distribution distribution) {
-    return study::Axis{name, "input.key", axis(file, name, key, {}).key, {}, distribution};
+    return study::Axis{name, "vary.0.key", axis(file, name, key, {}).key, {}, distribution};
   };
   file.study.axes = {
       input("peak_pressure", "load.peak", math::Distribution::uniform(400e6, 600e6)),

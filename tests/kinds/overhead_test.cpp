@@ -1,5 +1,5 @@
 // What a study costs besides simulating (opt-in: ctest -L slow).
-#include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/stored_answer.hpp"
 #include "store/temporary_folder.hpp"
@@ -38,13 +38,10 @@ std::string large_sweep(int pressures, int radii) {
   std::string peaks, sizes;
   for (int i = 0; i < pressures; ++i) peaks += fmt::format("{}{}", i > 0 ? ", " : "", 300 + 2 * i);
   for (int i = 0; i < radii; ++i) sizes += fmt::format("{}{}", i > 0 ? ", " : "", 10 + i);
-  return fmt::format(
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\ninput_uncertainty = {{ value = \"1 K\", because = "
-      "\"for a test\" }}\n"
-      "model_form_uncertainty = {{ value = \"1 K\", because = \"for a test\" }}\n[axes]\ngap = \"0, 0.02 "
-      "cm\"\n"
-      "peak_pressure = \"{} MPa\"\ncrack_radius = \"{} um\"\n{}",
-      peaks, sizes, synthetic_constants);
+  return critical_kind +
+         "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+         "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\ngaps = \"0, 0.02 cm\"\n" +
+         vary({{"peak_pressure", peaks + " MPa"}, {"crack_radius", sizes + " um"}}) + synthetic_constants;
 }
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -119,7 +116,7 @@ TEST_F(StudyOverheadSlow, IsUnderOnePercentWithAHundredCasesOfASecond) {
   const auto store = open_store();
   options.store = store.get();
   const double start = seconds_on(CLOCK_MONOTONIC), start_cpu = seconds_on(CLOCK_PROCESS_CPUTIME_ID);
-  const SweepResult result = run_sweep(study, options);
+  const CriticalGapResult result = run_critical_gap(study, options);
   EXPECT_FALSE(store->flush());
   const double wall = seconds_on(CLOCK_MONOTONIC) - start;
   const double cpu = seconds_on(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
@@ -149,7 +146,7 @@ TEST_F(StudyOverheadSlow, AFinishedStudyOfTenThousandCasesIsResumedInUnderTwoSec
   {
     const auto store = open_store();
     options.store = store.get();
-    SweepResult result = run_sweep(study_of(text), options);
+    CriticalGapResult result = run_critical_gap(study_of(text), options);
     ASSERT_FALSE(store->flush());
     fmt::print("10 000 runs and answers written in {:.1f} s: {:.1f} MB\n", seconds_since(writing),
                megabytes());
@@ -164,7 +161,7 @@ TEST_F(StudyOverheadSlow, AFinishedStudyOfTenThousandCasesIsResumedInUnderTwoSec
   const StudyFile study = study_of(text);
   const auto store = open_store();
   options.store = store.get();
-  const SweepResult result = run_sweep(study, options);
+  const CriticalGapResult result = run_critical_gap(study, options);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   fmt::print("10 000 finished cases: {:.2f} s\n", wall);
   EXPECT_EQ(result.timing.runs, 0u);

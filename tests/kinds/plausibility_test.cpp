@@ -2,7 +2,6 @@
 // meant.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
@@ -36,7 +35,7 @@ std::string safe_study(const std::string& keys, const std::string& overrides = "
 }
 
 const Judgement& judgement_in(const CriticalGapResult& result) {
-  return result.cases.at(0).verdicts.at(0).judgement;
+  return result.details.at(0).verdicts.at(0).judgement;
 }
 
 CriticalGapResult run_safe_study(const std::string& keys, const std::string& overrides = "") {
@@ -87,7 +86,7 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_EQ(judgement_in(warned).verdict, Verdict::indeterminate) << key;
     EXPECT_TRUE(says(judgement_in(warned).reason, named)) << judgement_in(warned).reason;
     EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
-    EXPECT_EQ(warned.cases[0].critical.kind, CriticalGapKind::indeterminate) << key;
+    EXPECT_EQ(warned.details[0].critical.kind, CriticalGapKind::indeterminate) << key;
     const std::string reasons = accept_all(study_of(safe_study("", overrides)), "it was measured so");
     const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
     EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
@@ -115,11 +114,9 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
 
 TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   const std::string text =
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"1 K\", because = "
-      "\"for a test\" }\n" +
-      synthetic_statements + synthetic_constants +
-      "[axes]\ngap = \"0 cm\"\n\"gap.skin_thickness\" = \"0.1, 5 mm\"\n";
-  const SweepResult result = run_sweep(study_of(text), synthetic_options());
+      critical_text + "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
+      "gaps = \"0 cm\"\n" + vary({{"gap.skin_thickness", "0.1, 5 mm"}}) + synthetic_constants;
+  const CriticalGapResult result = run_critical_gap(lean_study_of(text), synthetic_options());
   ASSERT_EQ(result.answers.size(), 2u);
   EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
   EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
@@ -147,7 +144,7 @@ TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {
   const auto mistaken = parse_here(safe_study("", expected + "load.peak = \"248 MPa\"\n"));
   ASSERT_FALSE(mistaken);
   EXPECT_TRUE(says(mistaken.error().message(), "load.expected_velocity")) << mistaken.error().message();
-  EXPECT_TRUE(parse_here("peak_pressures = \"248, 496 MPa\"\n" + safe_study("", expected)))
+  EXPECT_TRUE(parse_here(vary({{"peak_pressure", "248, 496 MPa"}}) + safe_study("", expected)))
       << "other launches on purpose";
 }
 
@@ -186,8 +183,8 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
   StudyOptions options = synthetic_options();
   options.runners = synthetic_runners(2.0);
   const CriticalGapResult shipped = run_critical_gap(study_of(text + whole), options);
-  ASSERT_FALSE(shipped.cases.at(0).verdicts.empty());
-  for (const GapVerdict& each : shipped.cases[0].verdicts) {
+  ASSERT_FALSE(shipped.details.at(0).verdicts.empty());
+  for (const GapVerdict& each : shipped.details[0].verdicts) {
     EXPECT_EQ(each.judgement.verdict, each.ignition ? Verdict::unsafe : Verdict::indeterminate);
     EXPECT_TRUE(says(each.judgement.reason, "calibrated on another launch")) << each.judgement.reason;
   }
@@ -198,7 +195,7 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
 
 TEST(StudyPlausibility, AcceptancesOfAStudyReachEveryCase) {
   const StudyFile study = study_of(accept("gap.skin_thickness", "0.2 mm", "a coated charge") + critical_text +
-                                   "peak_pressures = \"400, 496 MPa\"\n");
+                                   vary({{"peak_pressure", "400, 496 MPa"}}));
   for (const StudyCase& each : study.cases) {
     ASSERT_EQ(each.scene.scene.accepted.size(), 1u);
     EXPECT_EQ(each.scene.scene.accepted[0].because, "a coated charge");

@@ -8,7 +8,6 @@
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
@@ -55,7 +54,7 @@ std::vector<report::Report> reports_of_all_kinds() {
           report_of(run_comparison(study::study_of("kind = \"comparison\"\nscene = \"scene_155mm.toml\"\n"
                                                    "gaps = \"0, 0.02 cm\"\n" +
                                                    study::synthetic_constants +
-                                                   "[[variant]]\nname = \"coarse\"\n"
+                                                   "[[vary]]\n[[vary.variants]]\nname = \"coarse\"\n"
                                                    "set = { numerics.cell_size = \"2.5 mm\" }\n"),
                                    study::synthetic_options()))};
 }

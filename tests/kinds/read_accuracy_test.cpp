@@ -66,8 +66,7 @@ TEST(ReadAccuracy, RefusesSettingsThatMeanNothing) {
   refuse("[[settings]]\nnumerics.cell_size = \"5 kg\"\n", {5, "settings.numerics.cell_size", "5 kg"});
   refuse("[[settings]]\ngap.thickness = \"0.01 cm\"\n", {5, "settings.gap.thickness", "as a setting"});
   refuse("[settings]\nnumerics.cell_size = \"5 mm\"\n", {4, "settings", "a table", "[[settings]]"});
-  expect_error_in("kind = \"sweep\"\nscene = \"scene_155mm.toml\"\n" + meshes,
-                  {3, "reference_cell_sizes", "kind \"accuracy\""});
+  expect_error_in(critical_kind + meshes, {3, "reference_cell_sizes", "kind \"accuracy\""});
 }
 
 TEST(ReadAccuracy, AVariantIsTheStudyWithWhatItSaysOtherwise) {

@@ -20,9 +20,9 @@ using math::Distribution;
 
 /// Three lines.
 const std::string sensitivity_start =
-    "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0.02 cm\"\n";
+    "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngaps = \"0.02 cm\"\n";
 
-std::string input(const std::string& rest) { return "[[input]]\n" + rest + "\n"; }
+std::string input(const std::string& rest) { return "[[vary]]\n" + rest + "\n"; }
 
 const std::string crack =
     input("key = \"crack_radius\"\ndistribution = \"uniform\"\nrange = \"10 to 100 um\"");
@@ -31,7 +31,7 @@ const std::string steepness =
 const std::string flaw =
     input("key = \"charge.flaw_size\"\ndistribution = \"log-uniform\"\nrange = \"0.5 mm to 2 mm\"");
 
-/// One [[input]] after the first three lines; its own first line is line 5.
+/// One [[vary]] after the first three lines; its own first line is line 5.
 void expect_input_error(const std::string& rest, const ExpectedError& expected) {
   expect_error_in(sensitivity_start + input(rest), expected);
 }
@@ -52,7 +52,7 @@ TEST(ReadSensitivity, ATemperatureMayBeInCelsiusButItsDeviationMayNot) {
   EXPECT_EQ(file.study.axes[0].distribution->lower, 523.15);
   EXPECT_EQ(file.study.axes[0].distribution->deviation, 5.0);
   expect_input_error(ignition + "mean = \"252 \u00b0C\"\ndeviation = \"5 \u00b0C\"",
-                     {8, "input.deviation", "which is a temperature", "a temperature difference"});
+                     {8, "vary.deviation", "which is a temperature", "a temperature difference"});
 }
 
 TEST(ReadSensitivity, ReadsInputsAndMethod) {
@@ -133,8 +133,8 @@ TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
 }
 
 TEST(ReadSensitivity, TheGapIsTheScenesOnlyOne) {
-  const std::string without = sensitivity_start.substr(0, sensitivity_start.find("gap = "));
-  expect_error_in(without + crack, {0, "gap", "no gap, and 6 gaps in the scene", "one gap", "gap = \""});
+  const std::string without = sensitivity_start.substr(0, sensitivity_start.find("gaps = "));
+  expect_error_in(without + crack, {0, "gaps", "no gap, and the scene's 6 gaps", "one gap", "gaps = \""});
   const StudyFile file = study_of(without + crack + "[set]\ngap.thickness = \"0.03 cm\"\n");
   EXPECT_EQ(file.study.gaps, std::vector<double>{3e-4});
 }
@@ -157,75 +157,71 @@ TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
   expect_line_error("resamples = 0", {4, "resamples", "0"});
   expect_line_error("confidence = 0.4", {4, "confidence", "0.4", "0.5 to 0.999"});
   expect_line_error("confidence = 1", {4, "confidence", "1"});
-  expect_line_error("gaps = \"1 mm\"", {4, "gaps", "kind \"critical-gap\"", "sensitivity", "gap"});
-  expect_line_error("axes = { }", {4, "axes", "kind \"sweep\"", "sensitivity"});
-  expect_line_error("reference = [{ gap = \"0 cm\" }]", {4, "reference", "\"sweep\"", "sensitivity"});
-  expect_error_in(sensitivity_start + "gap = \"0 cm\"\n" + crack, {4, "", "not TOML"});
+  expect_line_error("reference = [{ gap = \"0 cm\" }]", {4, "reference", "\"critical-gap\"", "sensitivity"});
+  expect_error_in(sensitivity_start + "gaps = \"0 cm\"\n" + crack, {4, "", "not TOML"});
 }
 
 TEST(ReadSensitivity, ThereIsAnInput) {
-  expect_error_in(sensitivity_start, {1, "input", "no input", "[[input]]"});
-  expect_error_in(sensitivity_start + "input = []\n", {4, "input", "no input", "[[input]]"});
-  expect_error_in(sensitivity_start + "input = 3\n", {4, "input", "3", "[[input]]"});
-  expect_error_in(sensitivity_start + "[input]\nkey = \"crack_radius\"\n",
-                  {4, "input", "a table", "[[input]]"});
+  expect_error_in(sensitivity_start, {1, "vary", "no vary", "[[vary]]"});
+  expect_error_in(sensitivity_start + "vary = []\n", {4, "vary", "no vary", "[[vary]]"});
+  expect_error_in(sensitivity_start + "vary = 3\n", {4, "vary", "3", "[[vary]]"});
+  expect_error_in(sensitivity_start + "[vary]\nkey = \"crack_radius\"\n", {4, "vary", "a table", "[[vary]]"});
 }
 
 TEST(ReadSensitivity, FaultsOfInputsNameFileLineKeyFoundAndAllowed) {
   const std::string uniform = "distribution = \"uniform\"\n";
-  expect_input_error(uniform, {4, "input.key", "missing"});
-  expect_input_error("key = 3", {5, "input.key", "3", "a text"});
-  expect_input_error("key = \"flaw_sise\"", {5, "input.key", "\"flaw_sise\"", "flaw_size", "flaw_size"});
-  expect_input_error("key = \"load.stepness\"", {5, "input.key", "unknown", "[load]", "load.steepness"});
-  expect_input_error("key = \"symmetry\"", {5, "input.key", "takes a word", "takes one number"});
-  expect_input_error("key = \"gap\"", {5, "input.key", "one for all", "the study's key gap"});
-  expect_input_error("key = \"numerics.particles_per_cell\"", {5, "input.key", "a whole number"});
-  expect_input_error("key = \"crack_radius\"", {4, "input.distribution", "missing", "log-uniform"});
+  expect_input_error(uniform, {4, "vary.key", "missing"});
+  expect_input_error("key = 3", {5, "vary.key", "3", "a text"});
+  expect_input_error("key = \"flaw_sise\"", {5, "vary.key", "\"flaw_sise\"", "flaw_size", "flaw_size"});
+  expect_input_error("key = \"load.stepness\"", {5, "vary.key", "unknown", "[load]", "load.steepness"});
+  expect_input_error("key = \"symmetry\"", {5, "vary.key", "takes a word", "takes one number"});
+  expect_input_error("key = \"gap\"", {5, "vary.key", "all cases share", "the study's key gaps"});
+  expect_input_error("key = \"numerics.particles_per_cell\"", {5, "vary.key", "a whole number"});
+  expect_input_error("key = \"crack_radius\"", {4, "vary.distribution", "needs it", "log-uniform"});
   const std::string radius = "key = \"crack_radius\"\n";
   expect_input_error(radius + "distribution = \"normall\"",
-                     {6, "input.distribution", "normall", "uniform", "normal"});
-  expect_input_error(radius + uniform, {4, "input.range", "a uniform input needs it", "range"});
-  expect_input_error(radius + uniform + "range = \"10 to 100 MPa\"", {7, "input.range", "a pressure"});
-  expect_input_error(radius + uniform + "range = \"10 to 100\"", {7, "input.range", "without a unit"});
-  expect_input_error(radius + uniform + "range = \"100 to 10 um\"", {7, "input.range", "no extent"});
-  expect_input_error(radius + uniform + "range = \"-1 to 10 um\"",
-                     {7, "input.range", "-1", "0 cm to 100 cm"});
-  expect_input_error(radius + uniform + "rang = \"1 to 10 um\"", {7, "input.rang", "unknown", "", "range"});
+                     {6, "vary.distribution", "normall", "uniform", "normal"});
+  expect_input_error(radius + uniform, {4, "vary.range", "a uniform distribution needs it", "range"});
+  expect_input_error(radius + uniform + "range = \"10 to 100 MPa\"", {7, "vary.range", "a pressure"});
+  expect_input_error(radius + uniform + "range = \"10 to 100\"", {7, "vary.range", "without a unit"});
+  expect_input_error(radius + uniform + "range = \"100 to 10 um\"", {7, "vary.range", "no extent"});
+  expect_input_error(radius + uniform + "range = \"-1 to 10 um\"", {7, "vary.range", "-1", "0 cm to 100 cm"});
+  expect_input_error(radius + uniform + "rang = \"1 to 10 um\"", {7, "vary.rang", "unknown", "", "range"});
   expect_input_error(radius + uniform + "range = \"1 to 10 um\"\nmean = \"5 um\"",
-                     {8, "input.mean", "distribution \"normal\"", "range alone"});
+                     {8, "vary.mean", "distribution \"normal\"", "range alone"});
   expect_input_error(radius + "distribution = \"log-uniform\"\nrange = \"0 to 10 um\"",
-                     {7, "input.range", "no logarithm", "above 0"});
+                     {7, "vary.range", "no logarithm", "above 0"});
   expect_error_in(sensitivity_start + crack +
                       input("key = \"charge.crack_radius\"\n" + uniform + "range = \"1 to 2 um\""),
-                  {9, "input.key", "second time, after crack_radius", "once"});
+                  {9, "vary.key", "second time, after crack_radius", "once"});
   expect_error_in(sensitivity_start + crack + "[set]\ncharge.crack_radius = \"1 um\"\n",
-                  {5, "input.key", "[set]", "either"});
+                  {5, "vary.key", "[set]", "either"});
 }
 
 TEST(ReadSensitivity, FaultsOfNormalsAskForARange) {
   const std::string normal = "key = \"crack_radius\"\ndistribution = \"normal\"\n";
-  expect_input_error(normal, {4, "input.mean", "a normal input needs it"});
-  expect_input_error(normal + "mean = \"30 um\"", {4, "input.deviation", "a normal input needs it"});
-  expect_input_error(normal + "mean = \"30 um\"\ndeviation = \"0 um\"", {8, "input.deviation", "0 um"});
-  expect_input_error(normal + "mean = \"30 um\"\ndeviation = 3", {8, "input.deviation", "without a unit"});
+  expect_input_error(normal, {4, "vary.mean", "a normal distribution needs it"});
+  expect_input_error(normal + "mean = \"30 um\"", {4, "vary.deviation", "a normal distribution needs it"});
+  expect_input_error(normal + "mean = \"30 um\"\ndeviation = \"0 um\"", {8, "vary.deviation", "0 um"});
+  expect_input_error(normal + "mean = \"30 um\"\ndeviation = 3", {8, "vary.deviation", "without a unit"});
   expect_input_error(
       normal + "mean = \"30 um\"\ndeviation = \"10 um\"",
-      {8, "input.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 um\""});
+      {8, "vary.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 um\""});
   const std::string narrow = normal + "mean = \"30 um\"\ndeviation = \"5 um\"\n";
   EXPECT_TRUE(parse_here(sensitivity_start + input(narrow)));
-  expect_input_error(narrow + "range = \"50 to 60 cm\"", {9, "input.range", "has no share", "near the mean"});
+  expect_input_error(narrow + "range = \"50 to 60 cm\"", {9, "vary.range", "has no share", "near the mean"});
 }
 
 TEST(ReadSensitivity, AValueThatTheSceneCannotHaveNamesTheInput) {
   expect_input_error("key = \"load.base\"\ndistribution = \"uniform\"\nrange = \"0.1 to 900 MPa\"",
-                     {7, "input.range", "and a peak of 496 MPa", "at most the peak"});
+                     {7, "vary.range", "and a peak of 496 MPa", "at most the peak"});
 }
 
 TEST(ReadSensitivity, TheAnalyticLoadIsNotUncertainUnderAMeasuredCurve) {
   const std::string file = ::testing::TempDir() + "read_sensitivity_curve.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
   expect_error_in(sensitivity_start + steepness + "[set]\nload.curve = \"" + file + "\"\n",
-                  {5, "input.key", "which a measured curve does not have"});
+                  {5, "vary.key", "which a measured curve does not have"});
 }
 
 // --- constants of a calibration, which vary together ---
@@ -287,20 +283,20 @@ TEST(ReadSensitivity, TheConstantsOfACalibrationHaveTheCovarianceOfItsRecord) {
 
 TEST(ReadSensitivity, FaultsOfACalibrationAsInputNameFileLineKeyFoundAndAllowed) {
   expect_input_error("calibration = \"nowhere.json\"",
-                     {5, "input.calibration", "cannot be read", "load_fitted = true"});
-  expect_input_error("calibration = 3", {5, "input.calibration", "3", "a text"});
-  expect_input_error("calibration = \"a.json\"\nrange = \"1 to 2 K\"", {6, "input.range", "unknown"});
+                     {5, "vary.calibration", "cannot be read", "load_fitted = true"});
+  expect_input_error("calibration = 3", {5, "vary.calibration", "3", "a text"});
+  expect_input_error("calibration = \"a.json\"\nrange = \"1 to 2 K\"", {6, "vary.range", "unknown"});
   const std::string width = input("key = \"load.width\"\ndistribution = \"uniform\"\nrange = \"2 to 3 ms\"");
   expect_error_in(sensitivity_start + calibrated + width,
-                  {7, "input.key", "load.width a second time", "each scene key once"});
+                  {7, "vary.key", "load.width a second time", "each scene key once"});
   expect_error_in(sensitivity_start + width + calibrated,
-                  {9, "input.calibration", "load.width a second time", "each scene key once"});
+                  {9, "vary.calibration", "load.width a second time", "each scene key once"});
   expect_error_in(sensitivity_start + calibrated + calibrated,
-                  {7, "input.calibration", "a second calibration", "one calibration"});
+                  {7, "vary.calibration", "a second calibration", "one calibration"});
   expect_error_in(sensitivity_start + calibrated + "[set]\nload.width = \"3 ms\"\n",
-                  {5, "input.calibration", "load.width, which [set]", "either"});
+                  {5, "vary.calibration", "load.width, which [set]", "either"});
   expect_error_in(sensitivity_start + "calibration = \"" + shipped_record + "\"\n" + calibrated,
-                  {6, "input.calibration", "beside that of the study", "one of both", "leave out"});
+                  {6, "vary.calibration", "beside that of the study", "one of both", "leave out"});
 }
 
 TEST(ReadSensitivity, ARecordWithoutCovarianceIsNoInput) {
@@ -310,14 +306,14 @@ TEST(ReadSensitivity, ARecordWithoutCovarianceIsNoInput) {
   const std::string file = ::testing::TempDir() + "read_sensitivity_calibration.json";
   std::ofstream(file) << to_json_text(record);
   expect_input_error("calibration = \"" + file + "\"",
-                     {5, "input.calibration", "without a covariance", "load_fitted = true"});
+                     {5, "vary.calibration", "without a covariance", "load_fitted = true"});
 }
 
 TEST(ReadSensitivity, AnotherShapeOfTheLoadHasNotTheConstantsOfTheBell) {
   const std::string file = ::testing::TempDir() + "read_sensitivity_bell.csv";
   std::ofstream(file) << "time_ms,pressure_MPa\n0,0\n5,400\n18,0\n";
   expect_error_in(sensitivity_start + calibrated + "[set]\nload.curve = \"" + file + "\"\n",
-                  {5, "input.calibration", "a measured curve", "load.shape = \"bell\""});
+                  {5, "vary.calibration", "a measured curve", "load.shape = \"bell\""});
 }
 
 }  // namespace

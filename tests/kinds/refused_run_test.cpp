@@ -46,8 +46,8 @@ TEST_F(RefusedRun, OfAConfirmationIsJournaled) {
   ASSERT_TRUE(refused(*store).empty());
   const CriticalGapResult result = run_critical_gap(
       study_of(gap_text + "confirm = true\n" + synthetic_constants), options_with(*store, one_byte));
-  ASSERT_EQ(result.cases.front().confirmations.size(), 2u);
-  EXPECT_EQ(result.cases.front().critical.kind, CriticalGapKind::indeterminate);
+  ASSERT_EQ(result.details.front().confirmations.size(), 2u);
+  EXPECT_EQ(result.details.front().critical.kind, CriticalGapKind::indeterminate);
   const auto entries = refused(*store);
   ASSERT_EQ(entries.size(), 2u);
   for (const auto& entry : entries) {

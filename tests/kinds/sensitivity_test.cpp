@@ -21,8 +21,8 @@ using namespace launchsafe::study;
 std::string linear_text(const std::string& method) {
   return method + R"(kind = "sensitivity"
 scene = "scene_155mm.toml"
-gap = "0 cm"
-input = [
+gaps = "0 cm"
+vary = [
   { key = "friction.localisation", distribution = "uniform", range = "900 to 1700" },
   { key = "kinetics.ignition_temperature", distribution = "uniform", range = "520 to 540 K" },
   { key = "peak_pressure", distribution = "uniform", range = "450 to 500 MPa" },

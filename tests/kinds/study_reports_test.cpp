@@ -77,7 +77,7 @@ TEST(CriticalGapReport, NothingThatFailedIsANumber) {
 
 TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
   const CriticalGapResult result =
-      run_critical_gap(study_of(study_text + "peak_pressures = \"400, 496 MPa\"\n" + synthetic_constants),
+      run_critical_gap(study_of(study_text + vary({{"peak_pressure", "400, 496 MPa"}}) + synthetic_constants),
                        synthetic_options());
   const auto json = json_of(result);
   EXPECT_EQ(json["cases"].size(), 2u);
@@ -100,14 +100,14 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   ASSERT_NE(computed, nullptr);
   EXPECT_EQ(computed->style, report::Style::vertical_bars);
   ASSERT_EQ(computed->x, (std::vector<double>{0.0, 3.0e-4 * 100.0})) << "those that do not ignite";
-  const Uncertainty& uncertainty = result.cases.front().verdicts[1].uncertainty;
+  const Uncertainty& uncertainty = result.details.front().verdicts[1].uncertainty;
   EXPECT_NEAR(computed->upper[1] - computed->y[1], uncertainty.total(), 1e-9);
   // The model form moves towards ignition alone; the study states 1 K.
   EXPECT_NEAR(computed->y[1] - computed->lower[1], uncertainty.total() - 1.0, 1e-9);
   const report::Series* ignited = series_named(plot, "ignites: of the burning skin");
   ASSERT_NE(ignited, nullptr);
   EXPECT_EQ(ignited->style, report::Style::points) << "no uncertainty is known of it";
-  const CriticalGap& critical = result.cases.front().critical;
+  const CriticalGap& critical = result.details.front().critical;
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
   // The same words and ends as in a safety report: rounded away from the value.
   const auto measured = report::measured_gap(100.0 * critical.value, 100.0 * critical.bounds.at_least,
@@ -123,10 +123,10 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
 
 TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
   CriticalGapResult result = one_case();
-  const double computed = result.cases.front().verdicts.front().maximum.temperature;
+  const double computed = result.details.front().verdicts.front().maximum.temperature;
   const auto calibrate_to = [&](double temperature) {
     result.study.study.references.front().maximum_temperature = temperature;
-    result.cases.front().verdicts.front().reference->maximum_temperature = temperature;
+    result.details.front().verdicts.front().reference->maximum_temperature = temperature;
   };
   calibrate_to(computed);
   const report::Plot met = kinds::temperature_plot(result);
@@ -139,13 +139,13 @@ TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
   EXPECT_EQ(series_named(missed, "published, fitted"), nullptr) << "the constants are of elsewhere";
   ASSERT_NE(series_named(missed, "published"), nullptr);
   EXPECT_EQ(series_named(missed, "published")->x.size(), 2u);
-  result.cases.front().input.own_conditions = false;
+  result.details.front().input.own_conditions = false;
   EXPECT_EQ(series_named(kinds::temperature_plot(result), "published"), nullptr) << "another launch";
 }
 
 TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
   CriticalGapResult result = one_case();
-  result.cases.front().critical = CriticalGap{};
+  result.details.front().critical = CriticalGap{};
   const report::Plot plot = kinds::temperature_plot(result);
   EXPECT_TRUE(plot.vertical_bands.empty());
   EXPECT_TRUE(plot.vertical_lines.empty());
@@ -154,33 +154,26 @@ TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
 
 TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
   CriticalGapResult result = run_critical_gap(
-      study_of(study_text + "peak_pressures = \"400, 450, 496 MPa\"\nflaw_sizes = \"1, 2 mm\"\n" +
+      study_of(study_text + vary({{"peak_pressure", "400, 450, 496 MPa"}, {"flaw_size", "1, 2 mm"}}) +
                synthetic_constants),
       synthetic_options());
-  ASSERT_EQ(result.cases.size(), 6u);
-  result.cases[1].critical = CriticalGap{};
+  ASSERT_EQ(result.details.size(), 6u);
+  result.answers[1].critical = CriticalGap{};
   const report::Plot temperatures = kinds::temperature_plot(result);
   EXPECT_TRUE(temperatures.vertical_lines.empty()) << "six of them would cover each other";
-  for (const CaseOutcome& outcome : result.cases)
+  for (const CaseOutcome& outcome : result.details)
     EXPECT_NE(series_named(temperatures, outcome.input.label), nullptr) << outcome.input.label;
   EXPECT_EQ(std::count_if(temperatures.series.begin(), temperatures.series.end(),
                           [](const report::Series& each) { return each.label.starts_with("ignites"); }),
             1)
       << "one entry of the legend for all";
-  const report::Plot gaps = kinds::critical_gaps_plot(result);
-  ASSERT_EQ(gaps.y.tics.size(), 6u);
-  EXPECT_EQ(gaps.y.tics.front().label, result.cases.front().input.label);
-  const report::Series* values = series_named(gaps, "computed value");
-  ASSERT_NE(values, nullptr);
-  ASSERT_EQ(values->x.size(), 5u);
-  EXPECT_EQ(values->style, report::Style::horizontal_bars);
-  EXPECT_NEAR(values->upper[0], 100.0 * result.cases[0].critical.bounds.at_most, 1e-12);
-  EXPECT_NEAR(values->lower[0], 100.0 * result.cases[0].critical.bounds.at_least, 1e-12);
-  const report::Series* unknown = series_named(gaps, "indeterminate or failed");
-  ASSERT_NE(unknown, nullptr);
-  EXPECT_EQ(unknown->y, std::vector<double>{5.0}) << "the second from the top";
-  EXPECT_NE(report::to_markdown(kinds::report_of(result)).find("critical_gaps.svg"), std::string::npos);
-  EXPECT_EQ(report::to_markdown(kinds::report_of(one_case())).find("critical_gaps.svg"), std::string::npos);
+  const auto pictures = kinds::gap_pictures(result).pictures;
+  ASSERT_EQ(pictures.size(), 2u);
+  const report::Map& map = *pictures.front().plot.map;
+  EXPECT_NEAR(map.values[0], 100.0 * result.answers[0].critical.value, 1e-12) << "400 MPa, 1 mm";
+  EXPECT_TRUE(std::isnan(map.values[3])) << "400 MPa, 2 mm";
+  EXPECT_NE(report::to_markdown(kinds::report_of(result)).find("critical_gap.svg"), std::string::npos);
+  EXPECT_EQ(report::to_markdown(kinds::report_of(one_case())).find("critical_gap.svg"), std::string::npos);
 }
 
 TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {

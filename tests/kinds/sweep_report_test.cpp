@@ -1,7 +1,6 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "report/gnuplot.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +17,6 @@ using namespace study;
 using namespace report;
 namespace {
 
-using kinds::SweepResult;
 using testing::in_order;
 
 std::size_t column_of(const Table& table, const std::string& key) {
@@ -40,8 +38,8 @@ std::string shown_text(const Cell& cell) {
 bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
 
 /// One axis of crack radii with every kind of answer.
-SweepResult one_axis() {
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0, 1e-4});
+CriticalGapResult one_axis() {
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0, 1e-4});
   file.study.axes = {axis(file, "crack_radius", "charge.crack_radius", {5e-6, 30e-6, 50e-6, 100e-6, 400e-6}),
                      axis(file, "flaw_size", "charge.flaw_size", {1e-3})};
   return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
@@ -53,7 +51,7 @@ SweepResult one_axis() {
 }
 
 TEST(SweepReport, TellsWhatEachAxisChanges) {
-  const SweepResult result = made_sweep();
+  const CriticalGapResult result = made_sweep();
   const Table table = axis_effect_table(result);
   ASSERT_EQ(table.rows.size(), 2u);
   // Among values at one crack radius: the largest difference of closed forms over the pressures.
@@ -85,7 +83,7 @@ TEST(SweepReport, EveryCaseIsARowInTheUnitsPeopleUse) {
 }
 
 TEST(SweepReport, ABoundIsNeverANumberAmongTheValues) {
-  SweepResult result = made_sweep();
+  CriticalGapResult result = made_sweep();
   // Even if someone had left a number in it.
   for (study::CaseAnswer& answer : result.answers) {
     if (answer.critical.kind != study::CriticalGapKind::value) answer.critical.value = 0.00077;
@@ -125,14 +123,14 @@ TEST(SweepReport, TheLongTableHasARowForEveryGap) {
   const Table table = verdict_table(made_sweep());
   EXPECT_EQ(table.rows.size(), 180u);
   const auto keys = keys_of(table);
-  EXPECT_EQ(
-      (std::vector<std::string>{keys.begin(), keys.begin() + 4}),
-      (std::vector<std::string>{"peak_pressure_MPa", "crack_radius_um", "gap_cm", "temperature_max_K"}));
+  EXPECT_EQ((std::vector<std::string>{keys.begin(), keys.begin() + 5}),
+            (std::vector<std::string>{"gap_cm", "peak_pressure_MPa", "crack_radius_um", "flaw_size_mm",
+                                      "temperature_max_K"}));
   EXPECT_EQ(std::get<double>(cell(table, 8, "gap_cm")), 0.039);
   EXPECT_EQ(shown_text(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
   const std::string csv = to_csv(table);
-  EXPECT_NE(csv.find("\r\n350,10,0,416.1,G1,"), std::string::npos);
-  EXPECT_NE(csv.find("\r\n450,100,0.01,NaN,"), std::string::npos);
+  EXPECT_NE(csv.find("\r\n0,350,10,0,416.1,G1,"), std::string::npos);
+  EXPECT_NE(csv.find("\r\n0.01,450,100,0,NaN,"), std::string::npos);
 }
 
 TEST(SweepReport, TheAnswerCountsAndNames) {
@@ -146,13 +144,13 @@ TEST(SweepReport, TheAnswerCountsAndNames) {
   EXPECT_NE(text.find("450 MPa, 100 um (energy drift 0.2 at 3 ms)"), std::string::npos);
   EXPECT_TRUE(in_order(text, {"5 cases", "crack bound 60"}));
   EXPECT_EQ(text.find("assumed"), std::string::npos);
-  SweepResult assumed = made_sweep();
+  CriticalGapResult assumed = made_sweep();
   assumed.study.cases.complete_with([](study::StudyCase& made) { made.numerical_uncertainty = 60; });
   EXPECT_NE(answer(assumed).find("60 K for mesh, step and scaling, assumed"), std::string::npos);
 }
 
 TEST(SweepReport, AnUncertaintyStatedByHandIsToldWithItsSource) {
-  SweepResult stated = made_sweep();
+  CriticalGapResult stated = made_sweep();
   stated.study.study.stated = {{"fit_uncertainty", 2.0, "five rows held out"}};
   EXPECT_NE(answer(stated).find("Stated by hand: fit_uncertainty 2 K, because five rows held out."),
             std::string::npos);
@@ -162,9 +160,9 @@ TEST(SweepReport, AnUncertaintyStatedByHandIsToldWithItsSource) {
 }
 
 TEST(SweepReport, ManyFailuresAreNotAllListed) {
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
   file.study.axes = {axis(file, "load.steepness", "load.steepness", {8, 9, 10, 11, 12, 13})};
-  const SweepResult result = swept(
+  const CriticalGapResult result = swept(
       std::move(file), [](const study::Study& study, const auto&) { return broken_answer(study, "broken"); });
   EXPECT_NE(answer(result).find("load.steepness 8 (broken)"), std::string::npos) << answer(result);
   EXPECT_NE(answer(result).find("and 3 more"), std::string::npos);
@@ -172,7 +170,7 @@ TEST(SweepReport, ManyFailuresAreNotAllListed) {
 }
 
 TEST(SweepReport, TheAxesTakeTheUnitInWhichTheirValuesReadBest) {
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
   const auto key_of = [&](const std::string& key, std::vector<double> values) {
     study::StudyFile one = file;
     one.study.axes = {axis(file, key, key, std::move(values))};
@@ -192,9 +190,9 @@ TEST(SweepReport, TheAxesTakeTheUnitInWhichTheirValuesReadBest) {
 }
 
 TEST(SweepReport, JsonHasAxesCountsAndCases) {
-  const SweepResult result = made_sweep();
+  const CriticalGapResult result = made_sweep();
   const auto json = json_of(result);
-  EXPECT_EQ(json["kind"], "sweep");
+  EXPECT_EQ(json["kind"], "critical-gap");
   EXPECT_EQ(json["axes"][0]["scene_key"], "load.peak");
   EXPECT_EQ(json["axes"][1]["values"][2], 30.0);
   EXPECT_EQ(json["counts"]["critical_gaps"]["value"], 31);
@@ -216,7 +214,7 @@ TEST(SweepReport, JsonHasAxesCountsAndCases) {
 // --- pictures ---
 
 TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
-  const SweepPictures made = pictures(made_sweep());
+  const GapPictures made = gap_pictures(made_sweep());
   ASSERT_EQ(made.pictures.size(), 2u);
   EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
   EXPECT_EQ(made.pictures[1].file, "safe_gap.svg");
@@ -238,7 +236,7 @@ TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
 }
 
 TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
-  const Map map = *pictures(made_sweep()).pictures.front().plot.map;
+  const Map map = *gap_pictures(made_sweep()).pictures.front().plot.map;
   ASSERT_EQ(map.hatched.size(), 5u);
   EXPECT_TRUE(map.hatched[0].cells.empty()) << "computed values";
   EXPECT_EQ(map.hatched[1].label, "> 0.1 cm (bound)");
@@ -253,9 +251,9 @@ TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
 }
 
 TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
-  SweepResult result = made_sweep();
+  CriticalGapResult result = made_sweep();
   result.answers[15].critical.bounds.at_least = 0.0;
-  const Map map = *pictures(result).pictures[1].plot.map;
+  const Map map = *gap_pictures(result).pictures[1].plot.map;
   ASSERT_EQ(map.hatched[0].cells.size(), 1u);
   EXPECT_EQ(map.hatched[0].label, "no gap surely safe");
   EXPECT_TRUE(std::isnan(map.values[map.hatched[0].cells.front()]));
@@ -263,12 +261,12 @@ TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
 
 // By hand: case 15 alone has numerics of which no record speaks.
 TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich) {
-  SweepResult result = made_sweep();
+  CriticalGapResult result = made_sweep();
   result.study.study.model_form_uncertainty = 1.0;
   result.study.cases.complete_with([](study::StudyCase& made) {
     if (made.label == "case 16") made.numerical_uncertainty_assumed = true;
   });
-  const auto maps = pictures(result).pictures;
+  const auto maps = gap_pictures(result).pictures;
   const HatchedCells& assumed = maps[1].plot.map->hatched.back();
   EXPECT_EQ(assumed.label, "computation or model form assumed");
   EXPECT_EQ(assumed.cells, std::vector<std::size_t>{2 + 6 * 3})
@@ -283,7 +281,7 @@ TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich
 }
 
 TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
-  const auto made = pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
+  const auto made = gap_pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
   ASSERT_EQ(made.pictures.size(), 6u);
   EXPECT_EQ(made.pictures[0].plot.title, "Critical gap at charge.flaw_size 0.5 mm");
   EXPECT_EQ(made.pictures[2].plot.title, "Critical gap at charge.flaw_size 2 mm");
@@ -292,14 +290,14 @@ TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
   EXPECT_TRUE(made.remarks.empty());
   std::vector<double> many;
   for (int i = 1; i <= 12; ++i) many.push_back(1e-3 * i);
-  const SweepPictures cut = pictures(made_sweep(many, "charge.flaw_size"));
+  const GapPictures cut = gap_pictures(made_sweep(many, "charge.flaw_size"));
   EXPECT_EQ(cut.pictures.size(), 18u);
   ASSERT_EQ(cut.remarks.size(), 1u);
   EXPECT_NE(cut.remarks[0].find("9 of the 12"), std::string::npos);
 }
 
 TEST(SweepPictures, OneAxisMakesACurveWithErrorBarsAndBounds) {
-  const SweepPictures made = pictures(one_axis());
+  const GapPictures made = gap_pictures(one_axis());
   ASSERT_EQ(made.pictures.size(), 1u);
   EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
   const Plot& curve = made.pictures[0].plot;
@@ -319,11 +317,11 @@ TEST(SweepPictures, OneAxisMakesACurveWithErrorBarsAndBounds) {
 }
 
 TEST(SweepPictures, SingleValuesMakeNoPicture) {
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), {0});
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
   file.study.axes = {axis(file, "peak_pressure", "load.peak", {496e6})};
-  const SweepResult result = swept(
+  const CriticalGapResult result = swept(
       std::move(file), [](const study::Study& study, const auto&) { return value_answer(study, 4e-4); });
-  const SweepPictures made = pictures(result);
+  const GapPictures made = gap_pictures(result);
   EXPECT_TRUE(made.pictures.empty());
   const Folder folder;
   const auto written = write_report(report_of(result), folder.path);
@@ -335,7 +333,7 @@ TEST(SweepPictures, SingleValuesMakeNoPicture) {
 
 TEST(SweepReport, WritesItsFiles) {
   const Folder folder;
-  const SweepResult result = made_sweep({1e-3, 2e-3}, "charge.flaw_size");
+  const CriticalGapResult result = made_sweep({1e-3, 2e-3}, "charge.flaw_size");
   const auto written = write_report(report_of(result), folder.path);
   ASSERT_TRUE(written) << written.error().message;
   for (const std::string& name : written->files)
@@ -355,7 +353,7 @@ TEST(SweepReport, WritesItsFiles) {
 
 TEST(SweepReport, NothingInTheFilesDependsOnTheRun) {
   const Folder folder;
-  SweepResult result = made_sweep();
+  CriticalGapResult result = made_sweep();
   const auto first = write_report(report_of(result), folder.path / "first");
   result.timing = {99.0, 7, 29, 3e9, 88.0, 16};
   const auto second = write_report(report_of(result), folder.path / "second");
@@ -366,12 +364,12 @@ TEST(SweepReport, NothingInTheFilesDependsOnTheRun) {
 }
 
 /// 15 pressures and 14 crack radii on 100 gaps.
-SweepResult large_sweep() {
+CriticalGapResult large_sweep() {
   std::vector<double> gaps, first, second;
   for (int i = 0; i < 100; ++i) gaps.push_back(1e-5 * i);
   for (int i = 0; i < 15; ++i) first.push_back(300e6 + 10e6 * i);
   for (int i = 0; i < 14; ++i) second.push_back(10e-6 + 5e-6 * i);
-  study::StudyFile file = bare_study(kinds::traits_of("sweep"), gaps);
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), gaps);
   file.study.axes = {axis(file, "peak_pressure", "load.peak", first),
                      axis(file, "crack_radius", "charge.crack_radius", second)};
   return swept(std::move(file), [](const study::Study& study, const std::vector<double>& place) {
@@ -380,7 +378,7 @@ SweepResult large_sweep() {
 }
 
 TEST(SweepReport, LongTablesAreCutOnThePage) {
-  const SweepResult result = large_sweep();
+  const CriticalGapResult result = large_sweep();
   const std::string page = to_markdown(report_of(result));
   EXPECT_TRUE(in_order(page, {"200 of 210 rows", "critical\\_gaps.csv"}));
   EXPECT_TRUE(in_order(page, {"verdicts at 100 gaps"}));

@@ -1,5 +1,4 @@
-#include "launchsafe/kinds/sweep.hpp"
-
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/forecast.hpp"
@@ -26,32 +25,39 @@ bool any_failed(const std::vector<CaseAnswer>& answers) {
   return !std::ranges::all_of(answers, &CaseAnswer::completed);
 }
 
-/// `synthetic_constants` without those that the axes vary.
-std::string constants_beside(const std::string& axes) {
+/// What varies: keys and their values.
+using Varied = std::vector<std::pair<std::string, std::string>>;
+
+/// `synthetic_constants` without those that vary.
+std::string constants_beside(const Varied& varied) {
   std::string text;
   std::istringstream lines(synthetic_constants);
-  for (std::string line; std::getline(lines, line);) {
-    if (axes.find(line.substr(0, line.find(' '))) == std::string::npos) text += line + '\n';
-  }
+  for (std::string line; std::getline(lines, line);)
+    if (std::ranges::find(varied, line.substr(0, line.find(' ')), &Varied::value_type::first) == varied.end())
+      text += line + '\n';
   return text;
 }
 
-std::string text_of_sweep(const std::string& axes, const std::string& more = {}) {
-  return "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nlargest_gap = \"0.2 cm\"\n"
-         "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
-         synthetic_statements +
-         "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
-         "launch\" },"
-         " { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds are "
-         "sought\" "
-         "}]\n" +
-         more + "[axes]\n" + axes + constants_beside(axes);
+/// A sweep, answered as one of many cases however few it has.
+StudyFile sweep_of(const std::string& gaps, const Varied& varied, const std::string& largest_gap = "0.2 cm",
+                   const std::string& more = {}) {
+  return lean_study_of(
+      "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
+      "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
+      "are "
+      "sought\" }]\ngaps = \"" +
+      gaps + "\"\n" + vary(varied) + constants_beside(varied) + more);
 }
 
 /// Two pressures, two crack radii, and two exchange times, which are no matter of the mechanics.
-const std::string two_by_two_by_two =
-    "gap = \"0, 0.02, 0.04 cm\"\npeak_pressure = \"400, 496 MPa\"\ncrack_radius = \"10, 100 um\"\n"
-    "\"gap.exchange_time\" = \"0.225, 0.3 ms\"\n";
+Varied two_by_two_by_two(const std::string& times = "0.225, 0.3 ms") {
+  return {{"peak_pressure", "400, 496 MPa"}, {"crack_radius", "10, 100 um"}, {"gap.exchange_time", times}};
+}
+StudyFile two_by_two_by_two_of(const std::string& times = "0.225, 0.3 ms") {
+  return sweep_of("0, 0.02, 0.04 cm", two_by_two_by_two(times));
+}
 
 /// The synthetic launch, counting its runs by peak pressure.
 class Counting {
@@ -89,17 +95,17 @@ class Counting {
   std::map<double, int> runs_;
 };
 
-std::vector<std::string> lines_of(const SweepResult& result) {
+std::vector<std::string> lines_of(const CriticalGapResult& result) {
   std::vector<std::string> lines;
   for (const CaseAnswer& answer : result.answers) lines.push_back(bytes_of(answer));
   return lines;
 }
 
 TEST(Sweep, CasesThatDifferInThermalKeysShareOneMechanicalRun) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   ASSERT_EQ(study.cases.size(), 8u);
   Counting counting;
-  const SweepResult result = run_sweep(study, counting.options());
+  const CriticalGapResult result = run_critical_gap(study, counting.options());
   EXPECT_EQ(counting.runs(), 4);
   EXPECT_EQ(result.timing.runs, 4u);
   EXPECT_FALSE(any_failed(result.answers));
@@ -112,14 +118,14 @@ TEST(Sweep, CasesThatDifferInThermalKeysShareOneMechanicalRun) {
 }
 
 TEST(Sweep, IsTheSameWithAnyNumberOfJobs) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   Counting counting;
-  EXPECT_EQ(lines_of(run_sweep(study, counting.options(1))), lines_of(run_sweep(study, counting.options(4))));
+  EXPECT_EQ(lines_of(run_critical_gap(study, counting.options(1))),
+            lines_of(run_critical_gap(study, counting.options(4))));
 }
 
 TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
-  const StudyFile study =
-      study_of(text_of_sweep("gap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496, 550, 600 MPa\"\n"));
+  const StudyFile study = sweep_of("0, 0.02 cm", {{"peak_pressure", "400, 496, 550, 600 MPa"}});
   Counting counting;
   counting.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 496e6) throw std::bad_alloc();
@@ -130,7 +136,7 @@ TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
     }
     return result;
   };
-  const SweepResult result = run_sweep(study, counting.options());
+  const CriticalGapResult result = run_critical_gap(study, counting.options());
   EXPECT_TRUE(any_failed(result.answers));
   EXPECT_TRUE(result.answers[0].completed());
   EXPECT_EQ(result.answers[1].failure, "the run failed: std::bad_alloc");
@@ -144,12 +150,10 @@ TEST(Sweep, AFailingCaseIsItsRowAndNoOther) {
 }
 
 TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
-  std::string text =
-      text_of_sweep("gap = \"0, 0.01 cm\"\nkinetics.ignition_temperature = \"400, 425, 700 K\"\n");
-  text.replace(text.find("0.2 cm"), 6, "0.02 cm");
-  const StudyFile study = study_of(text);
+  const StudyFile study =
+      sweep_of("0, 0.01 cm", {{"kinetics.ignition_temperature", "400, 425, 700 K"}}, "0.02 cm");
   Counting counting;
-  const SweepResult result = run_sweep(study, counting.options());
+  const CriticalGapResult result = run_critical_gap(study, counting.options());
   EXPECT_EQ(result.answers[0].critical.kind, CriticalGapKind::all_ignite);
   EXPECT_EQ(result.answers[1].critical.kind, CriticalGapKind::value);
   EXPECT_EQ(result.answers[2].critical.kind, CriticalGapKind::all_safe);
@@ -165,15 +169,15 @@ TEST(Sweep, BracketsWithoutAChangeAreBoundsAndNoNumbers) {
 /// Sweeps with a store in a folder of the test's own.
 class StoredSweep : public launchsafe::testing::TemporaryFolder {
  protected:
-  SweepResult run(const StudyFile& study, Counting& counting, Shard shard = {},
-                  double time_limit = std::numeric_limits<double>::infinity()) {
+  CriticalGapResult run(const StudyFile& study, Counting& counting, Shard shard = {},
+                        double time_limit = std::numeric_limits<double>::infinity()) {
     auto store = store::CaseStore::open(folder() / "results", {shard.part(), run::model_version, {}});
     EXPECT_TRUE(store) << (store ? "" : store.error().message);
     StudyOptions options = counting.options();
     options.store = store->get();
     options.shard = shard;
     options.time_limit = time_limit;
-    SweepResult result = run_sweep(study, options);
+    CriticalGapResult result = run_critical_gap(study, options);
     remarks_ = (*store)->remarks();
     EXPECT_FALSE((*store)->flush());
     return result;
@@ -197,10 +201,10 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
 };
 
 TEST_F(StoredSweep, ComputesNothingASecondTime) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   Counting first, second;
   const auto fresh = lines_of(run(study, first));
-  const SweepResult again = run(study, second);
+  const CriticalGapResult again = run(study, second);
   EXPECT_EQ(first.runs(), 4);
   EXPECT_EQ(second.runs(), 0);
   EXPECT_EQ(again.timing.runs, 0u);
@@ -211,45 +215,44 @@ TEST_F(StoredSweep, ComputesNothingASecondTime) {
 
 TEST_F(StoredSweep, JudgesNewThermalValuesOnStoredRuns) {
   Counting first, second;
-  run(study_of(text_of_sweep(two_by_two_by_two)), first);
-  std::string other = two_by_two_by_two;
-  other.replace(other.find("0.225, 0.3 ms"), 13, "0.225, 0.35 ms");
-  const SweepResult result = run(study_of(text_of_sweep(other)), second);
+  run(two_by_two_by_two_of(), first);
+  const StudyFile other = two_by_two_by_two_of("0.225, 0.35 ms");
+  const CriticalGapResult result = run(other, second);
   EXPECT_EQ(second.runs(), 0);
   Counting unstored;
-  EXPECT_EQ(lines_of(result), lines_of(run_sweep(study_of(text_of_sweep(other)), unstored.options())));
+  EXPECT_EQ(lines_of(result), lines_of(run_critical_gap(other, unstored.options())));
 }
 
 // A row that the constants were calibrated on and that is missed costs 60 K of uncertainty; whether it counts
 // as missed hangs on whether it ignited in the reference.
 TEST_F(StoredSweep, NeverUsesAnAnswerThatOtherReferencesLedTo) {
   const auto with_reference = [](const std::string& more) {
-    return study_of(text_of_sweep("gap = \"0, 0.02 cm\"\n") +
-                    "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416.1 K\"\ncalibrated = true\n" +
-                    more);
+    return sweep_of(
+        "0, 0.02 cm", {}, "0.2 cm",
+        "[[reference]]\ngap = \"0 cm\"\nmaximum_temperature = \"416.1 K\"\ncalibrated = true\n" + more);
   };
   const StudyFile met = with_reference(""), ignited = with_reference("ignition_time = \"17 ms\"\n");
   Counting first, second, fresh;
   run(met, first);
-  const SweepResult stored = run(ignited, second);
+  const CriticalGapResult stored = run(ignited, second);
   EXPECT_EQ(second.runs(), 0);
-  EXPECT_EQ(lines_of(stored), lines_of(run_sweep(ignited, fresh.options())));
-  EXPECT_NE(lines_of(stored), lines_of(run_sweep(met, fresh.options())));
+  EXPECT_EQ(lines_of(stored), lines_of(run_critical_gap(ignited, fresh.options())));
+  EXPECT_NE(lines_of(stored), lines_of(run_critical_gap(met, fresh.options())));
 }
 
 TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
-  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496, 550 MPa\"\n"));
+  const StudyFile study = sweep_of("0 cm", {{"peak_pressure", "400, 496, 550 MPa"}});
   Counting first, second;
   first.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 400e6) throw std::bad_alloc();
     return synthetic_mechanics(scene);
   };
-  run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), first);
+  run(sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}), first);
   auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
   StudyOptions options = second.options();
   options.store = store->get();
   options.compute = false;
-  const SweepResult result = run_sweep(study, options);
+  const CriticalGapResult result = run_critical_gap(study, options);
   EXPECT_EQ(second.runs(), 0);
   EXPECT_EQ(result.answers[0].failure, "the run failed: std::bad_alloc");  // as it would say by itself
   EXPECT_TRUE(result.answers[1].completed());
@@ -260,12 +263,12 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
 }
 
 TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   Counting first, second;
   const auto fresh = lines_of(run(study, first));
   const auto damaged = case_files().front();
   std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) / 2);
-  const SweepResult again = run(study, second);
+  const CriticalGapResult again = run(study, second);
   EXPECT_EQ(second.runs(), 1);
   EXPECT_EQ(lines_of(again), fresh);
   ASSERT_FALSE(remarks_.empty());
@@ -273,7 +276,7 @@ TEST_F(StoredSweep, ComputesADamagedCaseAgain) {
 }
 
 TEST_F(StoredSweep, KeepsARunThatDriftedButTriesOneThatThrewAgain) {
-  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
+  const StudyFile study = sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}});
   Counting first, second;
   first.outcome = [](const scene::Scene& scene) {
     if (scene.load.peak == 400e6) throw std::bad_alloc();
@@ -282,7 +285,7 @@ TEST_F(StoredSweep, KeepsARunThatDriftedButTriesOneThatThrewAgain) {
     return result;
   };
   run(study, first);
-  const SweepResult again = run(study, second);
+  const CriticalGapResult again = run(study, second);
   EXPECT_EQ(second.runs_at(400e6), 1);
   EXPECT_EQ(second.runs_at(496e6), 0);
   EXPECT_TRUE(again.answers[0].completed());
@@ -290,7 +293,7 @@ TEST_F(StoredSweep, KeepsARunThatDriftedButTriesOneThatThrewAgain) {
 }
 
 TEST_F(StoredSweep, TriesATimedOutCaseAgainOnlyUnderALongerLimit) {
-  const StudyFile study = study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n"));
+  const StudyFile study = sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}});
   const auto slow = [](const scene::Scene& scene) {
     run::MechanicsResult result = synthetic_mechanics(scene);
     if (scene.load.peak == 496e6) {
@@ -309,13 +312,13 @@ TEST_F(StoredSweep, TriesATimedOutCaseAgainOnlyUnderALongerLimit) {
 }
 
 TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   Counting whole, merged;
-  const auto expected = lines_of(run_sweep(study, whole.options()));
+  const auto expected = lines_of(run_critical_gap(study, whole.options()));
   int runs = 0;
   for (int index = 1; index <= 3; ++index) {
     Counting counting;
-    const SweepResult part = run(study, counting, {index, 3});
+    const CriticalGapResult part = run(study, counting, {index, 3});
     EXPECT_TRUE(any_failed(part.answers));  // the rows of the other shards
     runs += counting.runs();
   }
@@ -325,7 +328,7 @@ TEST_F(StoredSweep, ShardsTogetherAreTheWhole) {
 }
 
 TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
-  const StudyFile study = study_of(text_of_sweep(two_by_two_by_two));
+  const StudyFile study = two_by_two_by_two_of();
   StudyOptions unstored;
   unstored.jobs = 2;
   const Forecast before = forecast_study(study, unstored, 1e6);
@@ -353,10 +356,10 @@ TEST_F(StoredSweep, ForeseesWhatHasToRunAndWhy) {
 
 TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
   Counting counting;
-  run(study_of(text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n")), counting);
-  const std::string finer =
-      text_of_sweep("gap = \"0 cm\"\npeak_pressure = \"400, 496 MPa\"\n") + "numerics.cell_size = \"1 mm\"\n";
-  const Forecast forecast = foresee_in_store(study_of(finer));
+  run(sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}), counting);
+  const StudyFile finer =
+      sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}, "0.2 cm", "numerics.cell_size = \"1 mm\"\n");
+  const Forecast forecast = foresee_in_store(finer);
   ASSERT_EQ(forecast.runs.size(), 2u);
   for (const ForecastRun& each : forecast.runs) {
     EXPECT_FALSE(each.stored);

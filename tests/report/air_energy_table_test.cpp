@@ -2,7 +2,6 @@
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -82,10 +81,10 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   const auto json = json_of(result);
   EXPECT_GT(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
   EXPECT_NEAR(json["verdicts"][1]["skin_took_kJ_per_m2"].get<double>(),
-              1e-3 * result.cases[0].verdicts[1].air.taken, 1e-12);
+              1e-3 * result.details[0].verdicts[1].air.taken, 1e-12);
   ASSERT_EQ(json["cited_limits"].size(), 1u);
   EXPECT_NEAR(json["cited_limits"][0]["difference_cm"].get<double>(),
-              100.0 * result.cases[0].critical.value - 0.038, 1e-12);
+              100.0 * result.details[0].critical.value - 0.038, 1e-12);
   EXPECT_TRUE(says(to_csv(verdict_table(result)), "skin_took_kJ_per_m2,compression_supplies_kJ_per_m2"));
 }
 
@@ -97,7 +96,7 @@ TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
 }
 
 TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
-  kinds::SweepResult result = made_sweep();
+  kinds::CriticalGapResult result = made_sweep();
   EXPECT_FALSE(has_digits(critical_gap_table(result).notes.back()));
   result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
   result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
@@ -108,7 +107,7 @@ TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
 
 // The made sweep has 496 MPa and 30 um, the scene's own, with 0.0395 cm, and no 506 MPa.
 TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
-  kinds::SweepResult result = made_sweep();
+  kinds::CriticalGapResult result = made_sweep();
   result.study.cases.complete_with([](study::StudyCase& made) {
     made.peak_pressure = made.coordinates[0];
     made.crack_radius = made.coordinates[1];

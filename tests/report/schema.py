@@ -95,7 +95,8 @@ def main():
                 by_kind.setdefault(json.loads(study.read_text())["kind"], manifest.parent)
         main_job = source / "reports/critical_gap_155mm"
         by_kind["critical-gap"], by_kind["accuracy"] = main_job, source / "reports/accuracy"
-        together = [by_kind[kind] for kind in ("critical-gap", "accuracy", "sweep", "sensitivity", "stability")]
+        together = [by_kind[kind] for kind in ("critical-gap", "accuracy", "sensitivity", "stability")]
+        together.append(source / "reports/sweep_pressure_defect")
         reports = {kind: [study] for kind, study in by_kind.items()}
         reports["several kinds"] = together
         reports["several kinds under a criterion"] = together + CRITERION

@@ -234,19 +234,19 @@ TEST_F(RecordedStudy, AssumesTheUsualWhereTheReferenceHasTheSameError) {
 /// Studies of other launches and what they get: at least the recorded bound, grown within some range.
 TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
   struct Expected {
-    const char* keys;
+    std::string keys;
     double uncertainty;  // K
   };
   const double own = own_bound, assumed = assumed_numerical_uncertainty;
-  const Expected launches[] = {{"peak_pressures = \"300 MPa\"\n", own},
-                               {"peak_pressures = \"595.2 MPa\"\n", own * 1.44},  // 1.2 squared
-                               {"peak_pressures = \"650 MPa\"\n", assumed},
-                               {"peak_pressures = \"500 MPa\"\ncrack_radii = \"3000 um\"\n", assumed},
-                               {"crack_radii = \"10 um\"\n", own},
-                               {"crack_radii = \"60 um\"\n", own * std::sqrt(2.0)},
-                               {"flaw_sizes = \"0.5 mm\"\n", own * std::sqrt(2.0)},
-                               {"crack_radii = \"100 um\"\n", assumed},
-                               {"flaw_sizes = \"0.1 mm\"\n", assumed},
+  const Expected launches[] = {{vary({{"peak_pressure", "300 MPa"}}), own},
+                               {vary({{"peak_pressure", "595.2 MPa"}}), own * 1.44},  // 1.2 squared
+                               {vary({{"peak_pressure", "650 MPa"}}), assumed},
+                               {vary({{"peak_pressure", "500 MPa"}, {"crack_radius", "3000 um"}}), assumed},
+                               {vary({{"crack_radius", "10 um"}}), own},
+                               {vary({{"crack_radius", "60 um"}}), own * std::sqrt(2.0)},
+                               {vary({{"flaw_size", "0.5 mm"}}), own * std::sqrt(2.0)},
+                               {vary({{"crack_radius", "100 um"}}), assumed},
+                               {vary({{"flaw_size", "0.1 mm"}}), assumed},
                                {"gaps = \"0, 0.2 cm\"\n", own},
                                {"[set]\nload.steepness = 1.5\n", own},
                                {"[set]\nload.width = \"1 ms\"\nload.muzzle_exit = \"14 ms\"\n", assumed},
@@ -287,7 +287,7 @@ TEST_F(RecordedStudy, AGrownBoundBeyondTheRangeIsNotReplacedByASmallerAssumption
   write(record);
   const double bound = record.settings[2].temperature_bound;
   ASSERT_GT(bound, assumed_numerical_uncertainty);
-  const StudyFile study = read(record_key + "peak_pressures = \"992 MPa\"\n");
+  const StudyFile study = read(record_key + vary({{"peak_pressure", "992 MPa"}}));
   EXPECT_NEAR(study.cases.front().numerical_uncertainty, 4.0 * bound, 1e-3);
   EXPECT_TRUE(numerical_uncertainty_of(study).assumed);
 }

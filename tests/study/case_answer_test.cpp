@@ -27,7 +27,7 @@ TEST(CaseAnswer, SaysWhatTheCriticalGapStudySays) {
   const StudyFile study = six_gaps();
   const CaseAnswer answer = answer_to(study);
   const CriticalGapResult whole = run_critical_gap(study, synthetic_options());
-  const CaseOutcome& outcome = whole.cases.front();
+  const CaseOutcome& outcome = whole.details.front();
   EXPECT_EQ(answer.critical.kind, CriticalGapKind::value);
   EXPECT_EQ(answer.critical.value, outcome.critical.value);
   EXPECT_EQ(answer.critical.bounds.at_least, outcome.critical.bounds.at_least);

@@ -3,7 +3,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/sweep.hpp"
 #include "launchsafe/study/as_calibrated.hpp"
 #include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/case_answer.hpp"
@@ -71,7 +70,7 @@ const std::string stated =
 GapVerdict first_row(const std::string& text) {
   const CriticalGapResult result =
       run_critical_gap(study_of(critical_kind + no_confirmation + text), quadratic_options());
-  return result.cases.at(0).verdicts.at(0);
+  return result.details.at(0).verdicts.at(0);
 }
 
 TEST(CaseUncertainty, StatedSharesAreTakenOnTheRowsOfTheCalibration) {
@@ -91,7 +90,7 @@ GapVerdict row_with(const std::vector<run::InterfaceResult>& interfaces, std::si
     return result;
   };
   return run_critical_gap(study_of(critical_kind + no_confirmation + stated), options)
-      .cases.at(0)
+      .details.at(0)
       .verdicts.at(row);
 }
 
@@ -159,9 +158,9 @@ TEST(CaseUncertainty, SilenceAboutTheInputsPropagatesAnAssumedSpread) {
   std::ranges::sort(peaks);  // the launch, without its muzzle exit, and raised
   EXPECT_EQ(peaks, (std::vector<double>{496e6, 496e6, 1.04 * 496e6}));
   EXPECT_EQ(result.timing.runs, 3u);
-  const GapVerdict& row = result.cases.at(0).verdicts.at(0);
+  const GapVerdict& row = result.details.at(0).verdicts.at(0);
   EXPECT_NEAR(row.uncertainty.input, std::hypot(0.0816 * 116.1, 12.0), 1e-2);
-  EXPECT_GT(result.cases[0].verdicts[1].uncertainty.input, row.uncertainty.input);  // hotter air too
+  EXPECT_GT(result.details[0].verdicts[1].uncertainty.input, row.uncertainty.input);  // hotter air too
 }
 
 TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
@@ -172,7 +171,7 @@ TEST(CaseUncertainty, ARaisedLoadThatCannotBeComputedLeavesNothingSafe) {
     return result;
   };
   const CriticalGapResult result = run_critical_gap(study_of(critical_kind + no_confirmation), options);
-  for (const GapVerdict& row : result.cases.at(0).verdicts) {
+  for (const GapVerdict& row : result.details.at(0).verdicts) {
     EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate);
     EXPECT_NE(row.judgement.reason.find("energy drift"), std::string::npos) << row.judgement.reason;
   }
@@ -184,13 +183,13 @@ TEST(CaseUncertainty, TheErrorOfTheConstantsGrowsWithTheHeat) {
   const GapVerdict row = first_row(stated +
                                    "accept = [{ key = \"model_form.pressure\", value = \"600 to 610 MPa\", "
                                    "because = \"a test of the rule\" }]\n" +
-                                   fmt::format("peak_pressures = \"{} MPa\"\n", pressure));
+                                   vary({{"peak_pressure", fmt::format("{} MPa", pressure)}}));
   EXPECT_NEAR(row.uncertainty.fit, 1.5 * 2.0, 5e-3);
   EXPECT_NEAR(row.uncertainty.input, 1.5 * 1.5 * 3.0, 1e-6);  // the fourth power of the pressure
   EXPECT_NE(row.judgement.reason.find("extrapolated: peak pressure"), std::string::npos)
       << row.judgement.reason;
   // and never falls below what was stated
-  EXPECT_EQ(first_row(stated + "peak_pressures = \"250 MPa\"\n").uncertainty.fit, 2.0);
+  EXPECT_EQ(first_row(stated + vary({{"peak_pressure", "250 MPa"}})).uncertainty.fit, 2.0);
 }
 
 /// What is assumed of other models is of the calibrated launch, whatever peak the study's scene has.
@@ -200,7 +199,7 @@ TEST(CaseUncertainty, TheAssumedModelFormGrowsFromTheCalibratedPeak) {
       "K\", because = \"for a test\" }\nnumerical_uncertainty = { value = \"4 K\", because = \"for a test\" "
       "}\n";
   const double grown = assumed_model_form * std::pow(530.0 / 496.0, 4);
-  EXPECT_NEAR(first_row(rest + "peak_pressures = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
+  EXPECT_NEAR(first_row(rest + vary({{"peak_pressure", "530 MPa"}})).uncertainty.model_form, grown, 1e-6);
   EXPECT_NEAR(first_row(rest + "[set]\nload.peak = \"530 MPa\"\n").uncertainty.model_form, grown, 1e-6);
 }
 
@@ -222,7 +221,7 @@ TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
   scene::Load load = study.cases[0].scene.scene.load;
   const auto under_load = [&] {
     change_case(study, 0, [&](StudyCase& input) { input.scene.scene.load = load; });
-    return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts.at(0);
+    return run_critical_gap(study, quadratic_options()).details.at(0).verdicts.at(0);
   };
   scene::Load clean;
   clean.steepness = 2.0;             // a round peak, from which an average takes little
@@ -256,7 +255,7 @@ TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
         accept_all(study);
       }
       const CriticalGapResult result = run_critical_gap(study, quadratic_options());
-      const GapVerdict& row = result.cases.at(0).verdicts.at(0);
+      const GapVerdict& row = result.details.at(0).verdicts.at(0);
       EXPECT_NE(row.judgement.reason.find("extrapolated"), std::string::npos) << row.judgement.reason;
       EXPECT_EQ(row.judgement.verdict, accepted ? Verdict::safe : Verdict::indeterminate)
           << change << row.judgement.reason;
@@ -273,7 +272,7 @@ TEST(CaseUncertainty, WhatOnlyAveragesOrRemovesHeatIsNeverSafe) {
     StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
     accept_all(study);
     const CriticalGapResult result = run_critical_gap(study, quadratic_options());
-    const Judgement& judgement = result.cases.at(0).verdicts.at(0).judgement;
+    const Judgement& judgement = result.details.at(0).verdicts.at(0).judgement;
     EXPECT_EQ(judgement.verdict, Verdict::indeterminate) << change << judgement.reason;
     EXPECT_NE(judgement.reason.find("only averages or removes heat"), std::string::npos) << judgement.reason;
   }
@@ -284,7 +283,7 @@ TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibrate
   const auto rows_with = [](const std::string& change) {
     StudyFile study = study_of(critical_kind + no_confirmation + stated + "[set]\n" + change);
     accept_all(study);
-    return run_critical_gap(study, quadratic_options()).cases.at(0).verdicts;
+    return run_critical_gap(study, quadratic_options()).details.at(0).verdicts;
   };
   const std::vector<GapVerdict> own = rows_with("");
   for (const std::string change : {"friction.localisation = 700", "charge.specific_heat = \"4000 J/(kg K)\"",
@@ -318,7 +317,7 @@ TEST(CaseUncertainty, TheLocalisationMakesUpForTheSlidingFrictionOfATrace) {
 TEST(CaseUncertainty, AGapThatIgnitesIsUnsafeWhateverNobodyAccepts) {
   const StudyFile study = study_of(critical_kind + "confirm = false\ngaps = \"0, 0.1 cm\"\n" + stated +
                                    "[set]\nstation.width = \"7 mm\"\n");
-  const CaseOutcome outcome = run_critical_gap(study, quadratic_options()).cases.at(0);
+  const CaseOutcome outcome = run_critical_gap(study, quadratic_options()).details.at(0);
   ASSERT_TRUE(outcome.verdicts.at(1).ignition);
   EXPECT_EQ(outcome.verdicts[0].judgement.verdict, Verdict::indeterminate);
   EXPECT_EQ(outcome.verdicts[1].judgement.verdict, Verdict::unsafe);
@@ -330,8 +329,8 @@ TEST(CaseUncertainty, AGapThatIgnitesIsUnsafeWhateverNobodyAccepts) {
 
 TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
   const StudyFile study = study_of(
-      "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngap = \"0.02 cm\"\nsamples = 16\n"
-      "input = [{ key = \"friction.localisation\", distribution = \"uniform\", range = \"700 to 900\" }]\n");
+      "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngaps = \"0.02 cm\"\nsamples = 16\n"
+      "vary = [{ key = \"friction.localisation\", distribution = \"uniform\", range = \"700 to 900\" }]\n");
   const CaseAnswer answer =
       answer_of(study.study, study.cases[0], quadratic_launch(study.cases[0].scene.scene));
   EXPECT_EQ(answer.verdicts.at(0).uncertainty.fit, 0.0);
@@ -340,10 +339,11 @@ TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
 
 TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {
   const std::string text =
-      "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"1 K\", because = "
-      "\"for a test\" }\nfit_uncertainty = { value = \"2 K\", because = \"for a test\" }\n"
-      "[axes]\ngap = \"0, 0.02 cm\"\npeak_pressure = \"400, 496 MPa\"\n";
-  const SweepResult result = run_sweep(study_of(text), quadratic_options());
+      critical_kind +
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "fit_uncertainty = { value = \"2 K\", because = \"for a test\" }\ngaps = \"0, 0.02 cm\"\n" +
+      vary({{"peak_pressure", "400, 496 MPa"}});
+  const CriticalGapResult result = run_critical_gap(lean_study_of(text), quadratic_options());
   EXPECT_EQ(result.timing.runs, 4u);
   EXPECT_NEAR(result.answers.at(1).verdicts.at(0).uncertainty.input, std::hypot(0.0816 * 116.1, 12.0), 1e-2);
 }

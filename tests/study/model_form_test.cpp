@@ -222,7 +222,7 @@ GapVerdict verdict_with(const std::string& gap, const std::string& statement, co
                "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\nconfirm = false\n" +
                statement + "gaps = \"" + gap + " cm\"\n" + synthetic_constants);
   if (record != nullptr) study.study.model_form = *record;
-  return run_critical_gap(study, synthetic_options()).cases.at(0).verdicts.at(0);
+  return run_critical_gap(study, synthetic_options()).details.at(0).verdicts.at(0);
 }
 
 // Of the record that ships.

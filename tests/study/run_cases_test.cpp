@@ -17,14 +17,7 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::study;
 
-const std::string two_cases = critical_text + "peak_pressures = \"450, 496 MPa\"\n";
-
-/// A study whose launches are not run without their muzzle exit.
-StudyFile plain_study(const std::string& text) {
-  StudyFile study = study_of(text);
-  study.study.kind.runs_longer_launches = false;
-  return study;
-}
+const std::string two_cases = critical_text + vary({{"peak_pressure", "450, 496 MPa"}});
 
 /// What became of every run of a study's cases: label and outcome.
 std::map<std::string, RunOutcome> outcomes_of(const StudyFile& study, const StudyOptions& options) {
@@ -50,7 +43,7 @@ std::size_t count(const std::map<std::string, RunOutcome>& outcomes, RunOutcome 
 }
 
 TEST(RunCases, EveryCaseIsJudgedOnce) {
-  const auto outcomes = outcomes_of(plain_study(two_cases), synthetic_options());
+  const auto outcomes = outcomes_of(lean_study_of(two_cases), synthetic_options());
   EXPECT_EQ(outcomes.size(), 2u);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 2u);
 }
@@ -63,11 +56,12 @@ TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
     if (key.kind != scene::KeyKind::number || key.name == "load.peak") continue;
     const double usual = std::get<double>(key.get(calibration_scene()));
     const double other = key.dimension == scene::Dimension::count ? 1.0 : 0.01 * usual;
-    const auto study = parse_here(fmt::format(
-        "kind = \"sweep\"\nscene = \"scene_155mm.toml\"\n[axes]\ngap = \"0.1 mm\"\n\"{}\" = [\"{}\", "
-        "\"{}\"]\npeak_pressure = \"450, 496 MPa\"\n",
-        key.name, scene::format_value(key, usual), scene::format_value(key, usual + other)));
+    auto study = parse_here(critical_kind + "gaps = \"0.1 mm\"\n" +
+                            vary({{key.name, fmt::format("[\"{}\", \"{}\"]", scene::format_value(key, usual),
+                                                         scene::format_value(key, usual + other))},
+                                  {"peak_pressure", "450, 496 MPa"}}));
     if (!study) continue;  // no other value of it stands beside the rest of the scene
+    study->in_detail = false;
     ++tried;
     std::set<std::string> hashes;
     for (const CaseRuns& each : case_runs(*study, 1)) {
@@ -85,7 +79,7 @@ TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
 }
 
 TEST(RunCases, RunsUnderARaisedLoadBelongToTheirCase) {
-  const StudyFile study = plain_study(critical_kind + "peak_pressures = \"450, 496 MPa\"\n");
+  const StudyFile study = lean_study_of(critical_kind + vary({{"peak_pressure", "450, 496 MPa"}}));
   const std::vector<CaseRuns> cases = case_runs(study, 1);
   ASSERT_EQ(cases.size(), 2u);
   for (const CaseRuns& each : cases) {
@@ -120,7 +114,7 @@ TEST(RunCases, ALaunchIsAlsoRunForLonger) {
 TEST(RunCases, ACaseOfAnotherShardIsNotRun) {
   StudyOptions options = synthetic_options();
   options.shard = {1, 2};
-  const auto outcomes = outcomes_of(plain_study(two_cases), options);
+  const auto outcomes = outcomes_of(lean_study_of(two_cases), options);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
   EXPECT_EQ(count(outcomes, RunOutcome::other_shard), 1u);
 }
@@ -128,7 +122,7 @@ TEST(RunCases, ACaseOfAnotherShardIsNotRun) {
 TEST(RunCases, ARunThatIsTooLargeIsRefusedAndTheOthersRun) {
   StudyOptions options = synthetic_options();
   options.memory_limit = 1.0;  // byte
-  EXPECT_EQ(count(outcomes_of(plain_study(two_cases), options), RunOutcome::refused), 2u);
+  EXPECT_EQ(count(outcomes_of(lean_study_of(two_cases), options), RunOutcome::refused), 2u);
 }
 
 TEST(RunCases, ARunThatThrowsIsFailedAlone) {
@@ -138,7 +132,7 @@ TEST(RunCases, ARunThatThrowsIsFailedAlone) {
     if (scene.load.peak < 460e6) throw std::runtime_error("no memory");
     return run(scene, of_run);
   };
-  const auto outcomes = outcomes_of(plain_study(two_cases), options);
+  const auto outcomes = outcomes_of(lean_study_of(two_cases), options);
   EXPECT_EQ(count(outcomes, RunOutcome::failed), 1u);
   EXPECT_EQ(count(outcomes, RunOutcome::ran), 1u);
 }
@@ -147,12 +141,12 @@ TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
   std::atomic<bool> stop{true};
   StudyOptions options = synthetic_options();
   options.stop = &stop;
-  EXPECT_EQ(count(outcomes_of(plain_study(two_cases), options), RunOutcome::interrupted), 2u);
+  EXPECT_EQ(count(outcomes_of(lean_study_of(two_cases), options), RunOutcome::interrupted), 2u);
 }
 
 /// What judging throws, with or without a word, is the failure of its case, told to the judge itself.
 TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
-  const StudyFile study = plain_study(two_cases);
+  const StudyFile study = lean_study_of(two_cases);
   const std::vector<CaseRuns> cases = case_runs(study, 1);
   for (const std::string why : {"not a number", ""}) {
     std::atomic<int> thrown{0}, failed{0};
@@ -182,7 +176,7 @@ TEST(RunCases, ASecondRunIsNotBegunOnceTheFirstBrokeOff) {
     broken.status = run::RunStatus::energy_drift;
     return broken;
   };
-  outcomes_of(plain_study(critical_kind), options);
+  outcomes_of(lean_study_of(critical_kind), options);
   EXPECT_EQ(begun, 1);
 }
 

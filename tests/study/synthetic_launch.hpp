@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace launchsafe::study {
 
@@ -26,6 +28,24 @@ inline StudyFile study_of(const std::string& text) {
   auto study = parse_here(text);
   EXPECT_TRUE(study) << (study ? "" : study.error().message());
   return study ? *study : StudyFile{};
+}
+
+/// What a study varies, in one line: keys and their values, "400, 496 MPa" or [1.4, 1.5].
+inline std::string vary(const std::vector<std::pair<std::string, std::string>>& varied) {
+  std::string text;
+  for (const auto& [key, values] : varied) {
+    const std::string written = values.starts_with('[') ? values : '"' + values + '"';
+    text += (text.empty() ? "vary = [" : ", ") + ("{ key = \"" + key + "\", values = " + written + " }");
+  }
+  return text.empty() ? text : text + "]\n";
+}
+
+/// A study that is answered as one of many cases: without histories, confirmations and longer launches.
+inline StudyFile lean_study_of(const std::string& text) {
+  StudyFile study = study_of(text);
+  study.in_detail = false;
+  study.confirmations_per_case = 0;
+  return study;
 }
 
 /// The study with a case otherwise.

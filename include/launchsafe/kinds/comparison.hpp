@@ -1,5 +1,5 @@
 // The study of kind comparison: the same scene under several named variants, side by side. It compares
-// numbers and judges no gap: verdicts are those of critical-gap and sweep, which count what is uncertain.
+// numbers and judges no gap: verdicts are those of critical-gap, which counts what is uncertain.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -13,7 +13,7 @@
 
 namespace launchsafe::kinds {
 
-/// The scene as it is, which comes first, or with the keys of one [[variant]].
+/// The scene as it is, which comes first, or with the keys of one of its variants.
 struct Variant {
   std::string name;
   std::string description;  ///< what it is, for people; may be empty
@@ -28,14 +28,12 @@ struct Variant {
 struct ComparisonSettings {
   std::string name = "as in the scene";  ///< of the scene without changes
   std::string description;               ///< what that is, for people; may be empty
-  std::vector<double> peak_pressures;    ///< Pa; empty: the scene's
   std::vector<Variant> variants;         ///< the scene as it is, then those of the file
 };
 
 /// One case of one variant.
-struct ComparedCase {
+struct ComparedCase : study::CaseAnswer {
   std::size_t variant = 0;  ///< of ComparisonSettings::variants
-  study::CaseAnswer answer;
   /// T max of every station for every gap, of a skin that air and friction heat and that does not react:
   /// after ignition all stations are as hot as the flame.
   std::vector<std::vector<study::StationTemperature>> stations;  ///< none for a run without a result
@@ -44,7 +42,7 @@ struct ComparedCase {
 
 struct ComparisonResult {
   study::StudyFile study;
-  std::vector<ComparedCase> cases;  ///< one for each of StudyFile::cases
+  std::vector<ComparedCase> answers;  ///< one for each of StudyFile::cases
   study::Timing timing;
   bool interrupted = false;
   const std::vector<Variant>& variants() const {

@@ -1,33 +1,39 @@
-// The study of kind critical-gap: which gaps ignite, and from which gap on.
+// The study of kind critical-gap: which gaps ignite, and from which gap on, in one case or in every
+// combination of what varies.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <string>
 #include <vector>
 
 namespace launchsafe::kinds {
 
+/// Of so many cases at the most a study is in detail (StudyFile::in_detail): histories are kept, the longer
+/// launch is run, and coupled runs confirm the critical gap unless the study says otherwise. A study of more
+/// cases keeps their answers alone, unless it asks for confirmation.
+inline constexpr std::size_t most_cases_in_detail = 6;
+
 /// What a study file of this kind says besides.
 struct CriticalGapSettings {
-  std::vector<double> peak_pressures;  ///< Pa; empty: the scene's
-  std::vector<double> crack_radii;     ///< m, c(0); empty: the scene's
-  std::vector<double> flaw_sizes;      ///< m, a; empty: the scene's
-  bool confirm = true;                 ///< coupled runs on both sides of the bracket
+  bool confirm = true;  ///< coupled runs on both sides of the bracket
 };
 
 struct CriticalGapResult {
   study::StudyFile study;
-  std::vector<study::CaseOutcome> cases;  ///< in the order of StudyFile::cases
+  std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
+  /// What else is known of the same cases in a study in detail: histories, coupled runs, other terms.
+  std::vector<study::CaseOutcome> details;
   study::Timing timing;
   bool interrupted = false;
   bool any_indeterminate() const;  ///< a verdict or a critical gap is indeterminate
 };
 
 /// Runs a study of kind critical-gap. Never throws for a case that fails: its verdicts are indeterminate with
-/// the reason, and the others go on. Apart from the timing the result depends on the study alone.
+/// the reason, and the others go on. Apart from the timing the result depends on the study alone, whatever
+/// was stored before.
 CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::StudyOptions& options = {});
 
 /// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 um, 1 mm, coupled at 0.04 cm". Journals
@@ -37,45 +43,40 @@ std::string label_with_skin(const study::CaseOutcome& outcome, double gap);
 /// The row of the table of kinds.
 Kind critical_gap_kind();
 
-/// The answer in a sentence or two: "Critical gap 0.0395 cm ...", a bound, or why there is none.
+/// The answer in a few lines. In detail, of every case: "Critical gap 0.0395 cm ...", a bound, or why there
+/// is none; otherwise values and bounds, the smallest critical gap and where it is, verdicts, failures.
 std::string answer(const CriticalGapResult& result);
 
-/// A row for every gap of every case: what is printed on stdout.
+/// A row for every gap of every case.
 report::Table verdict_table(const CriticalGapResult& result);
-/// Maximum and early temperatures against the published ones; without rows where there are none.
-report::Table comparison_table(const CriticalGapResult& result);
-/// What makes each critical gap uncertain, cause by cause.
-report::Table gap_share_table(const CriticalGapResult& result);
-/// What the tables below hold.
-std::vector<ResultTable> critical_gap_results();
-std::vector<report::Column> as_calibrated_columns();
-/// What the skin of every gap does with its foreign constants as calibrated; no rows where it has none.
-report::Table as_calibrated_table(const CriticalGapResult& result);
-/// Critical gap of every case, with bracket and confirmation.
+/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
+report::Table verdict_matrix(const CriticalGapResult& result);
+/// A row for every case: critical gap and bounds; in detail its confirmation, otherwise its place and run. A
+/// bound is text, never a number among values.
 report::Table critical_gap_table(const CriticalGapResult& result);
 /// The study's cited limits beside the critical gaps of its cases; without rows where it cites none.
 report::Table cited_limit_table(const CriticalGapResult& result);
-/// What the complete coupled runs came to that confirm critical gaps.
-report::Table coupled_run_table(const CriticalGapResult& result);
-/// Highest temperatures and critical gaps under the reservoir and under the film of air, by name; no rows
-/// where the study's own air is no reservoir.
-report::Table air_model_table(const CriticalGapResult& result);
-/// Highest temperatures and critical gaps with and without the muzzle exit; no rows where there is none.
-report::Table without_exit_table(const CriticalGapResult& result);
-/// What the skin took from the air of every gap of every case, and what follows from it.
-report::Table air_energy_table(const CriticalGapResult& result);
-/// Lines of one case and their residuals.
-report::Table fit_table(const study::CaseOutcome& outcome);
-/// Status, energy drift, limiters and speed of every run.
-report::Table run_table(const CriticalGapResult& result);
+/// By how much each axis with several values changes T max and critical gap at most, and of the crack radius
+/// also below the flaw size; without rows where there is no such axis.
+report::Table axis_effect_table(const CriticalGapResult& result);
 
 /// Maximum temperature against gap with its uncertainty, the published rows by what they were used for, and
-/// of one case the fit and the critical gap with its uncertainty.
+/// of one case the fit and the critical gap with its uncertainty; of a study in detail.
 report::Plot temperature_plot(const CriticalGapResult& result);
-/// The critical gaps of several cases below each other, with their uncertainty; bounds as bounds.
-report::Plot critical_gaps_plot(const CriticalGapResult& result);
 
-/// The whole report, with what is printed on a terminal and every file.
+/// Critical gap over the axes that have several values: a curve over one, or maps over the first two, one for
+/// each combination of the others, and then the same less its uncertainty.
+struct GapPictures {
+  std::vector<report::Picture> pictures;
+  std::vector<std::string> remarks;  ///< combinations that have no picture
+};
+GapPictures gap_pictures(const CriticalGapResult& result);
+
+/// What the tables hold, but for the axes of a study.
+std::vector<ResultTable> critical_gap_results();
+
+/// The whole report. Of a study that is not in detail nothing in it differs between two runs: no times,
+/// rates, dates or hosts.
 report::Report report_of(const CriticalGapResult& result);
 
 }  // namespace launchsafe::kinds

@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace launchsafe::kinds {
@@ -34,7 +33,7 @@ struct StudyOutcome {
 
 /// A table of a study file that is read apart from the keys.
 struct StudyTable {
-  std::string name;                        ///< "axes", "reference"
+  std::string name;                        ///< "vary", "reference"
   std::vector<scene::DocumentedKey> keys;  ///< "reference.gap"; none where any scene key may stand
 };
 
@@ -59,14 +58,21 @@ struct ResultTable {
   std::vector<report::Column> columns;  ///< of a study with the defaults: some depend on what it asks
 };
 
+/// Which entries of [[vary]] an analysis can make something of.
+struct Varied {
+  bool values = false;         ///< the cases are all combinations
+  bool distributions = false;  ///< instead: the cases are samples
+  bool variants = false;       ///< named sets of scene keys
+  std::string needed = {};     ///< what an entry has at the least, where there must be one
+};
+
 struct Kind {
   study::KindTraits traits;
   std::vector<scene::Key<study::Study>> keys;  ///< of its study files, besides those of every kind
   std::vector<StudyTable> tables;
-  /// What to write for a key of another kind, where this one has something like it.
-  std::vector<std::pair<std::string, std::string>> instead_of = {};
-  /// Reads its own tables and fills Study::axes. The study has its scene with the overrides.
-  study::Fault (*read)(const StudySource& source, study::StudyFile& study);
+  Varied varies = {};  ///< of what becomes Study::axes; with none there is no [[vary]]
+  /// Reads its own tables; null where it has none but [[vary]]. The study has its scene with the overrides.
+  study::Fault (*read)(const StudySource& source, study::StudyFile& study) = nullptr;
   /// Fills StudyFile::cases. All else is known, the gaps to judge too.
   study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);

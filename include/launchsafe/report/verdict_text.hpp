@@ -13,11 +13,10 @@ namespace launchsafe::report {
 
 /// One gap of one case.
 struct VerdictRow {
-  const study::StudyCase* input;  ///< nullptr where only its coordinates are told
+  const std::vector<double>* coordinates;  ///< SI, of the case on the study's axes
   const study::GapVerdict* gap;
-  double inert;                                      ///< K, T max without reaction
-  const std::vector<double>* coordinates = nullptr;  ///< of a case that lies on axes
-  double width() const { return gap->gap; }          ///< m
+  double inert;                              ///< K, T max without reaction
+  double width() const { return gap->gap; }  ///< m
 };
 /// From T max to the energy of the air: what is known of one gap of one case.
 Quantities<VerdictRow> verdict_quantities(const study::Study& study);

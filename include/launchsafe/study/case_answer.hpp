@@ -30,6 +30,9 @@ struct CaseAnswer {
   bool completed() const { return failure.empty(); }
 };
 
+/// The answer to a case that was concluded: all of it but its histories.
+CaseAnswer answer_of(const CaseOutcome& outcome);
+
 /// Draws the answer from a mechanical run. `raised`: the mechanics under a raised load, where the study
 /// states no uncertainty of the inputs.
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,

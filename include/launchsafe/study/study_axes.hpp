@@ -23,11 +23,12 @@ struct NamedAxis {
 };
 const std::vector<NamedAxis>& named_axes();
 
-/// The scene key behind a short or full name: one that takes one number. Faults name `faulty_key` and, beside
-/// the short names, `other_names`.
+/// The short name of a scene key, or else its own.
+std::string name_of_axis(const std::string& scene_key);
+
+/// The scene key behind a short or full name: one that takes one number. Faults name `faulty_key`.
 scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const std::string& name,
-                                                  const std::string& faulty_key, const scene::Place& place,
-                                                  std::vector<std::string> other_names = {});
+                                                  const std::string& faulty_key, const scene::Place& place);
 
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
@@ -37,10 +38,10 @@ double number_in(const scene::SceneFile& file, const std::string& key);
 Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
                std::vector<double> values);
 
-/// A scene key that is to vary and is fixed elsewhere, or varies already. `here`: "in [axes]", where it was
-/// asked for, at a place under a name.
-Fault check_free(const StudyFile& study, const std::string& scene_key, const std::string& here,
-                 const scene::Place& place, const std::string& faulty_key);
+/// A scene key that is to vary and is fixed elsewhere, or varies already; it was asked for at a place under a
+/// name.
+Fault check_free(const StudyFile& study, const std::string& scene_key, const scene::Place& place,
+                 const std::string& faulty_key);
 
 /// Axes that cannot have an effect: those of the analytic load under a measured curve.
 Fault check_load_axes(const StudyFile& study);

@@ -22,23 +22,23 @@ namespace launchsafe::study {
 
 /// What the engine has to know of a kind of study.
 struct KindTraits {
-  std::string name;      ///< as in `kind = "critical-gap"`
-  std::string gaps_key;  ///< where a study file has the gaps to judge; empty for a kind that judges none
+  std::string name;         ///< as in `kind = "critical-gap"`
+  bool judges_gaps = true;  ///< those of its study file or scene
   /// Its cases are held against the calibration: what is foreign or not plausible has to be accepted, and the
   /// uncertainty of fit, inputs and model counts. A stability study judges the computation alone.
   bool gives_verdicts = true;
   /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
   bool bounds_critical_gaps = true;
-  bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs
+  bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs, unless in
+                                       ///< detail (StudyFile::in_detail)
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
-  bool runs_longer_launches = false;   ///< the longer launch is run too, where there is one
 };
 
 /// A scene key that the cases of a study vary.
 struct Axis {
-  std::string name;            ///< as the user wrote it: "peak_pressure" or "load.exponent"
-  std::string study_key;       ///< where in the study file it was asked for: "axes.peak_pressure"
+  std::string name;            ///< "peak_pressure" or, of a key without a short name, "load.exponent"
+  std::string study_key;       ///< where in the study file it was asked for: "vary.0.key"
   scene::KeyDescription key;   ///< of the scene key
   std::vector<double> values;  ///< SI, in the order written; none where there is a distribution
   std::optional<math::Distribution> distribution = {};  ///< SI, of a value that is not known exactly
@@ -181,6 +181,8 @@ struct StudyFile {
   Cases cases;                 ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
+  /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
+  bool in_detail = false;
 };
 
 /// As in scene files.

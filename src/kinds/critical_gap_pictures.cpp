@@ -1,7 +1,6 @@
-// The pictures of a sweep: the critical gap over one or two axes.
+// The pictures of a critical-gap study that varies something: the critical gap over one or two axes.
 #include "answer_tables.hpp"
-#include "critical_gap_marks.hpp"
-#include "launchsafe/kinds/sweep.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -23,7 +22,7 @@ constexpr std::size_t most_maps = 9;
 /// What the pictures show, for who cannot see them.
 constexpr const char* picture_text = "critical gap";
 
-/// An axis of the sweep with its values in the unit shown, ascending, each once.
+/// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
   std::size_t index;  ///< among the study's axes
   ShownKey key;
@@ -52,7 +51,7 @@ std::vector<Tic> tics_at(const std::vector<double>& values, Scale scale) {
   std::vector<Tic> tics;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0 && place(values[i]) - place(values[i - 1]) < least_share * whole) return {};
-    tics.push_back({values[i], significant(values[i], 6)});
+    tics.push_back({values[i], report::significant(values[i], 6)});
   }
   return tics;
 }
@@ -81,6 +80,91 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
 
 /// The critical gap as shown.
 double shown_critical_gap(const CaseAnswer& answer) { return shown_gap(value_of(answer.critical)); }
+
+// --- marks ---
+
+/// What a bound of one kind says, if all of them say the same.
+std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind kind,
+                        const std::string& otherwise) {
+  std::string label;
+  for (const CaseAnswer& answer : answers) {
+    if (answer.critical.kind != kind) continue;
+    const std::string text = reads_as(answer.critical);
+    if (!label.empty() && text != label) return otherwise;
+    label = text;
+  }
+  return label;
+}
+
+/// What the marks of every kind mean, in the order of CriticalGapKind.
+std::array<std::string, 5> kind_labels(const std::vector<CaseAnswer>& answers) {
+  return {"computed value",
+          bound_label(answers, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
+          bound_label(answers, CriticalGapKind::all_ignite, "ignites at every gap") + " (bound)",
+          "indeterminate or failed", "the first of several crossings"};
+}
+
+/// The kind as it is drawn: a value that is not finite is none.
+CriticalGapKind drawn_kind(const CriticalGap& gap) {
+  const bool broken = gap.kind == CriticalGapKind::value && !std::isfinite(gap.value);
+  return broken ? CriticalGapKind::indeterminate : gap.kind;
+}
+
+/// Where a gap stands, as shown: a bound at its end, what is not known at 0.
+double position_of(const CriticalGap& gap) {
+  switch (drawn_kind(gap)) {
+    case CriticalGapKind::value:
+      return shown_gap(gap.value);
+    case CriticalGapKind::all_safe:
+    case CriticalGapKind::several_crossings:
+      return shown_gap(gap.lower);
+    case CriticalGapKind::all_ignite:
+      return shown_gap(gap.upper);
+    case CriticalGapKind::indeterminate:
+      break;
+  }
+  return 0;
+}
+
+/// One mark and colour for every kind, in the order of CriticalGapKind.
+constexpr std::array<Mark, 5> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross,
+                                         Mark::diamond};
+constexpr std::array<int, 5> kind_colours{0, 2, 1, 7, 3};
+
+/// Critical gaps as marks along an axis, one series for every kind: values with their bounds, bounds as
+/// bounds.
+class GapMarks {
+ public:
+  /// `answers`: all that the picture will have, which decide the labels.
+  explicit GapMarks(const std::vector<CaseAnswer>& answers) {
+    const auto labels = kind_labels(answers);
+    for (std::size_t kind = 0; kind < labels.size(); ++kind) {
+      series_.push_back({labels[kind], {}, {}, kind == 0 ? Style::vertical_bars : Style::points});
+      series_.back().colour = kind_colours[kind];
+      series_.back().mark = kind_marks[kind];
+    }
+  }
+
+  /// `place`: on the axis.
+  void add(const CriticalGap& gap, double place) {
+    Series& series = series_[static_cast<std::size_t>(drawn_kind(gap))];
+    const double position = position_of(gap);
+    const auto bound = [&](double of_gap) {
+      const bool known = drawn_kind(gap) == CriticalGapKind::value && std::isfinite(of_gap);
+      return known ? shown_gap(of_gap) : position;
+    };
+    series.add(place, position, bound(gap.bounds.at_least), bound(gap.bounds.at_most));
+  }
+
+  /// The kinds that occur.
+  void put_into(Plot& plot) {
+    for (Series& series : series_)
+      if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+
+ private:
+  std::vector<Series> series_;
+};
 
 // --- maps ---
 
@@ -111,7 +195,7 @@ std::size_t place_in(const std::vector<double>& values, double value) {
 }
 
 /// The map of a case's plane, without values.
-Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
+Plot empty_map(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
                const SweptAxis& y, const MappedQuantity& mapped, const study::StudyCase& input) {
   Plot plot;
   plot.title = title_of(mapped.title, axes, {x.index, y.index}, input);
@@ -134,7 +218,7 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
     const double uncertainty = uncertainty_of(answer);
     if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
   }
-  auto labels = kind_labels(critical_gaps_of(result.answers));
+  auto labels = kind_labels(result.answers);
   labels[static_cast<std::size_t>(CriticalGapKind::value)] = mapped.without_value;
   constexpr std::array<Hatching, 5> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
                                               Hatching::crossed, Hatching::crossed};
@@ -147,8 +231,8 @@ Plot empty_map(const SweepResult& result, const std::vector<SweptAxis>& axes, co
 }
 
 /// One map over two axes for every combination of the others.
-std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-                          const SweptAxis& y, const MappedQuantity& mapped) {
+std::vector<Plot> maps_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
+                          const SweptAxis& x, const SweptAxis& y, const MappedQuantity& mapped) {
   std::vector<std::vector<double>> combinations;
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
@@ -178,7 +262,7 @@ std::vector<Plot> maps_of(const SweepResult& result, const std::vector<SweptAxis
 }
 
 /// Names the maps, and leaves out what would be too many.
-void add_maps(std::vector<Plot> plots, const MappedQuantity& mapped, SweepPictures& made) {
+void add_maps(std::vector<Plot> plots, const MappedQuantity& mapped, GapPictures& made) {
   for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
     made.pictures.push_back({fmt::format("{}{}.svg", mapped.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
                              std::move(plots[i]), picture_text});
@@ -187,13 +271,13 @@ void add_maps(std::vector<Plot> plots, const MappedQuantity& mapped, SweepPictur
 
 // --- one axis ---
 
-Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
+Plot curve_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
   Plot plot;
   plot.x = picture_axis(axis);
   plot.y.label = quantity::critical_gap().label();
   Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
   line.colour = 0;
-  GapMarks marks(critical_gaps_of(result.answers), Style::vertical_bars);
+  GapMarks marks(result.answers);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
@@ -210,7 +294,7 @@ Plot curve_of(const SweepResult& result, const std::vector<SweptAxis>& axes, con
 
 }  // namespace
 
-SweepPictures pictures(const SweepResult& result) {
+GapPictures gap_pictures(const CriticalGapResult& result) {
   const std::vector<SweptAxis> axes = swept_axes(result.study.study);
   std::vector<const SweptAxis*> several;
   for (const SweptAxis& axis : axes) {
@@ -219,7 +303,7 @@ SweepPictures pictures(const SweepResult& result) {
   if (several.empty() || result.answers.empty()) return {};
   if (several.size() == 1)
     return {{{"critical_gap.svg", curve_of(result, axes, *several.front()), picture_text}}, {}};
-  SweepPictures made;
+  GapPictures made;
   for (const MappedQuantity* mapped : {&critical_gap, &safe_gap}) {
     std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *mapped);
     if (maps.size() > most_maps && made.remarks.empty()) {

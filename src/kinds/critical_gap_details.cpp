@@ -1,0 +1,368 @@
+// What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
+#include "critical_gap_tables.hpp"
+#include "launchsafe/report/case_tables.hpp"
+#include "launchsafe/report/kinetics_text.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/scene/launch_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+using keys::fixed, keys::scientific, keys::text;
+using NamedOutcome = const CaseOutcome*;
+
+/// One gap of a case with one constant as calibrated.
+struct CalibratedRow {
+  const study::CaseOutcome* outcome;
+  const study::GapVerdict* gap;
+  const study::AsCalibrated* constant;
+};
+
+Quantities<CalibratedRow> calibrated_quantities() {
+  using keys::text;
+  return {
+      {quantity::case_name(), &CalibratedRow::outcome, &study::CaseOutcome::input, &study::StudyCase::label},
+      {quantity::gap(), &CalibratedRow::gap, &study::GapVerdict::gap},
+      {quantity::verdict(), &CalibratedRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
+      {{"key", "constant", text(), "The constant that is put back."},
+       [](const CalibratedRow& row) {
+         return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
+       }},
+      {quantity::temperature_max(),
+       [](const CalibratedRow& row) { return known(row.gap->maximum.temperature); }},
+      {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+        "Highest temperature with that constant as calibrated."},
+       &CalibratedRow::constant,
+       &study::AsCalibrated::temperature},
+      {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
+       &CalibratedRow::constant,
+       &study::AsCalibrated::ignites}};
+}
+
+std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
+
+std::string outcome_word(const Confirmation& each) {
+  return each.completed ? ignition_word(each.ignited) : "failed";
+}
+
+/// A coupled run of a case.
+struct CoupledRow {
+  NamedOutcome of;
+  const Confirmation* run;
+};
+
+Quantities<CoupledRow> coupled_quantities() {
+  return keys::joined<CoupledRow>(
+      {{{quantity::case_name(), &CoupledRow::of, &CaseOutcome::input, &StudyCase::label},
+        {quantity::gap(), &CoupledRow::run, &Confirmation::gap},
+        {{"expected", "expected", text(), "What the bracket says of the gap."},
+         [](const CoupledRow& row) { return ignition_word(row.run->expected_ignition); }},
+        {{"outcome", "outcome", text(), "What the coupled run did."},
+         [](const CoupledRow& row) { return outcome_word(*row.run); }},
+        {quantity::temperature_max(),
+         [](const CoupledRow& row) { return known(row.run->maximum_temperature); }},
+        {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
+          "T max of the coupled run less that on the trace; none where either ignited."},
+         &CoupledRow::run,
+         &Confirmation::difference}},
+       of_part<CoupledRow>(burnt_state_quantities(), &CoupledRow::run,
+                           [](const Confirmation& run) {
+                             const auto& combustion = run.combustion;
+                             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
+                           }),
+       {{quantity::reason(), &CoupledRow::run, &Confirmation::failure}}});
+}
+
+/// A gap of a case that also has an answer on other terms.
+struct OtherRow {
+  NamedOutcome of;
+  std::size_t gap;
+};
+
+/// T max with and without those terms. `name`: of what stands beside the answer.
+Quantities<OtherRow> other_quantities(Column usual, Column other,
+                                      std::optional<OtherAnswer> CaseOutcome::*member) {
+  return {
+      {quantity::case_name(), &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
+      {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
+      {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
+      {std::move(other),
+       [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
+}
+
+Quantities<OtherRow> film_quantities() {
+  return other_quantities({"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
+                           "Highest temperature under the reservoir of air."},
+                          {"temperature_max_film", "T max, film", fixed(1, kelvin),
+                           "Highest temperature under the film of air: an optimistic bound."},
+                          &CaseOutcome::film);
+}
+
+Quantities<OtherRow> longer_launch_quantities() {
+  Quantities<OtherRow> quantities =
+      other_quantities({"temperature_max_with_exit", "T max, muzzle exit", fixed(1, kelvin),
+                        "Highest temperature with the muzzle exit."},
+                       {"temperature_max_without_exit", "T max, without", fixed(1, kelvin),
+                        "Highest temperature in a barrel without end."},
+                       &CaseOutcome::longer_launch);
+  quantities.emplace_back(for_programs(Column{"critical_gap_without_exit", "critical gap, without", text(),
+                                              "Critical gap in a barrel without end, in words."}),
+                          [](const OtherRow& row) { return reads_as(row.of->longer_launch->critical); });
+  return quantities;
+}
+
+/// The rows of a case, and the note on its critical gap.
+void add_other(const CaseOutcome& outcome, const OtherAnswer& other, const char* words,
+               std::vector<OtherRow>& rows, std::vector<std::string>& notes) {
+  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
+  notes.push_back(fmt::format(fmt::runtime(words), outcome.input.label, reads_as(outcome.critical),
+                              reads_as(other.critical)));
+}
+
+/// A line over the gap; only that of least squares has errors.
+struct FittedLine {
+  std::string label, name;
+  const study::Line* line;
+  const math::LeastSquares* errors = nullptr;
+};
+
+Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
+  Quantities<FittedLine> quantities{
+      {for_programs(quantity::case_name()), &FittedLine::label},
+      {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
+      {{"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap."},
+       &FittedLine::line,
+       &study::Line::slope},
+      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."},
+       &FittedLine::line,
+       &study::Line::intercept},
+      {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
+       &FittedLine::line,
+       &study::Line::root_mean_square}};
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const Form form = quantity::gap().form;
+    quantities.emplace_back(
+        Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
+               "residual " + digits_of(gaps[i], form), fixed(2, kelvin), "T max at that gap less the line."},
+        [i](const FittedLine& row) {
+          return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
+        });
+  }
+  return keys::joined<FittedLine>(
+      {quantities,
+       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre),
+                             "Standard error of the slope."}),
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[1]; }},
+        {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
+                             "Standard error of the intercept."}),
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[0]; }},
+        {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.r_squared; }},
+        {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
+                             "Standard deviation of the residuals."}),
+         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.residual_deviation; }}}});
+}
+
+Table as_calibrated_table(const CriticalGapResult& result) {
+  std::vector<CalibratedRow> rows;
+  for (const CaseOutcome& outcome : result.details)
+    for (const GapVerdict& gap : outcome.verdicts)
+      for (const AsCalibrated& each : gap.as_calibrated) rows.push_back({&outcome, &gap, &each});
+  Table table = table_of("With constants of the surface as calibrated", calibrated_quantities(), rows);
+  if (!rows.empty())
+    table.notes.emplace_back(
+        "The same skin on the same trace, but for this constant. What all of gap and friction together "
+        "change "
+        "lowers the bound of the critical gap.");
+  return table;
+}
+
+Table air_energy_table(const CriticalGapResult& result) {
+  std::vector<AuditedGap> gaps;
+  for (const CaseOutcome& outcome : result.details) {
+    const std::string label = result.details.size() > 1 ? outcome.input.label : std::string{};
+    for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
+  }
+  return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
+}
+
+Table air_model_table(const CriticalGapResult& result) {
+  std::vector<OtherRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.details)
+    if (outcome.film)
+      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows,
+                notes);
+  if (!rows.empty())
+    notes.emplace_back(
+        "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
+        "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
+        "surface.");
+  Table table = table_of("Under both models of the air", film_quantities(), rows);
+  table.notes = std::move(notes);
+  return table;
+}
+
+Table without_exit_table(const CriticalGapResult& result) {
+  std::vector<OtherRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.details)
+    if (outcome.longer_launch && !scene::is_cut_short(outcome.input.scene.scene.load))
+      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.",
+                rows, notes);
+  if (!rows.empty())
+    notes.emplace_back(
+        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
+        "below "
+        "1 % of its peak: what the answer would be if the exit were wrong.");
+  Table table = table_of("In a barrel without end", longer_launch_quantities(), rows);
+  table.notes = std::move(notes);
+  return table;
+}
+
+Table fit_table(const CaseOutcome& outcome) {
+  if (!outcome.fit) return {};
+  const study::GapFit& fit = *outcome.fit;
+  const auto& ols = fit.least_squares;
+  const std::string& label = outcome.input.label;
+  std::vector<FittedLine> rows{{label, "least squares", &fit.ordinary, &ols}};
+  if (fit.mixed)
+    rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
+  if (fit.published) rows.push_back({label, "as published", &*fit.published});
+  Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
+                         line_quantities(fit.gaps), rows);
+  if (ols.degrees_of_freedom > 0) {
+    table.notes.push_back(
+        fmt::format("Least squares: slope {:.1f} +- {:.1f} K/cm, intercept {:.2f} +- {:.2f} K "
+                    "(standard errors), R^2 {:.5f}, residual deviation {:.2f} K.",
+                    ols.coefficients[1], ols.standard_errors[1], ols.coefficients[0], ols.standard_errors[0],
+                    ols.r_squared, ols.residual_deviation));
+  }
+  return table;
+}
+
+Table run_table(const CriticalGapResult& result) {
+  std::vector<NamedRun> runs;
+  for (const CaseOutcome& outcome : result.details)
+    runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
+                    outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
+  return report::run_table(runs);
+}
+
+Table gap_share_table(const CriticalGapResult& result) {
+  std::vector<NamedGap> cases;
+  for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
+  return report::gap_share_table(cases);
+}
+
+bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
+  return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
+         row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
+}
+
+/// The cause that lowers the bound most; nothing without any.
+std::string largest_cause(const study::CriticalGap& gap) {
+  const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
+  const auto largest =
+      std::max_element(gap.shares.begin(), gap.shares.end(),
+                       [&](const GapShare& a, const GapShare& b) { return moves(a) < moves(b); });
+  if (largest == gap.shares.end()) return {};
+  return fmt::format(" The largest part, {}, is that of {}; {} would make it smaller.",
+                     centimetres(moves(*largest)), traits_of(largest->kind).title,
+                     traits_of(largest->kind).remedy);
+}
+
+/// Which gaps of every case lie between the lower bound of the critical gap and ignition; empty where none
+/// does.
+std::string undecided_text(const CriticalGapResult& result) {
+  std::string text;
+  for (const CaseOutcome& outcome : result.details) {
+    std::string gaps;
+    for (const study::GapVerdict& row : outcome.verdicts)
+      if (is_within_bounds(outcome, row)) gaps += (gaps.empty() ? "" : ", ") + centimetres(row.gap);
+    if (gaps.empty()) continue;
+    text += fmt::format("- {}{}: the critical gap may be as small as {}.{}\n",
+                        result.details.size() > 1 ? outcome.input.label + ", " : std::string{}, gaps,
+                        centimetres(outcome.critical.bounds.at_least), largest_cause(outcome.critical));
+  }
+  return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
+}
+
+}  // namespace
+
+Table coupled_run_table(const CriticalGapResult& result) {
+  std::vector<CoupledRow> rows;
+  std::vector<std::string> notes;
+  for (const CaseOutcome& outcome : result.details)
+    for (const Confirmation& each : outcome.confirmations) {
+      rows.push_back({&outcome, &each});
+      if (each.combustion && notes.empty()) notes = {flame_kinetics_note(outcome.input.scene.scene)};
+    }
+  Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
+  table.notes = std::move(notes);
+  return table;
+}
+
+std::string confirmation_text(const CaseOutcome& outcome) {
+  if (outcome.confirmations.empty()) return "not confirmed";
+  std::string text;
+  for (const study::Confirmation& each : outcome.confirmations)
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), outcome_word(each));
+  return text;
+}
+
+std::string limiter_remark(const CriticalGapResult& result) {
+  std::string text;
+  for (const CaseOutcome& outcome : result.details) {
+    const run::LimiterCounts& limiters = outcome.result.mechanics.limiters;
+    if (!acted(limiters)) continue;
+    text += fmt::format("Limiters acted in {} ({} particle steps); its verdicts rest on them too.\n",
+                        outcome.input.label, limiters_text(limiters));
+  }
+  return text;
+}
+
+void add_details(const CriticalGapResult& result, Report& report) {
+  for (ReportTable table : {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
+                            ReportTable{without_exit_table(result), "", "without_exit"},
+                            ReportTable{air_model_table(result), "", "air_models"},
+                            ReportTable{air_energy_table(result), "", "air_energy"},
+                            ReportTable{gap_share_table(result), "", "gap_shares", Shown::page}})
+    report.items.push_back(std::move(table));
+  for (const CaseOutcome& outcome : result.details)
+    report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});
+  report.items.push_back(Statement{undecided_text(result)});
+}
+
+void add_runs(const CriticalGapResult& result, Report& report) {
+  for (const CaseOutcome& outcome : result.details) {
+    Table faces = interface_table(outcome.result.mechanics);
+    if (result.details.size() > 1) faces.title += ", " + outcome.input.label;
+    report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
+  }
+  report.items.push_back(ReportTable{run_table(result), "", "runs"});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
+}
+
+std::vector<ResultTable> detail_results() {
+  return {{"coupled_runs", "", keys::described(coupled_quantities())},
+          {"as_calibrated", "", keys::described(calibrated_quantities())},
+          {"without_exit", "", keys::described(longer_launch_quantities())},
+          {"air_models", "", keys::described(film_quantities())},
+          {"air_energy", "", air_energy_columns()},
+          {"gap_shares", "", gap_share_columns()},
+          {"fit", "", keys::described(line_quantities({}))},
+          {"runs", "", run_columns()}};
+}
+
+}  // namespace launchsafe::kinds

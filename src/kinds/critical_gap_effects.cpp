@@ -1,0 +1,150 @@
+// What each axis of a critical-gap study changes.
+#include "critical_gap_tables.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/verdict_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+
+namespace {
+
+using keys::significant, keys::text;
+
+/// Least and greatest of what was seen; nothing before the first.
+struct Range {
+  double least = study::not_a_number, most = study::not_a_number;
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    least = std::isnan(least) ? value : std::min(least, value);
+    most = std::isnan(most) ? value : std::max(most, value);
+  }
+  double width() const { return most - least; }  ///< NaN before the first
+};
+
+/// The cases that differ along one axis alone: their T max by gap, where no one ignites, and critical gaps.
+struct Line {
+  std::map<double, Range> temperature;  ///< K, by gap in m
+  std::map<double, bool> ignited;
+  Range critical;  ///< m
+};
+
+struct Effect {
+  double temperature = study::not_a_number;                            ///< K
+  double critical = study::not_a_number;                               ///< m
+  double lowest = study::not_a_number, highest = study::not_a_number;  ///< of the axis, SI
+};
+
+void raise(double& most, double value) {
+  if (std::isfinite(value) && !(value <= most)) most = value;
+}
+
+template <class Counts>
+Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts counts) {
+  std::map<std::vector<double>, Line> lines;
+  Range extent;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const study::StudyCase& input = result.study.cases[i];
+    const study::CaseAnswer& answer = result.answers[i];
+    if (input.coordinates.size() <= axis || !answer.completed() || !counts(input)) continue;
+    std::vector<double> others = input.coordinates;
+    extent.add(others[axis]);
+    others[axis] = 0.0;
+    Line& line = lines[others];
+    line.critical.add(value_of(answer.critical));
+    for (const study::GapVerdict& row : answer.verdicts) {
+      if (row.ignition) line.ignited[row.gap] = true;
+      line.temperature[row.gap].add(row.maximum.temperature);
+    }
+  }
+  Effect effect{study::not_a_number, study::not_a_number, extent.least, extent.most};
+  for (const auto& [others, line] : lines) {
+    raise(effect.critical, line.critical.width());
+    for (const auto& [gap, range] : line.temperature) {
+      if (!line.ignited.contains(gap)) raise(effect.temperature, range.width());
+    }
+  }
+  return effect;
+}
+
+/// What an axis changes.
+struct EffectRow {
+  std::string axis;
+  ShownKey key;
+  Effect effect;
+};
+
+Quantities<EffectRow> effect_quantities() {
+  return {{{"axis", "axis", text(), "The axis."}, &EffectRow::axis},
+          {{"from", "from", text(), "Its lowest value."},
+           [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
+          {{"to", "to", text(), "Its highest value."},
+           [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
+          {{"temperature_max_change", "T max by at most", significant(3, kelvin),
+            "Largest change of T max over the axis, all else the same, where nothing ignites."},
+           &EffectRow::effect,
+           &Effect::temperature},
+          {{"critical_gap_change", "critical gap by at most", significant(3, centimetre),
+            "Largest change of the critical gap over the axis, all else the same."},
+           &EffectRow::effect,
+           &Effect::critical}};
+}
+
+bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
+
+/// What stands behind a crack radius that changes little below the flaw size; empty where it changes much.
+std::string crack_note(const CriticalGapResult& result, const Effect& below) {
+  constexpr double little = 5.0;  // K
+  if (!(below.temperature <= little)) return {};
+  const auto& axes = result.study.study.axes;
+  const bool friction_varies = std::any_of(axes.begin(), axes.end(), [](const study::Axis& axis) {
+    return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
+  });
+  const bool rubs = result.study.scene.scene.charge().strength.face_friction > 0.0;
+  return fmt::format(
+      "Below the flaw size the crack radius is all but dead: T max moves by {} at most, critical gaps by {}. "
+      "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
+      in_words(below.temperature, significant(2, kelvin)),
+      in_words(below.critical, significant(2, centimetre)),
+      rubs && !friction_varies
+          ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
+          : "");
+}
+
+}  // namespace
+
+std::vector<Column> axis_effect_columns() { return keys::described(effect_quantities()); }
+
+Table axis_effect_table(const CriticalGapResult& result) {
+  std::vector<EffectRow> rows;
+  std::vector<std::string> notes;
+  const auto keys = shown_axes(result.study.study);
+  const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
+    if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
+  };
+  for (std::size_t axis = 0; axis < keys.size(); ++axis) {
+    add(keys[axis], "", effect_of(result, axis, [](const study::StudyCase&) { return true; }));
+    if (keys[axis].scene_key != "charge.crack_radius") continue;
+    const Effect below = effect_of(result, axis, below_flaw);
+    add(keys[axis], ", below the flaw size", below);
+    if (std::string note = crack_note(result, below); !note.empty()) notes.push_back(std::move(note));
+  }
+  Table table = table_of("What each axis changes", effect_quantities(), rows);
+  table.notes = std::move(notes);
+  if (!rows.empty()) {
+    table.notes.push_back(
+        "Changes over the whole axis with all other values the same: of T max at gaps where nothing ignites, "
+        "and of critical gaps that are values.");
+  }
+  return table;
+}
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,36 @@
+// What the tables and the page of a critical-gap study share.
+#pragma once
+
+#include "answer_tables.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// A case with its answer, and what a study in detail knows besides; null in others.
+struct JudgedCase {
+  AnsweredCase answered;
+  const study::CaseOutcome* detail;
+};
+
+/// What the coupled runs did: "0.038 cm does not ignite; 0.0381 cm ignites".
+std::string confirmation_text(const study::CaseOutcome& outcome);
+
+/// Computed and published temperatures side by side; without rows where there are none.
+report::Table comparison_table(const CriticalGapResult& result);
+/// What the complete coupled runs came to that confirm critical gaps.
+report::Table coupled_run_table(const CriticalGapResult& result);
+std::vector<report::Column> axis_effect_columns();
+
+/// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided.
+void add_details(const CriticalGapResult& result, report::Report& report);
+/// Likewise how its runs went, and what they took.
+void add_runs(const CriticalGapResult& result, report::Report& report);
+/// What the tables of details hold.
+std::vector<ResultTable> detail_results();
+/// What must be said where limiters acted in cases of a study in detail.
+std::string limiter_remark(const CriticalGapResult& result);
+
+}  // namespace launchsafe::kinds

@@ -1,0 +1,232 @@
+#include "vary.hpp"
+
+#include "launchsafe/study/study_axes.hpp"
+#include "study_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+
+namespace {
+
+using math::Distribution;
+using scene::Dimension, scene::KeyDescription, scene::Place;
+
+constexpr const char *table_name = "vary", *variants_key = "variants", *calibration_key = "calibration";
+
+std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& scene_key) {
+  using Kind = Distribution::Kind;
+  const Dimension dimension = scene_key.dimension;
+  return {
+      scene::range_key("range", dimension, scene_key.limits, scene::Standing::input,
+                       "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
+                       &Distribution::lower, &Distribution::upper),
+      scene::word_key(
+          "distribution", scene::Standing::input,
+          "How values are distributed that are not known exactly; of kind sensitivity.",
+          {{"uniform", Kind::uniform}, {"log-uniform", Kind::log_uniform}, {"normal", Kind::normal}},
+          &Distribution::kind),
+      scene::number_key("mean", dimension, scene::any_number(), scene::Standing::input,
+                        "Mean of a normal before it is cut off, in a unit of the key.",
+                        &Distribution::centre),
+      scene::number_key("deviation", scene::difference_of(dimension), scene::above(0), scene::Standing::input,
+                        "Standard deviation of a normal before it is cut off, in a unit of the key.",
+                        &Distribution::deviation),
+  };
+}
+
+/// The scene key that an entry names, which the dimension of its other keys follows from.
+scene::Expected<KeyDescription> read_scene_key(VaryReader& reader, const Varied& admitted) {
+  const toml::node* node = reader.table.get("key");
+  const KeyDescription description = *scene::find_key(vary_keys({}), "key");
+  if (!node) return reader.fault("key", "nothing; the key is missing", scene::allowed_text(description));
+  const auto value = scene::read_value(*node, description, reader.study.file);
+  if (!value) return in_table(value.error(), table_name);
+  const std::string& name = std::get<std::string>(*value);
+  const Place place = scene::place_of(*node, reader.study.file);
+  reader.places["key"] = place;
+  if (name == "gap" || name == "gap.thickness")
+    return reader.fault("key", name + ", which all cases share",
+                        "a scene key that takes one number; the gaps are the study's key gaps");
+  auto key = varied_key(reader.study, name, "vary.key", place);
+  if (key && admitted.distributions && key->dimension == Dimension::count)
+    return reader.fault("key", name + ", a whole number", "a key that may take any number between two");
+  return key;
+}
+
+/// The values of an entry without a distribution: those that it lists, or so many in a range, evenly spaced.
+Fault settle_values(VaryReader& reader) {
+  VaryText& text = reader.text;
+  for (const char* key : {"distribution", "mean", "deviation"})
+    if (reader.given(key))
+      return reader.fault(key, "a distribution in a study of kind " + reader.study.study.kind.name,
+                          "values, or a range with a count");
+  if (reader.given("values")) {
+    for (const char* key : {"range", "count"})
+      if (reader.given(key))
+        return reader.fault(key, std::string(key) + " beside values", "values, or a range with a count");
+    return std::nullopt;
+  }
+  if (!reader.given("range")) return reader.missing("values", "an entry without a range");
+  if (!reader.given("count")) return reader.missing("count", "a range without a distribution");
+  const double step = (text.distribution.upper - text.distribution.lower) / (text.count - 1);
+  for (int i = 0; i + 1 < text.count; ++i) text.values.push_back(text.distribution.lower + step * i);
+  text.values.push_back(text.distribution.upper);
+  for (const double value : text.values)
+    if (text.key.dimension == Dimension::count && value != std::round(value))
+      return reader.fault("count", fmt::format("{} values, one of which is {:g}", text.count, value),
+                          "a count that leaves whole numbers");
+  return std::nullopt;
+}
+
+Fault check_is_distribution(const VaryReader& reader) {
+  for (const char* key : {"values", "count"})
+    if (reader.given(key))
+      return reader.fault(key, std::string(key) + " in a study of kind " + reader.study.study.kind.name,
+                          "a distribution");
+  if (!reader.given("distribution")) return reader.missing("distribution", "an entry of this kind");
+  return check_distribution(reader);
+}
+
+Fault read_entry(VaryReader& reader, const Varied& admitted) {
+  const auto key = read_scene_key(reader, admitted);
+  if (!key) return key.error();
+  reader.text.key = *key;
+  auto read = scene::read_table(reader.table, vary_keys(*key), {}, reader.study.file, reader.text);
+  if (!read) return in_table(read.error(), table_name);
+  reader.places = std::move(*read);
+  for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
+  if (Fault fault = check_free(reader.study, key->name, reader.place_of("key"), "vary.key")) return fault;
+  Axis axis{name_of_axis(key->name), reader.study_key("key"), *key, {}};
+  if (admitted.distributions) {
+    if (Fault fault = check_is_distribution(reader)) return fault;
+    axis.distribution = reader.text.distribution;
+    axis.values_key = reader.study_key(reader.given("range") ? "range" : "deviation");
+  } else {
+    if (Fault fault = settle_values(reader)) return fault;
+    axis.values_key = reader.study_key(reader.given("values") ? "values" : "range");
+    if (Fault fault = check_twice(reader.study, axis.values_key, key->dimension, reader.text.values))
+      return fault;
+    axis.values = std::move(reader.text.values);
+  }
+  reader.study.study.axes.push_back(std::move(axis));
+  return std::nullopt;
+}
+
+/// Entries of other forms have no other key.
+Fault check_variants(const VaryReader& reader, const Varied& admitted) {
+  if (!admitted.variants)
+    return scene::error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file),
+                           "vary.variants", "variants in a study of kind " + reader.study.study.kind.name,
+                           "a key of the scene; variants are compared by kind comparison");
+  auto read = scene::read_described(reader.table, {}, {variants_key}, reader.study.file);
+  if (!read) return in_table(read.error(), table_name);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
+  return keys::joined<VaryText>(
+      {{scene::required(scene::text_key<VaryText>(
+            "key", scene::Standing::input,
+            "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+            "peak_pressure", &VaryText::name)),
+        scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
+                        "Its values, in a unit of the key; every combination with other keys is a case.",
+                        &VaryText::values),
+        scene::number_key<VaryText>("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
+                                    "Instead of values: how many, evenly spaced over the range.",
+                                    &VaryText::count)},
+       keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
+}
+
+std::vector<scene::Key<VariantText>> variant_keys() {
+  using scene::Standing;
+  return {
+      scene::required(scene::text_key<VariantText>("name", Standing::input,
+                                                   "What it is called in tables; each once.", "bonded charge",
+                                                   &VariantText::name)),
+      scene::text_key<VariantText>("description", Standing::input, "What it is, a phrase.",
+                                   "the charge is glued to the wall", &VariantText::description),
+      scene::text_key<VariantText>(
+          "calibration", Standing::input,
+          "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
+          "or where the record found no constants. Its scene keys are in the table set, and what it accepts "
+          "in accept.",
+          "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
+  };
+}
+
+Place VaryReader::place_of(const std::string& key) const {
+  const auto found = places.find(key);
+  return found == places.end() ? scene::place_of(table, study.file) : found->second;
+}
+
+std::string VaryReader::study_key(const std::string& key) const {
+  return fmt::format("{}.{}.{}", table_name, index, key);
+}
+
+scene::InputError VaryReader::fault(const std::string& key, std::string found, std::string allowed,
+                                    std::string suggestion) const {
+  return scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
+                         std::move(suggestion));
+}
+
+scene::InputError VaryReader::missing(const std::string& key, const std::string& what) const {
+  return fault(key, fmt::format("nothing; {} needs it", what),
+               scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
+}
+
+StudyTable vary_table() {
+  StudyTable table = study_table_of(table_name, vary_keys({}));
+  for (const StudyTable& more :
+       {study_table_of(table_name, vary_record_keys()), study_table_of("vary.variants", variant_keys())})
+    table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
+  for (scene::DocumentedKey& key : table.keys) key.default_text.clear();  // an entry has what its form needs
+  return table;
+}
+
+Fault read_vary(const StudySource& source, const Varied& admitted, StudyFile& study) {
+  const auto tables = admitted.needed.empty()
+                          ? tables_of(source.root, table_name, study.file)
+                          : some_tables_of(source.root, table_name, study, admitted.needed);
+  if (!tables) return tables.error();
+  std::size_t index = 0;
+  for (const toml::table* table : *tables) {
+    VaryReader reader{study, *table, index++};
+    const bool calibrated = admitted.distributions && table->contains(calibration_key);
+    Fault fault = table->contains(variants_key) ? check_variants(reader, admitted)
+                  : calibrated                  ? read_calibrated(reader, source.folder)
+                                                : read_entry(reader, admitted);
+    if (fault) return fault;
+  }
+  return std::nullopt;
+}
+
+scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
+                                                             const StudyFile& study) {
+  const toml::node* entries = source.root.get(table_name);
+  std::vector<const toml::table*> variants;
+  for (const toml::node& entry : *entries->as_array()) {
+    const toml::table& table = *entry.as_table();
+    if (!table.contains(variants_key)) continue;
+    if (!variants.empty())
+      return scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
+                             "all variants in one [[vary]]");
+    auto found = tables_of(table, variants_key, study.file);
+    if (!found) return in_table(found.error(), table_name);
+    variants = std::move(*found);
+  }
+  if (!variants.empty()) return variants;
+  return scene::error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
+                         "a [[vary]] with variants, each with a name and what it changes");
+}
+
+}  // namespace launchsafe::kinds
