@@ -1,7 +1,7 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "commands.hpp"
 #include "launchsafe/report/safety_evidence.hpp"
-#include "launchsafe/report/safety_render.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/study_record.hpp"
@@ -81,8 +81,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   if (!templates) return console.refuse(templates.error().message);
   const auto evidence = report::read_safety_evidence(arguments.studies);
   if (!evidence) return console.refuse(evidence.error().message);
-  const auto rendered = report::render(report::make_safety_document(*evidence, criterion), *templates,
-                                       {.stop = &stop_requested()});
+  const auto rendered =
+      report::make_safety_report(*evidence, criterion, *templates, {.stop = &stop_requested()});
   if (!rendered) return console.refuse(rendered.error().message);
   if (stop_requested()) {
     console.error("interrupted while drawing; nothing was written");

@@ -211,6 +211,8 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
       {quantities,
        {{quantity::energy_drift(), &SettingRow::row,
          [](const AccuracyRow& row) { return row.answer.run.energy_drift; }},
+        {for_programs(Column{"is_scene", "of the scene", text(), "Whether it is the setting of the scene."}),
+         &SettingRow::row, &AccuracyRow::baseline},
         {{"remark", "remark", text(), "What is to be known of the setting."}, &SettingRow::row, remark_of}}});
 }
 

@@ -11,46 +11,41 @@
 namespace launchsafe::report {
 namespace {
 
-constexpr const char* allowed_criteria =
-    "\"margin >= N uncertainty\", \"margin >= N K\", \"distance >= N uncertainty\" or \"distance >= N cm\", "
-    "several with \"and\" between them";
-
-scene::InputError criterion_fault(const std::string& found) {
+scene::InputError fault_of(const char* key, std::string found, const char* allowed) {
   scene::InputError fault;
-  fault.key = "--criterion";
-  fault.found = found;
-  fault.allowed = allowed_criteria;
+  fault.key = key;
+  fault.found = std::move(found);
+  fault.allowed = allowed;
   return fault;
 }
 
-std::optional<double> whole_number(const std::string& word) {
-  std::istringstream stream(word);
-  stream.imbue(std::locale::classic());
-  double value = 0;
-  if (!(stream >> value) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
-  return std::isfinite(value) && value > 0.0 ? std::optional(value) : std::nullopt;
-}
+/// Of what a condition is, and by what; a distance is kept in cm.
+struct Measure {
+  GapCriterion::Of of;
+  const char *word, *unit;
+  double factor = 1.0;
+  bool times_uncertainty = false;
+};
+constexpr Measure measures[] = {{GapCriterion::Of::margin, "margin", "K"},
+                                {GapCriterion::Of::margin, "margin", "uncertainty", 1.0, true},
+                                {GapCriterion::Of::margin, "margin", "uncertainties", 1.0, true},
+                                {GapCriterion::Of::distance, "distance", "cm"},
+                                {GapCriterion::Of::distance, "distance", "mm", 0.1},
+                                {GapCriterion::Of::distance, "distance", "uncertainty", 1.0, true},
+                                {GapCriterion::Of::distance, "distance", "uncertainties", 1.0, true}};
 
-/// Four words: "margin", ">=", "2", "uncertainty".
+/// Four words: "margin", ">=", "2", "uncertainty". One uncertainty is part of SAFE already.
 std::optional<GapCriterion::Condition> condition_of(const std::vector<std::string>& words) {
   if (words.size() != 4 || words[1] != ">=") return std::nullopt;
-  GapCriterion::Condition condition;
-  if (words[0] == "distance") {
-    condition.of = GapCriterion::Of::distance;
-  } else if (words[0] != "margin") {
-    return std::nullopt;
-  }
-  const auto least = whole_number(words[2]);
-  if (!least) return std::nullopt;
-  condition.least = *least;
-  const bool of_margin = condition.of == GapCriterion::Of::margin;
-  if (words[3] == "uncertainty" || words[3] == "uncertainties") {
-    condition.times_uncertainty = true;
-    return *least >= 1.0 ? std::optional(condition) : std::nullopt;
-  }
-  if (!of_margin && words[3] == "mm") condition.least *= 0.1;
-  return words[3] == (of_margin ? "K" : "cm") || (!of_margin && words[3] == "mm") ? std::optional(condition)
-                                                                                  : std::nullopt;
+  std::istringstream stream(words[2]);
+  stream.imbue(std::locale::classic());
+  double least = 0;
+  if (!(stream >> least) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
+  for (const Measure& each : measures)
+    if (words[0] == each.word && words[3] == each.unit && std::isfinite(least) &&
+        (each.times_uncertainty ? least >= 1.0 : least > 0.0))
+      return GapCriterion::Condition{each.of, each.factor * least, each.times_uncertainty};
+  return std::nullopt;
 }
 
 /// Words with one blank between them.
@@ -75,30 +70,24 @@ bool GapCriterion::met_by(const JudgedGap& row) const {
 
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source) {
   GapCriterion criterion{on_one_line(text), on_one_line(source), {}};
-  std::istringstream stream(text);
+  std::istringstream stream(text + " and");
   std::vector<std::string> words;
-  const auto close = [&] {
-    const auto condition = condition_of(words);
-    if (condition) criterion.conditions.push_back(*condition);
-    words.clear();
-    return condition.has_value();
-  };
   for (std::string word; stream >> word;) {
     if (word != "and") {
       words.push_back(word);
-    } else if (!close()) {
-      return criterion_fault(fmt::format("\"{}\"", text));
+      continue;
     }
+    const auto condition = condition_of(words);
+    if (!condition)
+      return fault_of("--criterion", fmt::format("\"{}\"", text),
+                      "\"margin >= N uncertainty\", \"margin >= N K\", \"distance >= N uncertainty\" or "
+                      "\"distance >= N cm\", several with \"and\" between them");
+    criterion.conditions.push_back(*condition);
+    words.clear();
   }
-  if (!close()) return criterion_fault(fmt::format("\"{}\"", text));
-  if (criterion.source.empty()) {
-    scene::InputError fault;
-    fault.key = "--criterion-source";
-    fault.found = "none";
-    fault.allowed = "who asks for the criterion, such as \"works standard 12, section 3\"";
-    return fault;
-  }
-  return criterion;
+  if (!criterion.source.empty()) return criterion;
+  return fault_of("--criterion-source", "none",
+                  "who asks for the criterion, such as \"works standard 12, section 3\"");
 }
 
 std::size_t largest_gap_under(const GapCriterion& criterion, const std::vector<JudgedGap>& rows) {

@@ -24,12 +24,17 @@ std::string ignition_text(const study::NamedIgnition& ignition) {
                      in_words(ignition.time, quantity::ignition_time().form), ignition.point);
 }
 
-/// A member of the gap, of its uncertainty, or of its ignition.
-
 /// A share of the uncertainty.
 Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
   return always({"uncertainty_of_" + std::move(name), std::move(heading), keys::significant(2, kelvin),
                  std::move(meaning)});
+}
+
+/// What the judgement of a gap rests on, for programs: empty where there is nothing to say.
+Quantity<VerdictRow> evidence_quantity(const char* name, std::string study::Evidence::*member,
+                                       const char* meaning) {
+  return {for_programs(Column{name, name, text(), meaning}), &VerdictRow::gap, &study::GapVerdict::evidence,
+          member};
 }
 
 /// Uncertainties that somebody stated by hand, with their sources; empty without any.
@@ -173,6 +178,20 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
        &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
       {reason(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::reason},
+      {for_programs(reason_code()), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::code},
+      {for_programs(Column{"cause", "cause", text(), "The beginning of the reason: what decided."}),
+       &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::cause},
+      evidence_quantity("validity_warnings", &study::Evidence::validity_warnings,
+                        "Why a completed run is no basis."),
+      evidence_quantity("unaccepted", &study::Evidence::unaccepted,
+                        "What is not plausible, or foreign to the calibration, and nobody accepts."),
+      evidence_quantity("accepted", &study::Evidence::accepted, "What somebody accepts of that, and why."),
+      evidence_quantity("limited", &study::Evidence::limited, "Limiters that acted."),
+      evidence_quantity("noise", &study::Evidence::noise, "What the noise of a measured curve counts."),
+      evidence_quantity("ring", &study::Evidence::ring, "That a measured curve rings."),
+      evidence_quantity("model_form", &study::Evidence::model_form, "Models that could change the verdict."),
+      evidence_quantity("extrapolated", &study::Evidence::extrapolated,
+                        "What lies outside the domain of the calibration."),
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
        &VerdictRow::gap, &GapVerdict::ignition, ignition_text},
       {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}), &VerdictRow::gap,

@@ -12,9 +12,34 @@ std::string to_string(Verdict verdict) {
   return words.at(static_cast<std::size_t>(verdict));
 }
 
+std::string to_string(ReasonCode code) {
+  constexpr std::array words{"failed",
+                             "no temperature",
+                             "validity warning",
+                             "ignition",
+                             "not accepted",
+                             "no margin",
+                             "optimistic",
+                             "critical gap indeterminate",
+                             "several crossings",
+                             "ignites at smaller gaps",
+                             "no lower bound",
+                             "above lower bound",
+                             "below lower bound",
+                             "within uncertainty",
+                             "within uncertainty as calibrated",
+                             "over uncertainty"};
+  return words.at(static_cast<std::size_t>(code));
+}
+
 namespace {
 
-Judgement indeterminate(std::string reason) { return {Verdict::indeterminate, std::move(reason)}; }
+Judgement judged(Verdict verdict, ReasonCode code, const std::string& cause) {
+  return {verdict, cause, code, cause};
+}
+Judgement indeterminate(ReasonCode code, const std::string& cause) {
+  return judged(Verdict::indeterminate, code, cause);
+}
 
 /// A difference of temperatures (K) to the digits that count, never as a power of ten.
 std::string kelvin(double value, int digits) {
@@ -34,45 +59,53 @@ std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * 
 Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
   // Written so that NaN is never safe.
   if (!(evidence.margin > evidence.uncertainty))
-    return indeterminate(margin_text("within the uncertainty,", evidence));
+    return indeterminate(ReasonCode::within_uncertainty, margin_text("within the uncertainty,", evidence));
   if (!(evidence.calibrated_margin > evidence.uncertainty))
     return indeterminate(
+        ReasonCode::within_uncertainty_as_calibrated,
         "with the constants of the surface as calibrated the margin is within the uncertainty");
   if (!(evidence.gap <= critical.bounds.at_least))
-    return indeterminate("the critical gap may be as small as " + bound_text(critical.bounds.at_least));
-  return {Verdict::safe, margin_text("over uncertainty", evidence)};
+    return indeterminate(ReasonCode::above_lower_bound,
+                         "the critical gap may be as small as " + bound_text(critical.bounds.at_least));
+  return judged(Verdict::safe, ReasonCode::over_uncertainty, margin_text("over uncertainty", evidence));
 }
 
 Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   const double at_least = critical.bounds.at_least;
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
-      return indeterminate("the critical gap is indeterminate: " + critical.reason);
+      return indeterminate(ReasonCode::critical_gap_indeterminate,
+                           "the critical gap is indeterminate: " + critical.reason);
     case CriticalGapKind::several_crossings:
-      return indeterminate("ignition comes and goes with the gap: " + critical.reason);
+      return indeterminate(ReasonCode::several_crossings,
+                           "ignition comes and goes with the gap: " + critical.reason);
     case CriticalGapKind::all_ignite:
-      return indeterminate("no ignition here, but at smaller gaps");
+      return indeterminate(ReasonCode::ignites_at_smaller_gaps, "no ignition here, but at smaller gaps");
     case CriticalGapKind::all_safe:
       return judge_margin(evidence, critical);
     case CriticalGapKind::value:
       break;
   }
-  if (std::isnan(at_least)) return indeterminate("the critical gap has no lower bound");
+  if (std::isnan(at_least))
+    return indeterminate(ReasonCode::no_lower_bound, "the critical gap has no lower bound");
   if (!(evidence.gap < at_least))
-    return indeterminate(at_least > 0.0 ? "the critical gap may be as small as " + bound_text(at_least)
+    return indeterminate(ReasonCode::above_lower_bound,
+                         at_least > 0.0 ? "the critical gap may be as small as " + bound_text(at_least)
                                         : std::string("the launch may ignite without a gap"));
-  return {Verdict::safe,
-          fmt::format("below {}, the least that the critical gap can be", bound_text(at_least))};
+  return judged(Verdict::safe, ReasonCode::below_lower_bound,
+                fmt::format("below {}, the least that the critical gap can be", bound_text(at_least)));
 }
 
 Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
   const std::string& unaccepted = evidence.unaccepted;
   if (evidence.ignited)
-    return {Verdict::unsafe, unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted};
-  if (!unaccepted.empty()) return indeterminate("validity warning: " + unaccepted);
+    return judged(Verdict::unsafe, ReasonCode::ignition,
+                  unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted);
+  if (!unaccepted.empty()) return indeterminate(ReasonCode::not_accepted, "validity warning: " + unaccepted);
   // Written so that NaN is never safe.
-  if (!(evidence.margin > 0.0)) return indeterminate("no margin to the ignition temperature");
-  if (!evidence.optimistic.empty()) return indeterminate(evidence.optimistic);
+  if (!(evidence.margin > 0.0))
+    return indeterminate(ReasonCode::no_margin, "no margin to the ignition temperature");
+  if (!evidence.optimistic.empty()) return indeterminate(ReasonCode::optimistic, evidence.optimistic);
   return judge_in_gap(evidence, critical);
 }
 
@@ -80,11 +113,13 @@ Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
 
 Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!evidence.completed)
-    return indeterminate(evidence.failure.empty() ? "the run failed" : evidence.failure);
-  if (!std::isfinite(evidence.maximum_temperature)) return indeterminate("the temperature is not a number");
+    return indeterminate(ReasonCode::failed, evidence.failure.empty() ? "the run failed" : evidence.failure);
+  if (!std::isfinite(evidence.maximum_temperature))
+    return indeterminate(ReasonCode::no_temperature, "the temperature is not a number");
   if (!evidence.validity_warnings.empty())
-    return indeterminate("validity warning: " + evidence.validity_warnings +
-                         (evidence.unaccepted.empty() ? "" : "; " + evidence.unaccepted));
+    return indeterminate(ReasonCode::validity_warning,
+                         "validity warning: " + evidence.validity_warnings +
+                             (evidence.unaccepted.empty() ? "" : "; " + evidence.unaccepted));
   Judgement judgement = judge_sound(evidence, critical);
   if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
   if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;

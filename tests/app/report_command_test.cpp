@@ -22,7 +22,7 @@ TEST_F(ReportCommand, WritesPageDataAndFiguresOfAStudyThatRan) {
   run_critical_gap();
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* name : {"report.html", "report.md", "report.json", "section.svg", "load.svg"})
+  for (const char* name : {"report.html", "report.md", "report.json", "section.svg", "pressure.svg"})
     EXPECT_TRUE(exists(std::string("safety/") + name)) << name;
   // Twice the same, and nothing of the study is touched.
   const std::string first = read("safety/report.html");

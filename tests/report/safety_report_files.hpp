@@ -1,7 +1,7 @@
 // Safety reports of the shipped studies, and of copies of them that a test changes.
 #pragma once
 
-#include "launchsafe/report/safety_render.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "store/temporary_folder.hpp"
 
@@ -56,6 +56,16 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
     write(study / "study.json", results.dump(1));
     replace_in(study / "manifest.json", before, store::sha256(read(study / "study.json")));
   }
+  /// A copy of a shipped sweep, whose verdicts have the code of their reason though it was written before
+  /// that.
+  path current_sweep() const {
+    const path to = copy_of("sweep_pressure_defect");
+    change(to, [](auto& results) {
+      for (auto& row : results["verdicts"])
+        row.emplace("reason_code", row["verdict"] == "UNSAFE" ? "ignition" : "below lower bound");
+    });
+    return to;
+  }
   static std::string fault_of(const std::vector<path>& folders) {
     const auto evidence = read_safety_evidence(folders);
     return evidence ? "" : evidence.error().message;
@@ -65,7 +75,7 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
     const auto evidence = read_safety_evidence(folders);
     EXPECT_TRUE(evidence) << fault_of(folders);
     if (!evidence) return {};
-    const auto report = render(make_safety_document(*evidence, criterion), built_in_templates());
+    const auto report = make_safety_report(*evidence, criterion, built_in_templates());
     EXPECT_TRUE(report);
     for (const TextFile& file : report->files)
       if (file.name == name) return file.text;

@@ -76,6 +76,9 @@ inline Column verdict() {
   return {"verdict", "verdict", text(), "SAFE, UNSAFE or INDETERMINATE; only SAFE promises anything."};
 }
 inline Column reason() { return {"reason", "reason", text(), "Why it is so."}; }
+inline Column reason_code() {
+  return {"reason_code", "code", text(), "The rule by which the verdict was found."};
+}
 inline Column remark() { return headed("remark", reason()); }
 inline Column ignition_time() {
   return {"ignition_time", "ignition", fixed(2, millisecond), "Instant of ignition."};

@@ -58,9 +58,32 @@ struct Evidence {
   std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
 };
 
+/// The rule of the contract below that decided.
+enum class ReasonCode {
+  failed,
+  no_temperature,
+  validity_warning,
+  ignition,
+  not_accepted,
+  no_margin,
+  optimistic,
+  critical_gap_indeterminate,
+  several_crossings,
+  ignites_at_smaller_gaps,
+  no_lower_bound,
+  above_lower_bound,
+  below_lower_bound,
+  within_uncertainty,
+  within_uncertainty_as_calibrated,
+  over_uncertainty
+};
+std::string to_string(ReasonCode code);
+
 struct Judgement {
   Verdict verdict = Verdict::indeterminate;
-  std::string reason;
+  std::string reason;  ///< the cause, and what else the evidence says, for people
+  ReasonCode code = ReasonCode::failed;
+  std::string cause = {};  ///< what decided, for people
 };
 
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without

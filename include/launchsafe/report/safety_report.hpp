@@ -1,8 +1,11 @@
-// A safety report as files: a page for a browser, the same in Markdown and JSON, and its figures.
+// A safety report as files: a page for a browser, the same in Markdown and JSON, and its figures. Facts are
+// rows of the studies and what was selected from them; what is said of them, where and in which digits,
+// stands in templates.
 #pragma once
 
+#include "launchsafe/report/gap_criterion.hpp"
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/report/safety_document.hpp"
+#include "launchsafe/report/safety_evidence.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
@@ -19,10 +22,6 @@ struct SafetyTemplates {
   std::map<std::string, std::string> texts;
 };
 
-/// Names of the files in a folder of templates.
-inline constexpr const char* template_names[] = {"report.html.mustache", "report.md.mustache",
-                                                 "texts.mustache"};
-
 /// Those that are built in.
 SafetyTemplates built_in_templates();
 
@@ -36,10 +35,12 @@ struct RenderedReport {
 };
 
 /// Draws the figures and fills the templates. Whatever studies say is escaped, so that markup in it is shown.
-/// A figure that gnuplot does not draw is a remark, in the page too. Errors: corrupt (a template that cannot
-/// be rendered).
-store::Result<RenderedReport> render(const SafetyDocument& document, const SafetyTemplates& templates,
-                                     const DrawingLimits& limits = {});
+/// A figure that gnuplot does not draw is a remark, in the page too. Equal evidence and criterion make equal
+/// files. Errors: corrupt (a template that cannot be rendered).
+store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
+                                                 const std::optional<GapCriterion>& criterion,
+                                                 const SafetyTemplates& templates,
+                                                 const DrawingLimits& limits = {});
 
 /// The files of the figures that a report.json names; none where it is no report.
 std::vector<std::string> figures_of(const std::string& report_json);

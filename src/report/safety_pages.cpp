@@ -1,0 +1,268 @@
+#include "launchsafe/report/safety_report.hpp"
+#include "safety_facts.hpp"
+#include "safety_texts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <kainjow/mustache.hpp>
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace launchsafe::report {
+namespace {
+
+using kainjow::mustache::html_escape;
+using safety::found_in, safety::Text;
+
+std::string base64(const std::string& bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int length =
+      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(length));
+  return text;
+}
+
+/// The picture with its name and what it shows, for who cannot see it.
+std::string with_alternative(std::string svg, const std::string& title, const std::string& description) {
+  for (const std::string name : {"title", "desc"}) {
+    const std::size_t begin = svg.find("<" + name + ">"), end = svg.find("</" + name + ">");
+    if (begin != std::string::npos && end != std::string::npos && begin < end)
+      svg.erase(begin, end + name.size() + 3 - begin);
+  }
+  const std::size_t head = svg.find("<svg");
+  const std::size_t end = head == std::string::npos ? head : svg.find('>', head);
+  if (end == std::string::npos) return svg;
+  svg.insert(end + 1, fmt::format("\n<title>{}</title>\n<desc>{}</desc>", html_escape(title),
+                                  html_escape(description)));
+  return svg.insert(end, " role=\"img\"");
+}
+
+store::Result<std::string> drawn(const safety::Drawing& drawing, const DrawingLimits& limits) {
+  if (const auto* plot = std::get_if<Plot>(&drawing)) return to_svg(*plot, "gnuplot", limits);
+  if (const auto* cells = std::get_if<CellPlot>(&drawing)) return to_svg(*cells, "gnuplot", limits);
+  return std::get<std::string>(drawing);
+}
+
+/// The sections with their blocks, as programs read them and templates of pages do.
+class Sections {
+ public:
+  Sections(const safety::SafetyFacts& all, const std::map<std::string, std::string>& texts,
+           const DrawingLimits& limits)
+      : all_(all), texts_(texts), limits_(limits) {
+    const auto built_in = safety::texts_in(safety::built_in_texts, "texts");
+    for (const Text& text : *built_in)
+      if (text.look == "section")
+        sections.push_back({{"id", text.id.substr(text.id.find('.') + 1)},
+                            {"number", sections.size() + 1},
+                            {"heading", words(text.id)},
+                            {"blocks", Row::array()}});
+      else if (text.look == "table")
+        add_table(text, selected(text));
+      else if (!text.look.empty())
+        for (const Row* each : selected(text)) add(text, *each);
+  }
+
+  Row sections = Row::array();
+  std::vector<TextFile> figures;
+  std::vector<std::string> remarks;
+
+  std::string words(const std::string& id, const Row& facts = {}) const {
+    const auto found = texts_.find(id);
+    return found == texts_.end() ? std::string{} : fill(found->second, facts);
+  }
+  std::string made_of() const {
+    return words("made_of", {{"studies", fmt::format("{}", fmt::join(studies_, ", "))}});
+  }
+
+ private:
+  std::string fill(const std::string& text, const Row& facts) const {
+    return safety::filled(text, {&all_.facts, &facts});
+  }
+  /// The text of that name, or the word itself.
+  std::string word(const std::string& id, const std::string& otherwise) const {
+    return texts_.contains(id) ? words(id) : otherwise;
+  }
+
+  /// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
+  /// nothing; facts that are false or empty have nothing to say.
+  std::vector<const Row*> selected(const Text& text) const {
+    if (text.of.empty()) return {&all_.facts};
+    std::istringstream words(text.of);
+    std::string name, rule, key, value;
+    words >> name;
+    const Row& facts = found_in(all_.facts, name);
+    std::vector<const Row*> rows;
+    if (facts.is_array())
+      for (const Row& each : facts) rows.push_back(&each);
+    else if (!facts.empty() && facts != false && facts != "")
+      rows.push_back(&facts);
+    while (words >> rule >> key) {
+      const auto number = [&key](const Row* row) { return number_of(*row, key); };
+      if (rule == "first") {
+        rows.resize(std::min<std::size_t>(rows.size(), std::stoul(key)));
+      } else if (rule == "largest" || rule == "smallest") {
+        std::erase_if(rows, [&](const Row* row) { return std::isnan(number(row)); });
+        if (rows.empty()) return rows;
+        rows = {rule == "largest" ? *std::ranges::max_element(rows, {}, number)
+                                  : *std::ranges::min_element(rows, {}, number)};
+      } else if (words >> value) {  // where, except
+        const std::string wanted = fill(value, {});
+        std::erase_if(rows, [&](const Row* row) {
+          return (safety::fact_text(found_in(*row, key)) == wanted) != (rule == "where");
+        });
+      }
+    }
+    return rows;
+  }
+
+  /// A block with where it comes from, for people one text.
+  void put(const Text& text, const char* kind, const Row& facts, Row block) {
+    std::vector<std::string> parts;
+    for (const std::string& each : text.from) parts.push_back(fill(each, facts));
+    parts.resize(3);
+    if (parts[0].empty())
+      parts.assign(3, "");  // of a study that is not there
+    else
+      studies_.insert(parts[0]);
+    block["kind"] = kind;
+    block[kind] = true;
+    const std::size_t dot = text.id.find('.');
+    block["id"] = text.look == "figure"  ? text.id.substr(dot + 1)
+                  : text.look == "table" ? text.id.substr(0, dot)
+                                         : text.id;
+    block["origin"] = {{"study", parts[0]}, {"of", parts[1]}, {"setting", parts[2]}};
+    std::erase(parts, "");
+    block["from"] = fmt::format("{}", fmt::join(parts, ", "));
+    sections.back()["blocks"].push_back(std::move(block));
+  }
+
+  void add(const Text& text, const Row& facts) {
+    if (text.look == "figure") return add_figure(text, facts);
+    std::string said = words(text.id, facts);
+    // A line break would end the block of code.
+    if (text.look == "code") std::ranges::replace(said, '\n', ' ');
+    if (!said.empty()) put(text, text.look.c_str(), facts, {{"text", said}});
+  }
+
+  /// Of a table without columns all that its rows have. Pages leave a column out that is empty.
+  void add_table(const Text& text, const std::vector<const Row*>& rows) {
+    if (rows.empty()) return;
+    std::vector<safety::TextColumn> columns = text.columns;
+    if (columns.empty())
+      for (const auto& [key, value] : rows.front()->items())
+        columns.push_back({key, fill("{{key|words}}", {{"key", key}}), "{{" + key + "|sig 5}}"});
+    Row block{{"heading", words(text.id)},
+              {"columns", Row::array()},
+              {"rows", Row(rows.size(), {{"cells", Row::array()}})}};
+    for (const safety::TextColumn& column : columns) {
+      const std::string heading = word("column." + column.key, column.heading);
+      std::vector<std::string> cells;
+      bool is_number = false;
+      for (const Row* row : rows) {
+        cells.push_back(fill(column.cell, *row));
+        is_number = is_number || found_in(*row, column.key).is_number();
+      }
+      const bool is_empty = std::ranges::all_of(cells, &std::string::empty);
+      block["columns"].push_back(
+          {{"key", column.key}, {"name", heading}, {"number", is_number}, {"empty", is_empty}});
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Row& value = found_in(*rows[i], column.key);
+        block["rows"][i][column.key] = value.is_null() && !cells[i].empty() ? Row(cells[i]) : value;
+        // The look follows from the program's word, also where a template translates it.
+        if (!is_empty)
+          block["rows"][i]["cells"].push_back(
+              {{"name", heading},
+               {"text", word(column.key + "." + cells[i], cells[i])},
+               {"look", column.key == "verdict" ? value : Row(is_number ? "number" : "")}});
+      }
+    }
+    put(text, "table", *rows.front(), std::move(block));
+  }
+
+  /// After the first figure that gnuplot does not draw none is tried.
+  void add_figure(const Text& text, const Row& facts) {
+    const std::string file = text_of(facts, "file"), caption = words(text.id, facts),
+                      alternative = words("alternative." + text.id.substr(text.id.find('.') + 1), facts);
+    const safety::Drawing& drawing = all_.drawings.at(file);
+    std::string svg;
+    if (remarks.empty() || std::holds_alternative<std::string>(drawing)) {
+      auto made = drawn(drawing, limits_);
+      if (made)
+        svg = with_alternative(std::move(*made), caption, alternative);
+      else
+        remarks.push_back("no figure: " + made.error().message);
+    }
+    put(text, "figure", facts,
+        {{"file", svg.empty() ? Row() : Row(file)},
+         {"caption", caption},
+         {"alternative", alternative},
+         {"missing", svg.empty() ? words("no_figure") : ""}});
+    if (!svg.empty()) figures.push_back({file, std::move(svg)});
+  }
+
+  const safety::SafetyFacts& all_;
+  const std::map<std::string, std::string>& texts_;
+  const DrawingLimits& limits_;
+  std::set<std::string> studies_;  ///< labels of those that something comes from
+};
+
+/// What only pages need: where a list begins and ends, and the pictures themselves.
+void prepare(Row& blocks, const std::vector<TextFile>& figures) {
+  const auto is_item = [&](std::size_t place) {
+    return place < blocks.size() && blocks[place].contains("item");
+  };
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    blocks[i]["begins"] = !is_item(i - 1);  // before the first: far behind the last
+    blocks[i]["ends"] = !is_item(i + 1);
+    for (const TextFile& figure : figures)
+      if (text_of(blocks[i], "file") == figure.name)
+        blocks[i]["source"] = "data:image/svg+xml;base64," + base64(figure.text);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> figures_of(const std::string& report_json) {
+  std::vector<std::string> files;
+  const Row report = Row::parse(report_json, nullptr, false);
+  for (const Row& section : found_in(report, "sections"))
+    for (const Row& block : found_in(section, "blocks"))
+      if (found_in(block, "file").is_string()) files.push_back(block["file"]);
+  return files;
+}
+
+store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
+                                                 const std::optional<GapCriterion>& criterion,
+                                                 const SafetyTemplates& templates,
+                                                 const DrawingLimits& limits) {
+  const safety::SafetyFacts facts = safety::facts_of(evidence, criterion);
+  Sections made(facts, templates.texts, limits);
+  Row page{{"format", "launchsafe safety report 2"},
+           {"language", made.words("language")},
+           {"report", made.words("report")},
+           {"title", evidence.main().title},
+           {"subject", evidence.main().scene.scene.title},
+           {"made_of", made.made_of()},
+           {"answer", facts.facts["answer"]},
+           {"sections", std::move(made.sections)}};
+  RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
+                        std::move(made.remarks)};
+  for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);
+  auto html = safety::filled(templates.html, {&page}, html_escape<std::string>);
+  if (!html) return html.error();
+  auto markdown = safety::filled(templates.markdown, {&page}, markdown_escaped);
+  if (!markdown) return markdown.error();
+  // What a template leaves of its tags are empty lines.
+  for (std::size_t at = 0; (at = markdown->find("\n\n\n", at)) != std::string::npos;) markdown->erase(at, 1);
+  report.files.insert(report.files.begin(),
+                      {{"report.html", std::move(*html)}, {"report.md", std::move(*markdown)}});
+  std::ranges::move(made.figures, std::back_inserter(report.files));
+  return report;
+}
+
+}  // namespace launchsafe::report

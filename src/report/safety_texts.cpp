@@ -1,0 +1,259 @@
+#include "safety_texts.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/safety_report.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <kainjow/mustache.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <deque>
+#include <map>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+namespace launchsafe::report {
+namespace safety {
+namespace {
+
+namespace mustache = kainjow::mustache;
+using Fields = mustache::data;
+
+store::Error no_template(std::string message) { return {store::Error::Kind::corrupt, std::move(message)}; }
+
+std::vector<std::string> split_at(std::string_view line, std::string_view separator) {
+  std::vector<std::string> parts;
+  for (std::size_t end = 0; end != std::string_view::npos; line.remove_prefix(end + separator.size())) {
+    end = line.find(separator);
+    parts.emplace_back(line.substr(0, end));
+    if (end == std::string_view::npos) break;
+  }
+  return parts;
+}
+
+/// "item of main.accepted from {{main.label}} / accepted"
+void read_place(const std::string& line, Text& text) {
+  const std::vector<std::string> parts = split_at(line, " from ");
+  if (parts.size() > 1) text.from = split_at(parts[1], " / ");
+  const std::vector<std::string> words = split_at(parts.front(), " of ");
+  text.look = words[0];
+  if (words.size() > 1) text.of = words[1];
+}
+
+/// "temperature_max_K | T max [K] | fixed 0": by default the cell is what the row has; a form, or a text.
+TextColumn column_in(const std::string& line) {
+  const std::vector<std::string> parts = split_at(line, " | ");
+  TextColumn column{parts[0], parts.size() > 1 ? parts[1] : parts[0], "{{" + parts[0] + "}}"};
+  if (parts.size() > 2)
+    column.cell =
+        parts[2].find("{{") != std::string::npos ? parts[2] : "{{" + parts[0] + "|" + parts[2] + "}}";
+  return column;
+}
+
+/// A number as its template wants it: "fixed 1", "sig 4", "sci 1" as digits; "down 3" and "up 3" rounded to
+/// the safe side by so many decimals, "uncertain" up to two digits; "percent 3" of a share; "short" two
+/// digits, or all before the point.
+std::string digits_of(double value, const std::string& form, int digits) {
+  if (form == "fixed") return fixed(value, digits);
+  if (form == "sci") return scientific(value, digits);
+  if (form == "down") return allowed_text(value, digits);
+  if (form == "up") return fixed(rounded_up(value, digits), digits);
+  if (form == "uncertain") return uncertain_text(value);
+  if (form == "percent") return significant(100.0 * value, digits) + " %";
+  if (form == "short") return value < 10.0 ? significant(value, 2) : fixed(value, 0);
+  return significant(value, digits);
+}
+
+/// Facts by name, those that were pushed last first; behind a bar in a form: "margin_K|down 1", where the
+/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger; of a text
+/// "words" has blanks between them and "first 12" is its beginning; of a list "list 4" are its first texts,
+/// "some" is there where it has any, and "count verdict SAFE" is how many rows have that there.
+class Facts : public mustache::basic_context<std::string> {
+ public:
+  explicit Facts(std::vector<const Row*> facts) : stack_(std::move(facts)) {}
+  void push(const Fields* data) override { stack_.push_back(rows_.at(data)); }
+  void pop() override { stack_.pop_back(); }
+  const Fields* get_partial(const std::string&) const override { return nullptr; }
+
+  const Fields* get(const std::string& name) const override {
+    const std::size_t bar = name.find('|');
+    const Row& fact = find(name.substr(0, bar));
+    return bar == std::string::npos || fact.is_null() ? issue(fact)
+                                                      : issue(in_form(fact, name.substr(bar + 1)));
+  }
+
+ private:
+  const Row& find(const std::string& name) const {
+    static const Row nothing;
+    if (name == ".") return *stack_.back();
+    for (auto row = stack_.rbegin(); row != stack_.rend(); ++row)
+      if ((*row)->is_object() && ((*row)->contains(name) || (*row)->contains(name.substr(0, name.find('.')))))
+        return found_in(**row, name);
+    return nothing;
+  }
+
+  const Row& in_form(const Row& fact, const std::string& words) const {
+    std::istringstream stream(words);
+    std::string form, digits = "0", value;
+    stream >> form >> digits;
+    std::getline(stream >> std::ws, value);
+    if (const Row& stated = find(digits); stated.is_number()) digits = fact_text(stated);
+    const int number = std::atoi(digits.c_str());
+    Row made = fact_text(fact);
+    if (form == "count") {
+      made = std::ranges::count_if(fact,
+                                   [&](const Row& row) { return fact_text(found_in(row, digits)) == value; });
+    } else if (form == "list") {
+      std::vector<std::string> texts;
+      for (const Row& each : fact) texts.push_back(fact_text(each));
+      if (number > 0 && texts.size() > static_cast<std::size_t>(number)) {
+        texts.resize(static_cast<std::size_t>(number));
+        texts.push_back(fmt::format("and {} more", fact.size() - texts.size()));
+      }
+      made = fmt::format("{}", fmt::join(texts, ", "));
+    } else if (form == "words") {
+      std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
+    } else if (form == "first") {
+      made = made.get<std::string>().substr(0, static_cast<std::size_t>(number));
+    } else if (form == "some") {
+      made = !fact.empty();
+    } else if (form == "over") {
+      made = fact.is_number() && fact.get<double>() > number;
+    } else if (fact.is_number()) {
+      made = digits_of(fact.get<double>(), form, number);
+    }
+    return made_.emplace_back(std::move(made));
+  }
+
+  /// As templates see a fact. A text or a list without content is nothing to a section; numbers are there,
+  /// also 0.
+  const Fields* issue(const Row& fact) const {
+    Fields& fields = issued_.emplace_back(false);
+    if (fact.is_array()) {
+      fields = Fields{Fields::type::list};
+      for (std::size_t i = 0; i < fact.size(); ++i) fields << as_section(fact[i]);
+      for (std::size_t i = 0; i < fact.size(); ++i) rows_[&fields.list_value()[i]] = &fact[i];
+    } else {
+      fields = as_section(fact);
+    }
+    rows_[&fields] = &fact;
+    return &fields;
+  }
+  static Fields as_section(const Row& fact) {
+    if (fact.is_object()) return Fields{Fields::type::object};
+    const std::string text = fact_text(fact);
+    return text.empty() ? Fields(false) : Fields(text);
+  }
+
+  std::vector<const Row*> stack_;
+  mutable std::deque<Row> made_;
+  mutable std::deque<Fields> issued_;
+  mutable std::map<const Fields*, const Row*> rows_;
+};
+
+}  // namespace
+
+store::Result<std::vector<Text>> texts_in(const std::string& file, const std::string& name) {
+  std::vector<Text> texts;
+  std::istringstream lines(file);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.starts_with("@@") || line.empty()) continue;
+    if (line.starts_with('@'))
+      texts.push_back({line.substr(1)});
+    else if (texts.empty())
+      return no_template(
+          fmt::format("{}: found \"{}\" before the first name; allowed: texts under their "
+                      "names, such as @answer.value",
+                      name, line));
+    else if (line.starts_with("= "))
+      read_place(line.substr(2), texts.back());
+    else if (line.starts_with("| "))
+      texts.back().columns.push_back(column_in(line.substr(2)));
+    else
+      texts.back().words += (texts.back().words.empty() ? "" : " ") + line;
+  }
+  for (const Text& text : texts)
+    if (const mustache::mustache parsed(text.words); !parsed.is_valid())
+      return no_template(
+          fmt::format("{}: the text {} is no template: {}", name, text.id, parsed.error_message()));
+  return texts;
+}
+
+std::string fact_text(const Row& fact) {
+  if (fact.is_string()) return fact.get<std::string>();
+  if (fact.is_number_float()) return exact(fact.get<double>());
+  return fact.is_number() || fact == true ? fact.dump() : std::string{};
+}
+
+const Row& found_in(const Row& facts, const std::string& name) {
+  static const Row nothing;
+  if (!facts.is_object()) return nothing;
+  if (const auto whole = facts.find(name); whole != facts.end()) return *whole;
+  const std::size_t dot = name.find('.');
+  const auto found = dot == std::string::npos ? facts.end() : facts.find(name.substr(0, dot));
+  return found == facts.end() ? nothing : found_in(*found, name.substr(dot + 1));
+}
+
+store::Result<std::string> filled(const std::string& text, std::vector<const Row*> facts,
+                                  std::string (*escape)(const std::string&)) {
+  mustache::mustache parsed(text);
+  parsed.set_custom_escape(escape);
+  Facts context(std::move(facts));
+  std::string page = parsed.render(context);
+  if (parsed.is_valid()) return page;
+  return no_template("a template cannot be filled: " + parsed.error_message());
+}
+
+std::string filled(const std::string& text, std::vector<const Row*> facts) {
+  const auto made = filled(text, std::move(facts), [](const std::string& each) { return each; });
+  return made ? *made : std::string{};
+}
+
+}  // namespace safety
+
+SafetyTemplates built_in_templates() {
+  SafetyTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};
+  const auto built_in = safety::texts_in(safety::built_in_texts, "texts");
+  for (const safety::Text& each : *built_in) templates.texts[each.id] = each.words;
+  return templates;
+}
+
+store::Result<SafetyTemplates> read_templates(const std::filesystem::path& folder) {
+  SafetyTemplates templates = built_in_templates();
+  const std::pair<const char*, std::string*> pages[] = {{"report.html.mustache", &templates.html},
+                                                        {"report.md.mustache", &templates.markdown},
+                                                        {"texts.mustache", nullptr}};
+  std::size_t found = 0;
+  for (const auto& [name, page] : pages) {
+    const std::filesystem::path path = folder / name;
+    auto file = store::read_file(path);
+    if (!file) {
+      if (file.error().kind == store::Error::Kind::missing) continue;
+      return file.error();
+    }
+    ++found;
+    if (page != nullptr) {
+      if (const kainjow::mustache::mustache parsed(*file); !parsed.is_valid())
+        return safety::no_template(
+            fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
+      *page = std::move(*file);
+      continue;
+    }
+    auto texts = safety::texts_in(*file, path.string());
+    if (!texts) return texts.error();
+    for (safety::Text& each : *texts) templates.texts[each.id] = std::move(each.words);
+  }
+  if (found > 0) return templates;
+  return store::Error{store::Error::Kind::missing,
+                      fmt::format("{}: found no template there; allowed: a folder with at least one of "
+                                  "report.html.mustache, report.md.mustache, texts.mustache",
+                                  folder.string())};
+}
+
+}  // namespace launchsafe::report
