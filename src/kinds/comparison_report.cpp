@@ -113,7 +113,7 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
          &RunSummary::energy_drift},
         {quantity::reason(), [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared().answer;
-           return answer.completed() ? answer.critical.reason : answer.failure;
+           return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
 }
 

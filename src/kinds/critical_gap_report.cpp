@@ -32,21 +32,22 @@ std::string answer_of(const CaseOutcome& outcome) {
           confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs");
     }
     case CriticalGapKind::all_safe:
-      return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower), gap.reason);
+      return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower),
+                         study::to_string(gap.reason));
     case CriticalGapKind::all_ignite:
-      return fmt::format("no gap is safe: {}.", gap.reason);
+      return fmt::format("no gap is safe: {}.", study::to_string(gap.reason));
     case CriticalGapKind::several_crossings:
       return fmt::format("there is no one critical gap: ignition begins at {}, but is {}.",
-                         centimetres(gap.lower), gap.reason);
+                         centimetres(gap.lower), study::to_string(gap.reason));
     case CriticalGapKind::indeterminate:
       break;
   }
-  return fmt::format("the critical gap is {}: {}.", reads_as(gap), gap.reason);
+  return fmt::format("the critical gap is {}: {}.", reads_as(gap), study::to_string(gap.reason));
 }
 
 bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
+         row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
 
 /// The cause that lowers the bound most; nothing without any.

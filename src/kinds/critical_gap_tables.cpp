@@ -158,7 +158,7 @@ Quantities<NamedOutcome> judged_case_quantities() {
                              "What the coupled runs on both sides of the bracket did."}),
          [](NamedOutcome outcome) { return confirmation_text(*outcome); }},
         {quantity::recorded_uncertainty(), &CaseOutcome::input, &StudyCase::recorded_uncertainty},
-        {quantity::remark(), [](NamedOutcome outcome) { return outcome->critical.reason; }}}});
+        {quantity::remark(), [](NamedOutcome outcome) { return to_string(outcome->critical.reason); }}}});
 }
 
 /// A coupled run of a case.

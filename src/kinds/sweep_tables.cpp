@@ -68,7 +68,7 @@ Quantities<AnsweredCase> swept_case_quantities(const study::Study& study) {
         {quantity::limiters(),
          [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }},
         {quantity::remark(), [](const AnsweredCase& row) {
-           return row.answer->completed() ? row.answer->critical.reason : row.answer->failure;
+           return row.answer->completed() ? to_string(row.answer->critical.reason) : row.answer->failure;
          }}}});
 }
 

@@ -172,7 +172,7 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
-      {reason(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::reason},
+      {reason(), &VerdictRow::gap, [](const study::GapVerdict& gap) { return study::reason_text(gap); }},
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
        &VerdictRow::gap, &GapVerdict::ignition, ignition_text},
       {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}), &VerdictRow::gap,

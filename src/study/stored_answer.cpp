@@ -2,6 +2,8 @@
 
 #include "launchsafe/store/sha256.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -16,7 +18,8 @@ struct AnswerRow {
   std::string key;
   std::int64_t check = 0;  ///< of the bytes of the answer
   CaseAnswer answer;
-  bool bounded = false;  ///< bounds of the critical gap were sought
+  bool bounded = false;                 ///< bounds of the critical gap were sought
+  std::string runs, validity_warnings;  ///< JSON lists of texts
 };
 
 struct GapRow {
@@ -47,7 +50,8 @@ const SqlTable<AnswerRow>& answer_table() {
       "stored_answers",
       {"answer"},
       "answer",
-      {store::sql_column<Row>("key", &Row::key), store::sql_column<Row>("check_sum", &Row::check),
+      {store::sql_column<Row>("key", &Row::key),
+       store::sql_column<Row>("check_sum", &Row::check),
        store::repeated_text<Row>(
            "failure", [](auto& row) -> auto& { return row.answer.failure; }),
        choice<Row>(
@@ -73,11 +77,26 @@ const SqlTable<AnswerRow>& answer_table() {
            "critical_gap_lower_m", [](auto& row) -> auto& { return row.answer.critical.lower; }),
        amount<Row>(
            "critical_gap_upper_m", [](auto& row) -> auto& { return row.answer.critical.upper; }),
+       choice<Row>(
+           "critical_gap_reason", [](auto& row) -> auto& { return row.answer.critical.reason.code; },
+           GapReason::Code::longer_launch_failed),
+       amount<Row>(
+           "reason_gap_m", [](auto& row) -> auto& { return row.answer.critical.reason.gap; }),
+       amount<Row>(
+           "reason_lower_m", [](auto& row) -> auto& { return row.answer.critical.reason.lower; }),
+       amount<Row>(
+           "reason_upper_m", [](auto& row) -> auto& { return row.answer.critical.reason.upper; }),
+       amount<Row>(
+           "reason_gaps", [](auto& row) -> auto& { return row.answer.critical.reason.gaps; }),
        store::repeated_text<Row>(
-           "critical_gap_reason", [](auto& row) -> auto& { return row.answer.critical.reason; }),
+           "reason_detail", [](auto& row) -> auto& { return row.answer.critical.reason.detail; }),
        amount<Row>(
            "critical_gap_indicative_m", [](auto& row) -> auto& { return row.answer.critical.indicative; }),
-       store::sql_column<Row>("bounded", &Row::bounded)}};
+       store::sql_column<Row>("bounded", &Row::bounded),
+       store::sql_column<Row>("runs", &Row::runs),
+       store::repeated_text<Row>("validity_warnings", &Row::validity_warnings),
+       store::sql_column<Row>(
+           "friction_rise_K", [](auto& row) -> auto& { return row.answer.friction_rise; })}};
   return table;
 }
 
@@ -154,17 +173,6 @@ std::vector<SqlColumn<GapRow>> gap_columns() {
       of_ignition("ignition_point", &NamedIgnition::point),
       of_ignition("ignition_chemical_share", &NamedIgnition::chemical_share)};
   columns.insert(columns.end(), more.begin(), more.end());
-  const std::pair<const char*, std::string Evidence::*> texts[] = {
-      {"validity_warnings", &Evidence::validity_warnings},
-      {"unaccepted", &Evidence::unaccepted},
-      {"ring", &Evidence::ring},
-      {"accepted", &Evidence::accepted},
-      {"optimistic", &Evidence::optimistic},
-      {"model_form", &Evidence::model_form},
-      {"extrapolated", &Evidence::extrapolated}};
-  for (const auto& [name, member] : texts)
-    columns.push_back(store::repeated_text<Row>(
-        name, [text = member](auto& row) -> auto& { return row.verdict.evidence.*text; }));
   return columns;
 }
 
@@ -195,6 +203,10 @@ const SqlTable<AsCalibrated>& as_calibrated_table() {
   return table;
 }
 
+std::string json_of(const std::vector<std::string>& texts) {
+  return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// An answer as rows.
 struct Rows {
   AnswerRow answer;
@@ -203,7 +215,13 @@ struct Rows {
 
 Rows rows_of(const CaseAnswer& answer) {
   const bool bounded = !std::isnan(answer.critical.bounds.at_least) || !answer.critical.shares.empty();
-  Rows rows{{.key = {}, .check = 0, .answer = answer, .bounded = bounded}, {}};
+  Rows rows{{.key = {},
+             .check = 0,
+             .answer = answer,
+             .bounded = bounded,
+             .runs = json_of(answer.runs),
+             .validity_warnings = json_of(answer.validity_warnings)},
+            {}};
   for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
     rows.gaps.push_back({answer.verdicts[i], answer.heated_temperature[i]});
   return rows;
@@ -233,6 +251,17 @@ MaybeError put_all(Database& database, const SqlTable<Row>& table, std::vector<s
     ++keys.back();
   }
   return {};
+}
+
+/// Fills a list from JSON; false where it is none of texts.
+bool read_texts(const std::string& json, std::vector<std::string>& texts) {
+  const auto list = nlohmann::json::parse(json, nullptr, false);
+  if (!list.is_array()) return false;
+  for (const auto& each : list) {
+    if (!each.is_string()) return false;
+    texts.push_back(each.get<std::string>());
+  }
+  return true;
 }
 
 /// Whether its numbers contradict each other.
@@ -291,6 +320,8 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   if (!found || found->size() != 1 || found->front().key != key) return std::nullopt;
   AnswerRow& row = found->front();
   CaseAnswer answer = std::move(row.answer);
+  if (!read_texts(row.runs, answer.runs) || !read_texts(row.validity_warnings, answer.validity_warnings))
+    return std::nullopt;
   auto gaps = gap_table().select(database, {number});
   auto shares = share_table().select(database, {number});
   if (!gaps || !shares) return std::nullopt;
@@ -304,8 +335,6 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   }
   if (row.bounded) set_shares(answer.critical, std::move(*shares));
   if (check_of(answer) != row.check || !is_sound(answer)) return std::nullopt;
-  for (GapVerdict& each : answer.verdicts)
-    judge_row(answer.failure, answer.run.limiters, answer.critical, each);
   return answer;
 }
 
