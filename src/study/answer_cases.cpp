@@ -49,6 +49,7 @@ std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& inp
     return std::nullopt;
   answer = judged(std::move(*answer), study, input);
   if (!answer) return std::nullopt;
+  answer->runs.clear();  // there may be a million answers
   // References are not stored: they are the study's.
   attach_references(study, input, answer->verdicts);
   return answer;
@@ -150,10 +151,12 @@ class AnswerRunner {
       return failed_answer(study_.study, input, RunOutcome::interrupted,
                            "interrupted before its gaps were judged");
     CaseAnswer answer = answer_from(study_.study, input, runs);
-    for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
     if (!judged || was_cut_off(runs.front())) return answer;
-    if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
+    if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off)) {
+      for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
       save_answer(*options_.store, answer_key(analysis_, input), answer);
+      answer.runs.clear();
+    }
     return answer;
   }
 

@@ -24,12 +24,10 @@ CaseAnswer without_histories(CaseOutcome& outcome) {
 
 /// Whether a row that was read was evaluated with the constants that have to be accepted, and states no less
 /// uncertainty than the study and the constants have at the least.
-bool is_as_uncertain(const GapVerdict& row, const CaseStatements& statements, const Study& study,
-                     const StudyCase& input) {
-  std::vector<std::string> keys;
-  if (study.kind.gives_verdicts) keys = keys_as_calibrated(statements.to_be_accepted);
+bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& calibrated_keys,
+                     const CaseStatements& statements, const Study& study, const StudyCase& input) {
   const Uncertainty& u = row.uncertainty;
-  return std::ranges::equal(row.as_calibrated, keys, {}, &AsCalibrated::key) &&
+  return std::ranges::equal(row.as_calibrated, calibrated_keys, {}, &AsCalibrated::key) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&
          !(u.model_form < stated_model_form_share(study, input, statements.model_form).value_or(0.0)) &&
@@ -49,7 +47,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   if (propagates_spread(study) &&
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
     return false;
-  if (!skin_keys(statements.to_be_accepted).empty() && !has(ShareKind::accepted)) return false;
+  if (!skin_keys(statements.to_be_accepted()).empty() && !has(ShareKind::accepted)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
          (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
@@ -73,6 +71,8 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
   const auto has_warning = [&](const std::string& warning) {
     return std::ranges::find(answer.validity_warnings, warning) != answer.validity_warnings.end();
   };
+  std::vector<std::string> calibrated_keys;
+  if (study.kind.gives_verdicts) calibrated_keys = keys_as_calibrated(statements.to_be_accepted());
   const bool is_asked = !study.kind.gives_verdicts || std::isfinite(answer.friction_rise);
   if (answer.completed() && !(is_asked && std::ranges::all_of(statements.uncovered_load, has_warning) &&
                               has_all_shares(answer.critical, study, input, statements)))
@@ -86,7 +86,7 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
     if (std::isfinite(row.maximum.temperature) &&
         !(std::isfinite(row.air.taken) && std::isfinite(row.air.supplied)))
       return false;
-    if (answer.completed() && !is_as_uncertain(row, statements, study, input)) return false;
+    if (answer.completed() && !is_as_uncertain(row, calibrated_keys, statements, study, input)) return false;
     // Nothing cools a skin below where it began.
     if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
   }

@@ -40,15 +40,6 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
   return values;
 }
 
-std::vector<scene::Implausible> with_foreign(std::vector<scene::Implausible> values,
-                                             const std::vector<scene::Implausible>& foreign) {
-  for (const scene::Implausible& each : foreign) {
-    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
-    if (!known) values.push_back(each);
-  }
-  return values;
-}
-
 /// First what is foreign to the calibration.
 std::vector<std::string> extrapolated_in(const RecordDistance& distance, const scene::Load& load) {
   std::vector<std::string> beyond = distance.names();
@@ -94,6 +85,15 @@ bool nobody_accepts(const scene::Implausible& value) { return !value.accepted();
 
 }  // namespace
 
+std::vector<scene::Implausible> CaseStatements::to_be_accepted() const {
+  std::vector<scene::Implausible> values = implausible;
+  for (const scene::Implausible& each : distance.foreign) {
+    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
+    if (!known) values.push_back(each);
+  }
+  return values;
+}
+
 bool CaseStatements::has_unaccepted() const {
   return std::ranges::any_of(implausible, nobody_accepts) ||
          std::ranges::any_of(distance.foreign, nobody_accepts);
@@ -114,7 +114,6 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   if (!study.kind.gives_verdicts) return all;
   all.distance = distance_to_calibration(scene, study.calibration);
   all.implausible = implausible_in(study, input, launch);
-  all.to_be_accepted = with_foreign(all.implausible, all.distance.foreign);
   all.extrapolated = extrapolated_in(all.distance, scene.load);
   all.calibrated_gap = study.calibration.evidence.largest_gap;
   return all;

@@ -106,8 +106,9 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   const auto is_new = [&seen](const std::string& said) { return seen.insert(said).second; };
   for (const StudyCase& input : study.cases) {
     CaseStatements statements = statements_of(study.study, input);
+    std::vector<scene::Implausible> to_be_accepted = statements.to_be_accepted();
     if (statements.is_beyond(largest)) statements.extrapolated.emplace_back("gap");
-    for (scene::Implausible& each : statements.to_be_accepted) {
+    for (scene::Implausible& each : to_be_accepted) {
       const std::string& value = each.accepted() ? each.accepted_value : each.value;
       if (is_new(fmt::format("{} = {} {}", each.key, value, each.accepted())))
         (each.accepted() ? all.accepted : all.missing).push_back(std::move(each));

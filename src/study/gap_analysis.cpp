@@ -121,8 +121,8 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurv
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
   if (study.kind.gives_verdicts)
-    row.as_calibrated =
-        as_calibrated(scene, study.calibration.scene, outcome.evidence->input.to_be_accepted, trace, gap.gap);
+    row.as_calibrated = as_calibrated(scene, study.calibration.scene,
+                                      outcome.evidence->input.to_be_accepted(), trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;

@@ -113,7 +113,7 @@ class Causes {
   void add_accepted() {
     if (!study_.kind.gives_verdicts || !towards()) return;
     const scene::Scene &scene = outcome_.input.scene.scene, &calibrated = study_.calibration.scene;
-    const std::vector<std::string> keys = skin_keys(outcome_.evidence->input.to_be_accepted);
+    const std::vector<std::string> keys = skin_keys(outcome_.evidence->input.to_be_accepted());
     if (!keys.empty())
       add(ShareKind::accepted, surface::skin_model(with_calibrated(scene, calibrated, keys)), trace_);
   }

@@ -107,7 +107,9 @@ std::string unaccepted_text(const CaseStatements& input) {
   return fmt::format("{}", fmt::join(warnings, "; "));
 }
 
-std::string accepted_text(const CaseStatements& input) { return scene::accepted_text(input.to_be_accepted); }
+std::string accepted_text(const CaseStatements& input) {
+  return scene::accepted_text(input.to_be_accepted());
+}
 
 std::string to_string(const Optimistic& optimistic) {
   switch (optimistic.why) {

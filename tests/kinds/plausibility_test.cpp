@@ -63,7 +63,7 @@ std::string accept(const std::string& key, const std::string& value, const std::
 /// What of a case is to be accepted, accepted for a reason.
 std::string accept_all(const StudyFile& study, const std::string& because) {
   std::string entries;
-  for (const scene::Implausible& each : statements_of(study.study, study.cases.front()).to_be_accepted)
+  for (const scene::Implausible& each : statements_of(study.study, study.cases.front()).to_be_accepted())
     entries += entry(each.key, each.value, because) + ", ";
   return "accept = [" + entries + "]\n";
 }

@@ -57,7 +57,7 @@ StudyOptions quadratic_options() {
 /// Accepts what the first case has to have accepted.
 void accept_all(StudyFile& study) {
   change_case(study, 0, [&](StudyCase& input) {
-    for (const auto& each : statements_of(study.study, input).to_be_accepted)
+    for (const auto& each : statements_of(study.study, input).to_be_accepted())
       input.scene.scene.accepted.push_back({each.key, each.value, "our own firing trials agree"});
   });
 }

@@ -22,7 +22,7 @@ struct CaseAnswer {
   RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
   std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
   RunSummary run;                        ///< of a case that ran
-  std::vector<std::string> runs;         ///< hashes of the runs that it was drawn from
+  std::vector<std::string> runs;  ///< hashes of the runs that it was drawn from; while it is stored or read
   std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
   double friction_rise = not_a_number;         ///< K, likewise
   CriticalGap critical;                        ///< at the observation points

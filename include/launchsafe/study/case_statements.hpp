@@ -44,8 +44,6 @@ struct CaseStatements {
   // The rest is empty for a study without verdicts.
   RecordDistance distance;                      ///< to the calibration
   std::vector<scene::Implausible> implausible;  ///< of the case and of what its study states, accepted or not
-  /// These, and what is foreign to the calibration.
-  std::vector<scene::Implausible> to_be_accepted;
   std::vector<std::string> extrapolated;  ///< what lies beyond the calibration's domain at any gap, by name
   /// m, up to which a gap lies within it.
   double calibrated_gap = std::numeric_limits<double>::infinity();
@@ -53,6 +51,8 @@ struct CaseStatements {
   /// Of the study's record of other models; not known where there is none.
   ModelFormShift model_form{std::nan(""), std::nan(""), {}};
 
+  /// What is implausible, and what is foreign to the calibration.
+  std::vector<scene::Implausible> to_be_accepted() const;
   /// Whether something is not plausible, or foreign to the calibration, and nobody accepts it.
   bool has_unaccepted() const;
   /// Whether a gap (m) lies beyond those of the calibration.
