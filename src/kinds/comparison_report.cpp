@@ -110,7 +110,7 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
         {quantity::energy_drift(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::energy_drift},
         {quantity::reason(), [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared();
-           return answer.completed() ? answer.critical.reason : answer.failure;
+           return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
 }
 

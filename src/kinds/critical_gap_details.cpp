@@ -267,7 +267,7 @@ Table gap_share_table(const CriticalGapResult& result) {
 
 bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.validity_warnings.empty() && row.evidence.unaccepted.empty();
+         row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
 
 /// The cause that lowers the bound most; nothing without any.

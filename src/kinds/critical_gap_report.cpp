@@ -154,16 +154,17 @@ std::string sentence_of(const CaseOutcome& outcome) {
           confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs");
     }
     case CriticalGapKind::all_safe:
-      return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower), gap.reason);
+      return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower),
+                         study::to_string(gap.reason));
     case CriticalGapKind::all_ignite:
-      return fmt::format("no gap is safe: {}.", gap.reason);
+      return fmt::format("no gap is safe: {}.", study::to_string(gap.reason));
     case CriticalGapKind::several_crossings:
       return fmt::format("there is no one critical gap: ignition begins at {}, but is {}.",
-                         centimetres(gap.lower), gap.reason);
+                         centimetres(gap.lower), study::to_string(gap.reason));
     case CriticalGapKind::indeterminate:
       break;
   }
-  return fmt::format("the critical gap is {}: {}.", reads_as(gap), gap.reason);
+  return fmt::format("the critical gap is {}: {}.", reads_as(gap), study::to_string(gap.reason));
 }
 
 /// Of few cases, one after the other.

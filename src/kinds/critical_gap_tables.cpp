@@ -118,7 +118,7 @@ Quantities<JudgedCase> judged_case_quantities(const study::Study& study, bool in
                  : of_part<JudgedCase>(run_quantities(study.gaps), &JudgedCase::answered),
        {{quantity::remark(), [](const JudgedCase& row) {
            const CaseAnswer& answer = *row.answered.answer;
-           return answer.completed() ? answer.critical.reason : answer.failure;
+           return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
 }
 

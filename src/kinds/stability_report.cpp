@@ -98,7 +98,7 @@ Quantities<GapRow> stability_quantities() {
         {quantity::uncertainty(), &GapRow::verdict,
          [](const GapVerdict& gap) { return gap.uncertainty.total(); }},
         {quantity::verdict(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.verdict; }},
-        {quantity::reason(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.reason; }},
+        {quantity::reason(), &GapRow::verdict, [](const GapVerdict& gap) { return reason_text(gap); }},
         {quantity::limiters(),
          of_run([](const auto& row) { return run::to_string(row.answer.run.limiters); })}}});
 }

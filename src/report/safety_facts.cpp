@@ -102,7 +102,7 @@ bool is_confirmed(const StudyEvidence& study, const std::string& label) {
 bool is_uncertain(const Row* verdict) {
   const std::string code = text_of(*verdict, quantity::reason_code().key());
   return code == to_string(study::ReasonCode::validity_warning) ||
-         code == to_string(study::ReasonCode::not_accepted);
+         code == to_string(study::ReasonCode::unaccepted);
 }
 
 std::vector<JudgedGap> gaps_of(const CaseEvidence& judged) {

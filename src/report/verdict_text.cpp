@@ -7,6 +7,7 @@
 #include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/statement_text.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -31,11 +32,18 @@ Column share_of_uncertainty(std::string name, std::string heading, std::string m
 }
 
 /// What the judgement of a gap rests on, for programs: empty where there is nothing to say.
-Quantity<VerdictRow> evidence_quantity(const char* name, std::string study::Evidence::*member,
+Quantity<VerdictRow> evidence_quantity(const char* name, std::string (*said)(const study::Evidence&),
                                        const char* meaning) {
   return {for_programs(Column{name, name, text(), meaning}), &VerdictRow::gap, &study::GapVerdict::evidence,
-          member};
+          said};
 }
+
+/// What the input of the case says.
+template <auto said>
+std::string of_input(const study::Evidence& evidence) {
+  return evidence.of_case == nullptr ? std::string{} : said(evidence.of_case->input);
+}
+std::string ring_text(const study::CaseStatements& input) { return input.ring; }
 
 /// Uncertainties that somebody stated by hand, with their sources; empty without any.
 std::string stated_note(const study::Study& study) {
@@ -177,20 +185,22 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
-      {reason(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::reason},
+      {reason(), &VerdictRow::gap, [](const study::GapVerdict& gap) { return study::reason_text(gap); }},
       {for_programs(reason_code()), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::code},
       {for_programs(Column{"cause", "cause", text(), "The beginning of the reason: what decided."}),
-       &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::cause},
-      evidence_quantity("validity_warnings", &study::Evidence::validity_warnings,
+       &VerdictRow::gap,
+       [](const study::GapVerdict& gap) { return study::cause_text(gap.evidence, gap.judgement); }},
+      evidence_quantity("validity_warnings", study::validity_warnings_text,
                         "Why a completed run is no basis."),
-      evidence_quantity("unaccepted", &study::Evidence::unaccepted,
+      evidence_quantity("unaccepted", of_input<study::unaccepted_text>,
                         "What is not plausible, or foreign to the calibration, and nobody accepts."),
-      evidence_quantity("accepted", &study::Evidence::accepted, "What somebody accepts of that, and why."),
-      evidence_quantity("limited", &study::Evidence::limited, "Limiters that acted."),
-      evidence_quantity("noise", &study::Evidence::noise, "What the noise of a measured curve counts."),
-      evidence_quantity("ring", &study::Evidence::ring, "That a measured curve rings."),
-      evidence_quantity("model_form", &study::Evidence::model_form, "Models that could change the verdict."),
-      evidence_quantity("extrapolated", &study::Evidence::extrapolated,
+      evidence_quantity("accepted", of_input<study::accepted_text>,
+                        "What somebody accepts of that, and why."),
+      evidence_quantity("limited", study::limiters_text, "Limiters that acted."),
+      evidence_quantity("noise", study::noise_text, "What the noise of a measured curve counts."),
+      evidence_quantity("ring", of_input<ring_text>, "That a measured curve rings."),
+      evidence_quantity("model_form", study::models_text, "Models that could change the verdict."),
+      evidence_quantity("extrapolated", study::extrapolated_text,
                         "What lies outside the domain of the calibration."),
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
        &VerdictRow::gap, &GapVerdict::ignition, ignition_text},

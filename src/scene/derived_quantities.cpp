@@ -43,17 +43,18 @@ Number rescaling(const Scene& scene) {
 }
 
 /// As one rigid body at the muzzle exit, or at the end where there is none, m/s and m.
-Number launch_speed(const Scene& scene) { return rigid_motion(scene, read_time(scene.load)).velocity; }
-Number launch_travel(const Scene& scene) { return rigid_motion(scene, read_time(scene.load)).travel; }
+Number launch_speed(const Scene&, const RigidMotion& launch) { return launch.velocity; }
+Number launch_travel(const Scene&, const RigidMotion& launch) { return launch.travel; }
 
 /// At a stated muzzle exit.
 Number pressure_at_exit(const Scene& scene) {
   const auto exit = exit_time(scene.load);
   return exit ? Number(share_left(scene.load, *exit)) : std::nullopt;
 }
-Number calibres_to_exit(const Scene& scene) {
+Number calibres_to_exit(const Scene& scene, const RigidMotion& launch) {
   const auto exit = exit_time(scene.load);
-  return exit ? Number(calibres_until(scene, *exit)) : std::nullopt;
+  if (!exit) return std::nullopt;
+  return *exit == read_time(scene.load) ? calibres_of(scene, launch) : calibres_until(scene, *exit);
 }
 
 /// Of an isotropic solid.
@@ -124,14 +125,24 @@ double warmth_of_air(const Scene& scene) {
 
 Number radius_of_shell(const Scene& scene) { return extent_of(scene).r_end; }
 
+using OfLaunch = std::function<Number(const Scene& scene, const RigidMotion& launch)>;
+
 DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
-                         std::string because, std::function<Number(const Scene&)> value) {
+                         std::string because, OfLaunch value) {
   return {{.name = std::move(name),
            .dimension = dimension,
            .standing = Standing::derived,
            .sentence = std::move(sentence),
            .plausible = {.limits = plausible, .because = std::move(because)}},
           std::move(value)};
+}
+
+/// Of a quantity that does not ask for the motion.
+DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
+                         std::string because, std::function<Number(const Scene&)> value) {
+  return quantity(
+      std::move(name), dimension, std::move(sentence), plausible, std::move(because),
+      OfLaunch([value = std::move(value)](const Scene& scene, const RigidMotion&) { return value(scene); }));
 }
 
 }  // namespace

@@ -78,8 +78,12 @@ double share_left(const Load& load, double time) {
   return height > 0.0 ? (history.at(time) - base) / height : 0.0;
 }
 
+double calibres_of(const Scene& scene, const RigidMotion& motion) {
+  return motion.travel / (2.0 * extent_of(scene).r_end);
+}
+
 double calibres_until(const Scene& scene, double time) {
-  return rigid_motion(scene, time).travel / (2.0 * extent_of(scene).r_end);
+  return calibres_of(scene, rigid_motion(scene, time));
 }
 
 bool is_cut_short(const Load& load) {

@@ -1,6 +1,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -111,6 +112,10 @@ bool is_plausible(const KeyDescription& key, const Value& value) {
 }
 
 std::vector<Implausible> implausible_values(const Scene& scene) {
+  return implausible_values(scene, rigid_motion(scene, read_time(scene.load)));
+}
+
+std::vector<Implausible> implausible_values(const Scene& scene, const RigidMotion& launch) {
   Judge judge(scene);
   for (const Key<Scene>& key : scene_keys()) {
     if (key.is_used(scene)) judge.key(key, key.name, key.get(scene));
@@ -121,7 +126,7 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
     if (value) judge.key(key, name, *value);
   });
   for (const DerivedQuantity& quantity : derived_quantities()) {
-    if (const auto value = quantity.value(scene))
+    if (const auto value = quantity.value(scene, launch))
       judge.key(quantity.description, quantity.description.name, Value(*value));
   }
   return judge.take();

@@ -12,7 +12,7 @@ namespace launchsafe::store {
 namespace {
 
 constexpr int application_id = 0x4c534146;  // "LSAF", by which a results file of ours is known
-constexpr int schema_version = 1;
+constexpr int schema_version = 2;
 constexpr int patience = 500;  // ms, for a reader that is about to be done
 
 Error::Kind kind_of(int code) {

@@ -1,5 +1,6 @@
 #include "launchsafe/study/answer_cases.hpp"
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/stored_answer.hpp"
@@ -18,10 +19,11 @@ namespace {
 /// Of what of a study influences an answer, and of the build, since answers are cheap to draw again, while
 /// one of an older program may be wrong.
 std::string digest_of_analysis(const Study& study) {
-  std::string text = fmt::format(
-      "# answer of launchsafe {} {}\n{} {} {} {} {} {} {} {}\n", version::number, version::commit,
-      fmt::join(study.gaps, ","), study.tolerance, study.largest_gap, study.fit_uncertainty,
-      study.input_uncertainty, study.early_time, study.reference_line.slope, study.reference_line.intercept);
+  std::string text =
+      fmt::format("# answer of launchsafe {} {}, model version {}\n{} {} {} {} {} {} {} {}\n",
+                  version::number, version::commit, run::model_version, fmt::join(study.gaps, ","),
+                  study.tolerance, study.largest_gap, study.fit_uncertainty, study.input_uncertainty,
+                  study.early_time, study.reference_line.slope, study.reference_line.intercept);
   for (const Reference& row : study.references) {
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
@@ -37,24 +39,29 @@ std::string digest_of_analysis(const Study& study) {
   return store::sha256(text);
 }
 
-/// The stored answer to a case, if it is there and can be one. What is not is drawn again from the mechanics.
+/// The stored answer to a case that rests on so many runs, if it is there and can be one. What is not is
+/// drawn again from the mechanics; a damaged result is computed again, also where its answers are known.
 std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& input, const std::string& key,
-                                        const StudyOptions& options) {
-  if (options.store == nullptr) return std::nullopt;
-  auto answer = read_answer(*options.store, key);
-  if (!answer || !fits(*answer, study, input)) return std::nullopt;
+                                        std::size_t runs, store::CaseStore& store) {
+  auto answer = read_answer(store, key);
+  const auto is_held = [&store](const std::string& hash) { return store.holds(hash); };
+  if (!answer || answer->runs.size() != runs || !std::ranges::all_of(answer->runs, is_held))
+    return std::nullopt;
+  answer = judged(std::move(*answer), study, input);
+  if (!answer) return std::nullopt;
+  answer->runs.clear();  // there may be a million answers
   // References are not stored: they are the study's.
   attach_references(study, input, answer->verdicts);
   return answer;
 }
 
-/// The key of the stored answer of a case whose first run has this hash: all that determines it. `analysis`:
-/// digest of what of the study does.
-std::string answer_key(const std::string& analysis, const StudyCase& input, const std::string& run) {
+/// The key of the stored answer of a case: all that determines it and its runs. `analysis`: digest of what of
+/// the study does.
+std::string answer_key(const std::string& analysis, const StudyCase& input) {
   scene::Scene scene = input.scene.scene;
   scene::clear_remarks(scene);
   scene.surface.gaps = {};
-  return store::CaseIdentity(run + analysis + (input.own_conditions ? "own" : "other") +
+  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") +
                              fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
                              scene::to_toml(scene))
       .hash();
@@ -89,17 +96,11 @@ class AnswerRunner {
     });
   }
 
-  /// A damaged result is computed again, also where its answers are known.
   void fetch_answers(const CaseRuns& runs) {
-    std::string first;
-    for (const PlannedRun& planned : runs.runs) {
-      const std::string hash = planned.make().hash;
-      if (!options_.store->holds(hash)) return;
-      if (first.empty()) first = hash;
-    }
     for (const std::size_t each : runs.members) {
       const StudyCase input = study_.cases[each];
-      answers_[each] = stored_answer(study_.study, input, answer_key(analysis_, input, first), options_);
+      answers_[each] =
+          stored_answer(study_.study, input, answer_key(analysis_, input), runs.runs.size(), *options_.store);
     }
   }
 
@@ -151,8 +152,11 @@ class AnswerRunner {
                            "interrupted before its gaps were judged");
     CaseAnswer answer = answer_from(study_.study, input, runs);
     if (!judged || was_cut_off(runs.front())) return answer;
-    if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off))
-      save_answer(*options_.store, answer_key(analysis_, input, runs.front().hash), answer);
+    if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off)) {
+      for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
+      save_answer(*options_.store, answer_key(analysis_, input), answer);
+      answer.runs.clear();
+    }
     return answer;
   }
 

@@ -1,7 +1,5 @@
 #include "launchsafe/study/bracket.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,11 +41,9 @@ constexpr int scan_intervals = 32;
 /// The bisection goes this much further than the tolerance before the bracket is centred on the change.
 constexpr double refinement = 64.0;
 
-std::string centimetres(double length) { return fmt::format("{:.6g} cm", 100.0 * length); }
-
 CriticalGap undefined_at(double gap) {
   CriticalGap result;
-  result.reason = "the temperature at a gap of " + centimetres(gap) + " is not a number";
+  result.reason = {GapReason::Code::undefined, gap};
   return result;
 }
 
@@ -97,18 +93,16 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
   if (first == states.end()) {
     result.kind = CriticalGapKind::all_safe;
     result.lower = largest;
-    result.reason = "no ignition up to " + centimetres(largest) + ", where the search ended";
+    result.reason = {GapReason::Code::none_ignites, largest};
     return result;
   }
   const auto again = std::find(first, states.end(), GapState::safe);
-  if (again != states.end()) {
-    result.reason = "not monotone: no ignition at " +
-                    centimetres(gaps[static_cast<std::size_t>(again - states.begin())]) + " again";
-  }
+  if (again != states.end())
+    result.reason = {GapReason::Code::not_monotone, gaps[static_cast<std::size_t>(again - states.begin())]};
   if (index == 0) {
     result.kind = CriticalGapKind::all_ignite;
     result.upper = 0.0;
-    if (result.reason.empty()) result.reason = "ignition at every gap, also without one";
+    if (again == states.end()) result.reason = {GapReason::Code::all_ignite};
     return result;
   }
   double undefined = 0;

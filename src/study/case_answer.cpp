@@ -1,6 +1,5 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
@@ -12,45 +11,21 @@
 namespace launchsafe::study {
 namespace {
 
-/// What every verdict of a case has to say, as its input alone shows.
-struct InputStatements {
-  std::vector<std::string> validity_warnings;
-  std::string unaccepted, accepted;
-  RecordDistance distance;
-  std::vector<std::string> as_calibrated;  ///< keys
-};
-
-InputStatements statements_of(const Study& study, const StudyCase& input) {
-  RecordDistance distance = distance_to_calibration(input.scene.scene, study.calibration);
-  std::vector<std::string> keys;
-  if (study.kind.gives_verdicts) keys = keys_as_calibrated(to_be_accepted(study, input));
-  return {run::uncovered_load(input.scene.scene.load), unaccepted_text(study, input),
-          accepted_text(study, input), std::move(distance), std::move(keys)};
-}
-
-/// Whether a row that was read says that, and states no less uncertainty than the study and the constants
-/// have at the least.
-bool says(const GapVerdict& row, const InputStatements& statements, const Study& study,
-          const StudyCase& input) {
-  const auto is_said = [&row](const std::string& warning) {
-    return row.evidence.validity_warnings.find(warning) != std::string::npos;
-  };
+/// Whether a row that was read was evaluated with the constants that have to be accepted, and states no less
+/// uncertainty than the study and the constants have at the least.
+bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& calibrated_keys,
+                     const CaseStatements& statements, const Study& study, const StudyCase& input) {
   const Uncertainty& u = row.uncertainty;
-  return std::all_of(statements.validity_warnings.begin(), statements.validity_warnings.end(), is_said) &&
-         row.evidence.unaccepted == statements.unaccepted && row.evidence.accepted == statements.accepted &&
-         row.evidence.optimistic.starts_with(optimistic_text(study, input)) &&
-         std::ranges::equal(row.as_calibrated, statements.as_calibrated, {}, &AsCalibrated::key) &&
-         row.evidence.extrapolated == extrapolation_text(study, input, row.gap) &&
+  return std::ranges::equal(row.as_calibrated, calibrated_keys, {}, &AsCalibrated::key) &&
          !(u.numerical < input.numerical_uncertainty) &&
          !(u.fit < fit_share(study, statements.distance, {})) &&
-         !(u.model_form < stated_model_form_share(study, input).value_or(0.0)) &&
-         row.evidence.model_form == model_form_text(study, input, row.gap, row.ignition.has_value()) &&
+         !(u.model_form < stated_model_form_share(study, input, statements.model_form).value_or(0.0)) &&
          !(u.input < stated_input_share(study, input));
 }
 
 /// Whether the shares of a critical gap that was read are all there that the study's case must have.
 bool has_all_shares(const CriticalGap& critical, const Study& study, const StudyCase& input,
-                    const RecordDistance& distance) {
+                    const CaseStatements& statements) {
   const bool is_film = input.scene.scene.surface.air_model == scene::AirModel::film;
   const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
   if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;
@@ -61,11 +36,50 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   if (propagates_spread(study) &&
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
     return false;
-  if (!skin_keys(to_be_accepted(study, input)).empty() && !has(ShareKind::accepted)) return false;
+  if (!skin_keys(statements.to_be_accepted()).empty() && !has(ShareKind::accepted)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
-         (has(ShareKind::fit) || !(fit_share(study, distance, {}) > 0.0)) &&
+         (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
-         (has(ShareKind::model_form) || !(stated_model_form_share(study, input).value_or(1.0) > 0.0));
+         (has(ShareKind::model_form) ||
+          !(stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0));
+}
+
+/// Whether an answer that was read can be that of the study's case: its gaps, and margins and times that the
+/// case's scene allows, and no less uncertainty and no fewer validity warnings than its input has.
+bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
+          const CaseStatements& statements) {
+  const scene::Scene& scene = input.scene.scene;
+  const double ignition_temperature = scene.charge().kinetics.ignition_temperature;
+  // A step may end a little beyond the duration.
+  const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
+  const auto is_late = [end](const Peak& peak) { return peak.time > end; };
+  if (answer.verdicts.size() != study.gaps.size()) return false;
+  if (answer.critical.kind == CriticalGapKind::value &&
+      answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
+    return false;
+  const auto has_warning = [&](const std::string& warning) {
+    return std::ranges::find(answer.validity_warnings, warning) != answer.validity_warnings.end();
+  };
+  std::vector<std::string> calibrated_keys;
+  if (study.kind.gives_verdicts) calibrated_keys = keys_as_calibrated(statements.to_be_accepted());
+  const bool is_asked = !study.kind.gives_verdicts || std::isfinite(answer.friction_rise);
+  if (answer.completed() && !(is_asked && std::ranges::all_of(statements.uncovered_load, has_warning) &&
+                              has_all_shares(answer.critical, study, input, statements)))
+    return false;
+  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
+    const GapVerdict& row = answer.verdicts[i];
+    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
+    // Both are finite or both are not; the subtraction is the one by which the margin came about.
+    const double margin = ignition_temperature - row.maximum.temperature;
+    if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
+    if (std::isfinite(row.maximum.temperature) &&
+        !(std::isfinite(row.air.taken) && std::isfinite(row.air.supplied)))
+      return false;
+    if (answer.completed() && !is_as_uncertain(row, calibrated_keys, statements, study, input)) return false;
+    // Nothing cools a skin below where it began.
+    if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -84,7 +98,12 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 }
 
 CaseAnswer answer_of(const CaseOutcome& outcome) {
-  CaseAnswer answer{outcome.outcome, outcome.failure, {}, outcome.critical, outcome.verdicts, {}};
+  CaseAnswer answer{.outcome = outcome.outcome,
+                    .failure = outcome.failure,
+                    .validity_warnings = outcome.evidence->validity_warnings,
+                    .friction_rise = outcome.evidence->friction_rise,
+                    .critical = outcome.critical,
+                    .verdicts = outcome.verdicts};
   for (const GapVerdict& row : answer.verdicts)
     answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
   const run::MechanicsResult& mechanics = outcome.result.mechanics;
@@ -99,32 +118,15 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
   return answer_of(outcome);
 }
 
-bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input) {
-  const scene::Scene& scene = input.scene.scene;
-  const double ignition_temperature = scene.charge().kinetics.ignition_temperature;
-  // A step may end a little beyond the duration.
-  const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
-  const auto is_late = [end](const Peak& peak) { return peak.time > end; };
-  if (answer.verdicts.size() != study.gaps.size()) return false;
-  if (answer.critical.kind == CriticalGapKind::value &&
-      answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
-    return false;
-  const InputStatements statements = statements_of(study, input);
-  if (answer.completed() && !has_all_shares(answer.critical, study, input, statements.distance)) return false;
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
-    const GapVerdict& row = answer.verdicts[i];
-    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
-    // Both are finite or both are not; the subtraction is the one by which the margin came about.
-    const double margin = ignition_temperature - row.maximum.temperature;
-    if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;
-    if (std::isfinite(row.maximum.temperature) &&
-        !(std::isfinite(row.air.taken) && std::isfinite(row.air.supplied)))
-      return false;
-    if (answer.completed() && !says(row, statements, study, input)) return false;
-    // Nothing cools a skin below where it began.
-    if (row.maximum.temperature < scene.initial_temperature - 1.0) return false;
-  }
-  return true;
+std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input) {
+  CaseStatements statements = statements_of(study, input);
+  if (!fits(answer, study, input, statements)) return std::nullopt;
+  const auto evidence = std::make_shared<const CaseEvidence>(
+      CaseEvidence{answer.completed(), answer.failure, answer.run.limiters, answer.validity_warnings,
+                   answer.friction_rise, std::move(statements)});
+  answer.critical.reason.of_case = evidence;
+  judge_rows(study, evidence, answer.critical, answer.verdicts);
+  return answer;
 }
 
 }  // namespace launchsafe::study

@@ -2,7 +2,6 @@
 
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -19,63 +18,6 @@ namespace {
 double ratio_to_calibration(const Study& study, const StudyCase& input) {
   return scene::PressureHistory(input.scene.scene.load).stated_peak() /
          scene::PressureHistory(study.calibration.scene.load).stated_peak();
-}
-
-/// A peak pressure at which no other model of the launch was looked at: how wrong the one is there nobody
-/// knows, whatever is assumed or stated of it.
-std::optional<scene::Implausible> pressure_beyond_models(const Study& study, const StudyCase& input) {
-  const scene::Scene& scene = input.scene.scene;
-  const scene::Limits compared = compared_pressures(study.model_form);
-  constexpr double round_off = 1e-9;
-  const double peak = scene::PressureHistory(scene.load).stated_peak();
-  if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
-    return std::nullopt;
-  return scene::implausible(
-      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::pressure},
-      scene::pressure_of_models, keys::Value(peak),
-      fmt::format("{} to {}, because other models of the launch were compared only there",
-                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
-}
-
-/// What is not plausible of a case and of what its study states, accepted or not.
-std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input) {
-  std::vector<scene::Implausible> values = study.implausible;
-  if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
-  for (scene::Implausible& each : scene::implausible_values(input.scene.scene))
-    values.push_back(std::move(each));
-  return values;
-}
-
-/// What lies beyond the calibration's domain for a case, by name: first what is foreign to it.
-std::vector<std::string> extrapolated_in(const Study& study, const StudyCase& input, double gap) {
-  std::vector<std::string> beyond = distance_to_calibration(input.scene.scene, study.calibration).names();
-  if (input.scene.scene.load.smoothing > 0.0) {
-    beyond.push_back("load smoothed over " +
-                     scene::format_quantity(input.scene.scene.load.smoothing, scene::Dimension::time));
-  }
-  if (gap > study.calibration.evidence.largest_gap * (1.0 + 1e-9)) beyond.emplace_back("gap");
-  return beyond;
-}
-
-/// What only averages or removes heat: no ignition under it shows nothing.
-std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scene& calibrated) {
-  constexpr double deepest_station = 10e-3, widest_station = 20e-3, thickest_skin = 0.3e-3;  // m
-  constexpr double least_share = 0.5, slack = 1e-9;
-  const scene::Surface &ours = scene.surface, &theirs = calibrated.surface;
-  std::vector<std::string> found;
-  const auto add = [&found](bool cools, std::string name) {
-    if (cools) found.push_back(std::move(name));
-  };
-  add(ours.station_depth > deepest_station + slack, "stations deeper than 10 mm");
-  add(ours.station_width > widest_station + slack, "stations wider than 20 mm");
-  add(ours.skin_thickness > thickest_skin + slack, "a skin above 0.3 mm");
-  add(ours.friction == scene::FrictionClosure::none, "no friction heat");
-  add(ours.localisation * scene.charge().sliding_friction <
-          least_share * theirs.localisation * calibrated.charge().sliding_friction,
-      "sliding friction times localisation below half the calibrated product");
-  add(ours.exchange_time * least_share > theirs.exchange_time,
-      "an exchange slower than half the calibrated one");
-  return found;
 }
 
 /// The alternatives of a record that count, or those that do not.
@@ -126,11 +68,11 @@ double stated_input_share(const Study& study, const StudyCase& input) {
   return study.input_uncertainty * (growth <= 1.0 ? 1.0 : growth);
 }
 
-std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input) {
+std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input,
+                                              const ModelFormShift& recorded) {
   if (!study.kind.gives_verdicts) return 0.0;
   const bool stated = std::isfinite(study.model_form_uncertainty);
-  if (study.model_form && std::isfinite(model_form_shift(*study.model_form, input.scene.scene).gap))
-    return std::nullopt;
+  if (std::isfinite(recorded.gap)) return std::nullopt;
   // What a study states is of its own scene; what is assumed, of the calibrated launch.
   const double ratio = stated ? input.pressure_ratio : ratio_to_calibration(study, input);
   const double growth = std::pow(ratio, heat_exponent);
@@ -138,20 +80,14 @@ std::optional<double> stated_model_form_share(const Study& study, const StudyCas
 }
 
 std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
+  const auto recorded =
+      study.model_form ? model_form_shift(*study.model_form, input.scene.scene) : CaseStatements{}.model_form;
   const bool computation =
       input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9);
-  const bool models = !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input);
+  const bool models =
+      !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input, recorded);
   if (computation) return models ? "computation, model form" : "computation";
   return models ? "model form" : "";
-}
-
-std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites) {
-  if (!study.model_form) return {};
-  const scene::Scene& scene = input.scene.scene;
-  const std::string names = ignites ? models_without_ignition(*study.model_form, scene, gap)
-                                    : models_that_may_ignite(*study.model_form, scene, gap);
-  if (names.empty()) return {};
-  return (ignites ? "no ignition, or none known, under " : "ignition not excluded under ") + names;
 }
 
 LoadCurveErrors load_curve_errors(const scene::Load& load) {
@@ -159,36 +95,6 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
   const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
   return {roughness / (1.0 + roughness) + scene::work_lost_to_smoothing(load),
           std::pow(kept, -heat_exponent) - 1.0};
-}
-
-std::vector<scene::Implausible> to_be_accepted(const Study& study, const StudyCase& input) {
-  // No stress case of a stability study may pass because its input is called implausible.
-  if (!study.kind.gives_verdicts) return {};
-  std::vector<scene::Implausible> values = implausible_in(study, input);
-  for (scene::Implausible& each : distance_to_calibration(input.scene.scene, study.calibration).foreign) {
-    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
-    if (!known) values.push_back(std::move(each));
-  }
-  return values;
-}
-
-std::string unaccepted_text(const Study& study, const StudyCase& input) {
-  if (!study.kind.gives_verdicts) return {};
-  std::vector<std::string> warnings, foreign;
-  for (const scene::Implausible& each : implausible_in(study, input))
-    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
-  for (const scene::Implausible& each : distance_to_calibration(input.scene.scene, study.calibration).foreign)
-    if (!each.accepted()) foreign.push_back(scene::value_text(each));
-  if (!foreign.empty())
-    warnings.push_back(fmt::format(
-        "extrapolated: the constants were calibrated on another launch ({}), and nothing says how wrong they "
-        "are here",
-        fmt::join(foreign, ", ")));
-  return fmt::format("{}", fmt::join(warnings, "; "));
-}
-
-std::string accepted_text(const Study& study, const StudyCase& input) {
-  return scene::accepted_text(to_be_accepted(study, input));
 }
 
 AcceptancesOfStudy acceptances_of(const StudyFile& study) {
@@ -199,48 +105,18 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   std::set<std::string> seen;
   const auto is_new = [&seen](const std::string& said) { return seen.insert(said).second; };
   for (const StudyCase& input : study.cases) {
-    for (scene::Implausible& each : to_be_accepted(study.study, input)) {
+    CaseStatements statements = statements_of(study.study, input);
+    std::vector<scene::Implausible> to_be_accepted = statements.to_be_accepted();
+    if (statements.is_beyond(largest)) statements.extrapolated.emplace_back("gap");
+    for (scene::Implausible& each : to_be_accepted) {
       const std::string& value = each.accepted() ? each.accepted_value : each.value;
       if (is_new(fmt::format("{} = {} {}", each.key, value, each.accepted())))
         (each.accepted() ? all.accepted : all.missing).push_back(std::move(each));
     }
-    for (std::string& each : extrapolated_in(study.study, input, largest))
+    for (std::string& each : statements.extrapolated)
       if (is_new(each)) all.extrapolated.push_back(std::move(each));
   }
   return all;
-}
-
-std::string optimistic_text(const Study& study, const StudyCase& input) {
-  constexpr double fewest_calibres = 10.0;
-  const scene::Scene& scene = input.scene.scene;
-  if (scene.surface.air_model == scene::AirModel::film)
-    return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
-  if (!study.kind.gives_verdicts) return {};
-  const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene);
-  if (!cooling.empty())
-    return fmt::format(
-        "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
-        fmt::join(cooling, ", "));
-  const double calibres = scene::calibres_until(scene, scene::read_time(scene.load));
-  if (calibres >= fewest_calibres) return {};
-  return fmt::format(
-      "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}", calibres,
-      fewest_calibres);
-}
-
-std::string unheated_text(double friction_rise) {
-  constexpr double least_rise = 1.0;  // K
-  if (friction_rise >= least_rise) return {};
-  return fmt::format(
-      "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition shows "
-      "nothing",
-      friction_rise, least_rise);
-}
-
-std::string extrapolation_text(const Study& study, const StudyCase& input, double gap) {
-  if (!study.kind.gives_verdicts) return {};
-  const std::vector<std::string> beyond = extrapolated_in(study, input, gap);
-  return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
 std::string fit_uncertainty_text(const Study& study) {

@@ -1,7 +1,6 @@
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/raised_launch.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
@@ -45,25 +44,13 @@ double integration_error(const surface::SkinModel& model, const BottomTrace& tra
   return std::abs(maximum.temperature - gap.at_stations.temperature);
 }
 
+bool has_trace(const CaseOutcome& outcome) { return outcome.result.mechanics.trace.samples() > 0; }
+
 /// T max (K) over the stations of a skin that air and friction heat and that neither reacts nor is
 /// triggered.
 double heated_temperature(const scene::Scene& scene, const BottomTrace& trace, double gap) {
   const surface::SkinModel model = without_reaction(surface::skin_model(scene));
   return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
-}
-
-/// What the rows of a case have in common.
-struct CaseGround {
-  RecordDistance distance;
-  std::vector<scene::Implausible> to_be_accepted;
-  LoadCurveErrors load_curve;
-  double heated_without_gap = not_a_number;  ///< K
-};
-
-CaseGround ground_of(const Study& study, const CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  return {distance_to_calibration(scene, study.calibration), to_be_accepted(study, outcome.input),
-          load_curve_errors(scene.load), heated_temperature(scene, outcome.result.mechanics.trace, 0.0)};
 }
 
 /// K by which T max of a row is higher in a raised launch; infinite where that ignites and the row does not.
@@ -99,25 +86,27 @@ double thicker_gap_share(const CaseOutcome& outcome, const GapVerdict& row, doub
 
 /// K by which T max of a gap is higher where other models move the critical gap towards ignition.
 double model_form_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
-  if (const auto stated = stated_model_form_share(study, outcome.input)) return *stated;
-  return thicker_gap_share(outcome, row, model_form_shift(*study.model_form, outcome.input.scene.scene).gap);
+  const ModelFormShift& recorded = outcome.evidence->input.model_form;
+  if (const auto stated = stated_model_form_share(study, outcome.input, recorded)) return *stated;
+  return thicker_gap_share(outcome, row, recorded.gap);
 }
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
 /// with the rise.
-void add_shares(const Study& study, const CaseOutcome& outcome, const CaseGround& ground, GapVerdict& row) {
+void add_shares(const Study& study, const CaseOutcome& outcome, const LoadCurveErrors& load_curve,
+                GapVerdict& row) {
   const double initial = outcome.input.scene.scene.initial_temperature;
   row.uncertainty.numerical = numerical_share(outcome.input, row.gap, row.maximum.temperature - initial);
-  const Rises rises{ground.heated_without_gap - initial, row.heated - ground.heated_without_gap};
-  row.uncertainty.fit = fit_share(study, ground.distance, rises);
+  const Rises rises{outcome.heated_without_gap - initial, row.heated - outcome.heated_without_gap};
+  row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises);
   row.uncertainty.input = input_share(study, outcome, row);
-  row.uncertainty.load_curve = ground.load_curve.in_kelvin(rises);
+  row.uncertainty.load_curve = load_curve.in_kelvin(rises);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding =
       friction_share(outcome) + thicker_gap_share(outcome, row, opening_at_base(outcome));
 }
 
-GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGround& ground,
+GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurveErrors& load_curve,
                   const run::GapResult& gap) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const BottomTrace& trace = outcome.result.mechanics.trace;
@@ -132,12 +121,13 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const CaseGrou
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
   row.heated = heated_temperature(scene, trace, gap.gap);
   if (study.kind.gives_verdicts)
-    row.as_calibrated = as_calibrated(scene, study.calibration.scene, ground.to_be_accepted, trace, gap.gap);
+    row.as_calibrated = as_calibrated(scene, study.calibration.scene,
+                                      outcome.evidence->input.to_be_accepted(), trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
-  add_shares(study, outcome, ground, row);
+  add_shares(study, outcome, load_curve, row);
   return row;
 }
 
@@ -169,7 +159,7 @@ GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, cons
 GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
   const run::GapResult gap =
       run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, outcome.critical.lower);
-  GapVerdict row = row_of(study, outcome, ground_of(study, outcome), gap);
+  GapVerdict row = row_of(study, outcome, load_curve_errors(outcome.input.scene.scene.load), gap);
   row.uncertainty.coupling = coupling_share(outcome);
   if (misses_calibrated_rows(outcome))
     row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
@@ -205,32 +195,29 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   set_shares(critical, std::move(shares));
 }
 
-CriticalGap indeterminate(std::string reason) {
+CriticalGap indeterminate(GapReason reason) {
   CriticalGap gap;
   gap.reason = std::move(reason);
   return gap;
 }
 
-std::optional<std::string> disagreement_of(const Confirmation& confirmation) {
+/// By which the evidence of a case leaves no critical gap.
+CriticalGap indeterminate(GapReason::Code code, const CaseOutcome& outcome) {
+  return indeterminate({.code = code, .of_case = outcome.evidence});
+}
+
+/// With the bracket (m) that was traced.
+std::optional<GapReason> disagreement_of(const Confirmation& confirmation, double lower, double upper) {
+  using Code = GapReason::Code;
   if (!confirmation.ran || confirmation.agrees()) return std::nullopt;
-  const std::string gap = fmt::format("the coupled run at {:.6g} cm ", 100.0 * confirmation.gap);
-  if (!confirmation.completed) return gap + "did not complete: " + confirmation.failure;
-  return gap + (confirmation.ignited ? "ignites" : "does not ignite") + ", the traced temperatures " +
-         (confirmation.expected_ignition ? "do" : "do not");
+  const Code code = !confirmation.completed ? Code::coupled_run_failed
+                    : confirmation.ignited  ? Code::coupled_run_ignites
+                                            : Code::coupled_run_does_not_ignite;
+  return GapReason{code, confirmation.gap, lower, upper, 0, confirmation.failure};
 }
 
-/// Why no ignition of a case shows nothing, by its input or by its run.
-std::string why_optimistic(const Study& study, const CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  std::string text = optimistic_text(study, outcome.input);
-  const bool judged = study.kind.gives_verdicts && outcome.completed();
-  if (!text.empty() || !judged || outcome.result.mechanics.trace.samples() == 0) return text;
-  return unheated_text(heated_temperature(scene, outcome.result.mechanics.trace, 0.0) -
-                       scene.initial_temperature);
-}
-
-/// All validity warnings of a completed run itself as one clause.
-std::string validity_warnings_of(const CaseOutcome& outcome) {
+/// Those of a completed run itself.
+std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
   std::vector<std::string> warnings =
       run::validity_warnings(outcome.input.scene.scene, outcome.result.mechanics);
@@ -240,7 +227,7 @@ std::string validity_warnings_of(const CaseOutcome& outcome) {
                     100.0 * assumed_load_spread, run::to_string(outcome.raised->status),
                     outcome.raised->reason.empty() ? "" : ", ", outcome.raised->reason));
   }
-  return fmt::format("{}", fmt::join(warnings, "; "));
+  return warnings;
 }
 
 }  // namespace
@@ -313,35 +300,46 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
 
 namespace {
 
+/// Without a trace there is no heat, and a study without verdicts does not ask whether anything was launched.
+CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
+  constexpr double unasked = std::numeric_limits<double>::infinity();
+  const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
+  return {outcome.completed(),
+          outcome.failure,
+          outcome.result.mechanics.limiters,
+          validity_warnings_of(outcome),
+          asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
+          statements_of(study, outcome.input)};
+}
+
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::string warnings = validity_warnings_of(outcome);
-  if (!outcome.completed() || !warnings.empty()) {
-    outcome.critical = indeterminate(outcome.completed() ? "validity warning: " + warnings : outcome.failure);
+  using Code = GapReason::Code;
+  if (!outcome.completed() || !outcome.evidence->validity_warnings.empty()) {
+    outcome.critical = indeterminate(outcome.completed() ? Code::validity_warning : Code::failed, outcome);
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
   outcome.critical = find_critical_gap(
       [&](double gap) { return state_of(surface::ignites(model, outcome.result.mechanics.trace, gap)); },
       largest_gap(study), study.tolerance);
-  if (const std::string unaccepted = unaccepted_text(study, outcome.input); !unaccepted.empty()) {
+  if (outcome.evidence->input.has_unaccepted()) {
     const GapOrBound indicative = gap_or_bound(outcome.critical);
-    outcome.critical = indeterminate("validity warning: " + unaccepted);
+    outcome.critical = indeterminate(Code::unaccepted, outcome);
     outcome.critical.indicative = indicative;
   }
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
-  const bool has_trace = outcome.result.mechanics.trace.samples() > 0;
-  const CaseGround ground = has_trace ? ground_of(study, outcome) : CaseGround{};
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const LoadCurveErrors load_curve = load_curve_errors(scene.load);
   for (const double gap : study.gaps) {
-    if (!has_trace) {
+    if (!has_trace(outcome)) {
       GapVerdict row;
       row.gap = gap;
       outcome.verdicts.push_back(std::move(row));
     } else {
-      outcome.result.gaps.push_back(
-          run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gap));
-      outcome.verdicts.push_back(row_of(study, outcome, ground, outcome.result.gaps.back()));
+      outcome.result.gaps.push_back(run::evaluate_gap(scene, outcome.result.mechanics.trace, gap));
+      outcome.verdicts.push_back(row_of(study, outcome, load_curve, outcome.result.gaps.back()));
     }
   }
   attach_references(study, outcome.input, outcome.verdicts);
@@ -350,6 +348,10 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
 }  // namespace
 
 void evaluate(const Study& study, CaseOutcome& outcome) {
+  if (has_trace(outcome))
+    outcome.heated_without_gap =
+        heated_temperature(outcome.input.scene.scene, outcome.result.mechanics.trace, 0.0);
+  outcome.evidence = std::make_shared<const CaseEvidence>(evidence_of(study, outcome));
   find_critical_gaps(study, outcome);
   evaluate_gaps(study, outcome);
 }
@@ -367,13 +369,11 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 void apply_confirmations(const Study& study, CaseOutcome& outcome) {
   find_bounds_of_critical_gap(study, outcome);
   for (const Confirmation& confirmation : outcome.confirmations) {
-    const auto disagreement = disagreement_of(confirmation);
-    if (!disagreement) continue;
     // The bracket stays readable in the reason; a number that was not confirmed is none.
-    outcome.critical =
-        indeterminate(fmt::format("{} (traced bracket {:.6g} to {:.6g} cm)", *disagreement,
-                                  100.0 * outcome.critical.lower, 100.0 * outcome.critical.upper));
-    return;
+    if (auto reason = disagreement_of(confirmation, outcome.critical.lower, outcome.critical.upper)) {
+      outcome.critical = indeterminate(std::move(*reason));
+      return;
+    }
   }
 }
 
@@ -387,30 +387,18 @@ bool misses_calibrated_rows(const CaseOutcome& outcome) {
 void conclude(const Study& study, CaseOutcome& outcome) {
   const double coupling = coupling_share(outcome);
   const bool foreign = misses_calibrated_rows(outcome);
-  const std::string warnings = validity_warnings_of(outcome);
-  const std::string unaccepted = unaccepted_text(study, outcome.input);
-  const std::string accepted = accepted_text(study, outcome.input);
-  const std::string ring = scene::ring_text(outcome.input.scene.scene.load);
-  const std::string optimistic = why_optimistic(study, outcome);
   std::vector<double> gaps, temperatures;
   for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) {
     GapVerdict& row = outcome.verdicts[i];
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    Evidence& evidence = row.evidence;
-    evidence.validity_warnings = warnings + when_launch_is_over(outcome, i);
-    evidence.unaccepted = unaccepted;
-    evidence.accepted = accepted;
-    evidence.optimistic = optimistic;
-    evidence.model_form = model_form_text(study, outcome.input, row.gap, row.ignition.has_value());
-    evidence.extrapolated = extrapolation_text(study, outcome.input, row.gap);
-    evidence.ring = ring;
-    judge_row(outcome.failure, outcome.result.mechanics.limiters, outcome.critical, row);
+    row.evidence.when_over = when_launch_is_over(outcome, i);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);
   }
+  judge_rows(study, outcome.evidence, outcome.critical, outcome.verdicts);
   outcome.fit = fit_gaps(gaps, temperatures, study.reference_line);
 }
 

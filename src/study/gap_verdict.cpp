@@ -1,6 +1,6 @@
 #include "launchsafe/study/gap_verdict.hpp"
 
-#include <fmt/format.h>
+#include "launchsafe/study/statement_text.hpp"
 
 namespace launchsafe::study {
 
@@ -17,23 +17,25 @@ double GapVerdict::early_misfit() const {
   return reference ? early.temperature - reference->early_temperature : not_a_number;
 }
 
-void judge_row(const std::string& failure, const run::LimiterCounts& limiters, const CriticalGap& critical,
-               GapVerdict& row) {
-  Evidence& evidence = row.evidence;
-  evidence.completed = failure.empty();
-  evidence.failure = failure;
-  evidence.ignited = row.ignition.has_value();
-  evidence.gap = row.gap;
-  evidence.maximum_temperature = row.maximum.temperature;
-  evidence.margin = row.margin;
-  evidence.uncertainty = row.uncertainty.total();
-  evidence.calibrated_margin = margin_as_calibrated(row.as_calibrated, row.margin + row.maximum.temperature);
-  evidence.limited = run::to_string(limiters);
-  constexpr double least_told = 0.1;  // K
-  if (row.uncertainty.load_curve >= least_told)
-    evidence.noise =
-        fmt::format("noise and smoothing of the measured curve count {:.2g} K", row.uncertainty.load_curve);
-  row.judgement = judge(evidence, critical);
+void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& of_case,
+                const CriticalGap& critical, std::vector<GapVerdict>& rows) {
+  const std::optional<PressureInterval>& around = of_case->input.model_form.around;
+  for (GapVerdict& row : rows) {
+    Evidence& evidence = row.evidence;
+    evidence.of_case = of_case;
+    evidence.ignited = row.ignition.has_value();
+    evidence.gap = row.gap;
+    evidence.maximum_temperature = row.maximum.temperature;
+    evidence.margin = row.margin;
+    evidence.uncertainty = row.uncertainty.total();
+    evidence.calibrated_margin =
+        margin_as_calibrated(row.as_calibrated, row.margin + row.maximum.temperature);
+    evidence.noise = row.uncertainty.load_curve;
+    if (around) evidence.models = models_that_differ(*study.model_form, *around, row.gap, evidence.ignited);
+    row.judgement = judge(evidence, critical);
+  }
 }
+
+std::string reason_text(const GapVerdict& row) { return reason_text(row.evidence, row.judgement); }
 
 }  // namespace launchsafe::study

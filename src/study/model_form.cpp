@@ -56,11 +56,6 @@ std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& 
   return {};
 }
 
-/// The recorded pressures around a peak: their indices, equal where it is one of them.
-struct PressureInterval {
-  std::size_t below = 0, above = 0;
-};
-
 std::optional<PressureInterval> interval_of(const std::vector<double>& pressures, double peak) {
   constexpr double round_off = 1e-9;
   if (pressures.empty() || !(peak >= pressures.front() * (1.0 - round_off)) ||
@@ -118,19 +113,6 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
                      1e-6 * record.peak_pressures.back());
 }
 
-template <class Differs>
-std::string titles_where(const ModelFormRecord& record, const scene::Scene& scene, Differs differs) {
-  if (!why_outside(record, scene).empty()) return {};
-  const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
-  std::vector<std::string> titles;
-  for (const ModelAlternative& each : record.alternatives) {
-    const GapOrBound a = each.critical_gap[interval.below], b = each.critical_gap[interval.above];
-    if (differs(each, a) || differs(each, b))
-      titles.push_back(fmt::format("\"{}\"", each.title.empty() ? each.name : each.title));
-  }
-  return fmt::format("{}", fmt::join(titles, ", "));
-}
-
 }  // namespace
 
 ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
@@ -175,24 +157,25 @@ scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record) {
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
   if (std::string reason = why_outside(record, scene); !reason.empty())
     return {std::nan(""), std::nan(""), std::move(reason)};
-  const PressureInterval interval = *interval_of(record.peak_pressures, peak_of(scene));
-  const Shift below = shift_at(record, interval.below), above = shift_at(record, interval.above);
+  const PressureInterval around = *interval_of(record.peak_pressures, peak_of(scene));
+  const Shift below = shift_at(record, around.below), above = shift_at(record, around.above);
   const double sooner = larger(below.sooner, above.sooner), later = larger(below.later, above.later);
   if (std::isnan(sooner))
     return {sooner, later,
-            "it has no critical gap of the default model, or no other model that counts, there"};
-  return {sooner, later, {}};
+            "it has no critical gap of the default model, or no other model that counts, there", around};
+  return {sooner, later, {}, around};
 }
 
-std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
-  return titles_where(record, scene,
-                      [gap](const ModelAlternative&, double critical) { return !(critical <= gap); });
-}
-
-std::string models_that_may_ignite(const ModelFormRecord& record, const scene::Scene& scene, double gap) {
-  return titles_where(record, scene, [gap](const ModelAlternative& each, double critical) {
-    return !each.not_counted.empty() && !(critical > gap);
-  });
+std::vector<std::string> models_that_differ(const ModelFormRecord& record, const PressureInterval& around,
+                                            double gap, bool ignites) {
+  const auto differs = [&](const ModelAlternative& each, GapOrBound critical) {
+    return ignites ? !(critical <= gap) : !each.not_counted.empty() && !(critical > gap);
+  };
+  std::vector<std::string> titles;
+  for (const ModelAlternative& each : record.alternatives)
+    if (differs(each, each.critical_gap[around.below]) || differs(each, each.critical_gap[around.above]))
+      titles.push_back(each.title.empty() ? each.name : each.title);
+  return titles;
 }
 
 }  // namespace launchsafe::study

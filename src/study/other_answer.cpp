@@ -4,7 +4,6 @@
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -19,7 +18,7 @@ CriticalGap none_up_to(double largest, std::size_t gaps) {
   CriticalGap bound;
   bound.kind = CriticalGapKind::all_safe;
   bound.lower = largest;
-  bound.reason = fmt::format("none of {} gaps up to {:.6g} cm ignites", gaps, 100.0 * largest);
+  bound.reason = {.code = GapReason::Code::none_of_gaps, .gap = largest, .gaps = gaps};
   return bound;
 }
 
@@ -66,17 +65,13 @@ void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mech
     return;
   }
   OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
-  none.critical.reason = "the run of the longer launch: " + failure_of(mechanics);
+  none.critical.reason = {.code = GapReason::Code::longer_launch_failed, .detail = failure_of(mechanics)};
   outcome.longer_launch = std::move(none);
 }
 
-std::string when_launch_is_over(const CaseOutcome& outcome, std::size_t gap) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  if (!outcome.longer_launch || !scene::is_cut_short(scene.load)) return {};
-  const double highest = outcome.longer_launch->maximum_temperature.at(gap);
-  if (!std::isfinite(highest)) return {};
-  return fmt::format("; when it is over T max is {:.1f} K, and the ignition temperature is {:.1f} K", highest,
-                     scene.charge().kinetics.ignition_temperature);
+double when_launch_is_over(const CaseOutcome& outcome, std::size_t gap) {
+  if (!outcome.longer_launch || !scene::is_cut_short(outcome.input.scene.scene.load)) return not_a_number;
+  return outcome.longer_launch->maximum_temperature.at(gap);
 }
 
 }  // namespace launchsafe::study

@@ -64,7 +64,8 @@ class Causes {
     add_temperature(ShareKind::computation, u.computed() - u.sliding);
     if (u.sliding > 0.0) add_sliding();
     add_temperature(ShareKind::fit, u.fit);
-    if (const auto stated = stated_model_form_share(study_, outcome_.input))
+    if (const auto stated =
+            stated_model_form_share(study_, outcome_.input, outcome_.evidence->input.model_form))
       add_temperature(ShareKind::model_form, *stated);
     else
       add_shift(ShareKind::model_form);
@@ -112,13 +113,13 @@ class Causes {
   void add_accepted() {
     if (!study_.kind.gives_verdicts || !towards()) return;
     const scene::Scene &scene = outcome_.input.scene.scene, &calibrated = study_.calibration.scene;
-    const std::vector<std::string> keys = skin_keys(to_be_accepted(study_, outcome_.input));
+    const std::vector<std::string> keys = skin_keys(outcome_.evidence->input.to_be_accepted());
     if (!keys.empty())
       add(ShareKind::accepted, surface::skin_model(with_calibrated(scene, calibrated, keys)), trace_);
   }
 
   void add_shift(ShareKind kind) {
-    const ModelFormShift shift = model_form_shift(*study_.model_form, outcome_.input.scene.scene);
+    const ModelFormShift& shift = outcome_.evidence->input.model_form;
     add(kind, skin_, trace_, towards() ? shift.gap : -shift.later);
   }
 

@@ -2,6 +2,9 @@
 
 #include "launchsafe/store/sha256.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -16,13 +19,20 @@ struct AnswerRow {
   std::string key;
   std::int64_t check = 0;  ///< of the bytes of the answer
   CaseAnswer answer;
-  bool bounded = false;  ///< bounds of the critical gap were sought
+  bool bounded = false;                 ///< bounds of the critical gap were sought
+  std::string runs, validity_warnings;  ///< JSON lists of texts
 };
 
 struct GapRow {
   GapVerdict verdict;
   double heated = not_a_number;  ///< K
 };
+
+/// The way from a row to a member through members.
+template <class... Members>
+auto way(Members... members) {
+  return [=](auto& row) -> auto& { return (row.*....*members); };
+}
 
 /// Of an amount, which is not negative but may be NaN.
 template <class Row, class Member>
@@ -43,55 +53,49 @@ SqlColumn<Row> choice(std::string name, Member member, Enumeration last) {
 
 const SqlTable<AnswerRow>& answer_table() {
   using Row = AnswerRow;
+  using store::sql_column, store::repeated_text;
+  const auto of_run = [](auto... members) { return way(&Row::answer, &CaseAnswer::run, members...); };
+  const auto of_gap = [](auto... members) { return way(&Row::answer, &CaseAnswer::critical, members...); };
+  const auto of_reason = [&](auto member) { return of_gap(&CriticalGap::reason, member); };
+  const auto of_limiters = [&](auto member) { return of_run(&RunSummary::limiters, member); };
   static const SqlTable<Row> table{
       "stored_answers",
       {"answer"},
       "answer",
-      {store::sql_column<Row>("key", &Row::key), store::sql_column<Row>("check_sum", &Row::check),
-       store::repeated_text<Row>(
-           "failure", [](auto& row) -> auto& { return row.answer.failure; }),
-       choice<Row>(
-           "run_status", [](auto& row) -> auto& { return row.answer.run.status; }, run::last_status),
-       amount<Row>(
-           "steps", [](auto& row) -> auto& { return row.answer.run.steps; }),
-       amount<Row>(
-           "particles", [](auto& row) -> auto& { return row.answer.run.particles; }),
-       amount<Row>(
-           "energy_drift", [](auto& row) -> auto& { return row.answer.run.energy_drift; }),
-       amount<Row>(
-           "crack_at_bound", [](auto& row) -> auto& { return row.answer.run.limiters.crack_at_bound; }),
-       amount<Row>(
-           "tension_cutoff", [](auto& row) -> auto& { return row.answer.run.limiters.tension_cutoff; }),
-       amount<Row>(
-           "hugoniot_guard", [](auto& row) -> auto& { return row.answer.run.limiters.hugoniot_guard; }),
-       choice<Row>(
-           "critical_gap_kind", [](auto& row) -> auto& { return row.answer.critical.kind; },
-           CriticalGapKind::several_crossings),
-       amount<Row>(
-           "critical_gap_m", [](auto& row) -> auto& { return row.answer.critical.value; }),
-       amount<Row>(
-           "critical_gap_lower_m", [](auto& row) -> auto& { return row.answer.critical.lower; }),
-       amount<Row>(
-           "critical_gap_upper_m", [](auto& row) -> auto& { return row.answer.critical.upper; }),
-       store::repeated_text<Row>(
-           "critical_gap_reason", [](auto& row) -> auto& { return row.answer.critical.reason; }),
-       amount<Row>(
-           "critical_gap_indicative_m", [](auto& row) -> auto& { return row.answer.critical.indicative; }),
-       store::sql_column<Row>("bounded", &Row::bounded)}};
+      {sql_column<Row>("key", &Row::key),
+       sql_column<Row>("check_sum", &Row::check),
+       repeated_text<Row>("failure", way(&Row::answer, &CaseAnswer::failure)),
+       choice<Row>("run_status", of_run(&RunSummary::status), run::last_status),
+       amount<Row>("steps", of_run(&RunSummary::steps)),
+       amount<Row>("particles", of_run(&RunSummary::particles)),
+       amount<Row>("energy_drift", of_run(&RunSummary::energy_drift)),
+       amount<Row>("crack_at_bound", of_limiters(&run::LimiterCounts::crack_at_bound)),
+       amount<Row>("tension_cutoff", of_limiters(&run::LimiterCounts::tension_cutoff)),
+       amount<Row>("hugoniot_guard", of_limiters(&run::LimiterCounts::hugoniot_guard)),
+       choice<Row>("critical_gap_kind", of_gap(&CriticalGap::kind), CriticalGapKind::several_crossings),
+       amount<Row>("critical_gap_m", of_gap(&CriticalGap::value)),
+       amount<Row>("critical_gap_lower_m", of_gap(&CriticalGap::lower)),
+       amount<Row>("critical_gap_upper_m", of_gap(&CriticalGap::upper)),
+       choice<Row>("reason", of_reason(&GapReason::code), GapReason::Code::longer_launch_failed),
+       amount<Row>("reason_gap_m", of_reason(&GapReason::gap)),
+       amount<Row>("reason_lower_m", of_reason(&GapReason::lower)),
+       amount<Row>("reason_upper_m", of_reason(&GapReason::upper)),
+       amount<Row>("reason_gaps", of_reason(&GapReason::gaps)),
+       repeated_text<Row>("reason_detail", of_reason(&GapReason::detail)),
+       amount<Row>("critical_gap_indicative_m", of_gap(&CriticalGap::indicative)),
+       sql_column<Row>("bounded", &Row::bounded),
+       sql_column<Row>("runs", &Row::runs),
+       repeated_text<Row>("validity_warnings", &Row::validity_warnings),
+       sql_column<Row>("friction_rise_K", way(&Row::answer, &CaseAnswer::friction_rise))}};
   return table;
 }
 
 /// A temperature, its time and its place.
-template <class Member>
-void add_peak(std::vector<SqlColumn<GapRow>>& columns, const std::string& name, Member member) {
-  columns.push_back(amount<GapRow>(
-      name + "_temperature_K", [member](auto& row) -> auto& {
-        return std::invoke(member, row.verdict).temperature;
-      }));
-  columns.push_back(amount<GapRow>(
-      name + "_time_s", [member](auto& row) -> auto& { return std::invoke(member, row.verdict).time; }));
-  columns.push_back(store::sql_column<GapRow>(
-      name + "_point", [member](auto& row) -> auto& { return std::invoke(member, row.verdict).point; }));
+void add_peak(std::vector<SqlColumn<GapRow>>& columns, const std::string& name, Peak GapVerdict::*peak) {
+  const auto of_peak = [peak](auto member) { return way(&GapRow::verdict, peak, member); };
+  columns.push_back(amount<GapRow>(name + "_temperature_K", of_peak(&Peak::temperature)));
+  columns.push_back(amount<GapRow>(name + "_time_s", of_peak(&Peak::time)));
+  columns.push_back(store::sql_column<GapRow>(name + "_point", of_peak(&Peak::point)));
 }
 
 /// A column that is empty where the gap does not ignite.
@@ -110,61 +114,40 @@ SqlColumn<GapRow> of_ignition(std::string name, Member member) {
 
 std::vector<SqlColumn<GapRow>> gap_columns() {
   using Row = GapRow;
-  std::vector<SqlColumn<Row>> columns{amount<Row>(
-      "gap_m", [](auto& row) -> auto& { return row.verdict.gap; })};
+  const auto of_row = [](auto... members) { return way(&Row::verdict, members...); };
+  const auto share = [&](const char* name, auto member) {
+    return amount<Row>(name, of_row(&GapVerdict::uncertainty, member));
+  };
+  const auto of_air = [&](const char* name, auto member) {
+    return amount<Row>(name, of_row(&GapVerdict::air, member));
+  };
+  std::vector<SqlColumn<Row>> columns{amount<Row>("gap_m", of_row(&GapVerdict::gap))};
   add_peak(columns, "maximum", &GapVerdict::maximum);
   add_peak(columns, "until_exit", &GapVerdict::until_exit);
   add_peak(columns, "early", &GapVerdict::early);
   const std::vector<SqlColumn<Row>> more{
-      amount<Row>(
-          "spread_K", [](auto& row) -> auto& { return row.verdict.spread; }),
-      amount<Row>(
-          "early_spread_K", [](auto& row) -> auto& { return row.verdict.early_spread; }),
-      store::sql_column<Row>(
-          "margin_K", [](auto& row) -> auto& { return row.verdict.margin; }),
+      amount<Row>("spread_K", of_row(&GapVerdict::spread)),
+      amount<Row>("early_spread_K", of_row(&GapVerdict::early_spread)),
+      store::sql_column<Row>("margin_K", of_row(&GapVerdict::margin)),
       amount<Row>("heated_temperature_K", &Row::heated),
-      amount<Row>(
-          "air_taken_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.taken; }),
-      amount<Row>(
-          "air_supplied_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.supplied; }),
-      amount<Row>(
-          "air_stored_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.stored; }),
-      amount<Row>(
-          "air_isothermal_J_per_m2", [](auto& row) -> auto& { return row.verdict.air.isothermal; }),
-      amount<Row>(
-          "sampling_K", [](auto& row) -> auto& { return row.verdict.uncertainty.sampling; }),
-      amount<Row>(
-          "integration_K", [](auto& row) -> auto& { return row.verdict.uncertainty.integration; }),
-      amount<Row>(
-          "coupling_K", [](auto& row) -> auto& { return row.verdict.uncertainty.coupling; }),
-      amount<Row>(
-          "numerical_K", [](auto& row) -> auto& { return row.verdict.uncertainty.numerical; }),
-      amount<Row>(
-          "fit_K", [](auto& row) -> auto& { return row.verdict.uncertainty.fit; }),
-      amount<Row>(
-          "input_K", [](auto& row) -> auto& { return row.verdict.uncertainty.input; }),
-      amount<Row>(
-          "load_curve_K", [](auto& row) -> auto& { return row.verdict.uncertainty.load_curve; }),
-      amount<Row>(
-          "model_form_K", [](auto& row) -> auto& { return row.verdict.uncertainty.model_form; }),
-      amount<Row>(
-          "sliding_K", [](auto& row) -> auto& { return row.verdict.uncertainty.sliding; }),
+      of_air("air_taken_J_per_m2", &surface::AirEnergy::taken),
+      of_air("air_supplied_J_per_m2", &surface::AirEnergy::supplied),
+      of_air("air_stored_J_per_m2", &surface::AirEnergy::stored),
+      of_air("air_isothermal_J_per_m2", &surface::AirEnergy::isothermal),
+      share("sampling_K", &Uncertainty::sampling),
+      share("integration_K", &Uncertainty::integration),
+      share("coupling_K", &Uncertainty::coupling),
+      share("numerical_K", &Uncertainty::numerical),
+      share("fit_K", &Uncertainty::fit),
+      share("input_K", &Uncertainty::input),
+      share("load_curve_K", &Uncertainty::load_curve),
+      share("model_form_K", &Uncertainty::model_form),
+      share("sliding_K", &Uncertainty::sliding),
       of_ignition("ignition_cause", &NamedIgnition::cause),
       store::not_negative(of_ignition("ignition_time_s", &NamedIgnition::time)),
       of_ignition("ignition_point", &NamedIgnition::point),
       of_ignition("ignition_chemical_share", &NamedIgnition::chemical_share)};
   columns.insert(columns.end(), more.begin(), more.end());
-  const std::pair<const char*, std::string Evidence::*> texts[] = {
-      {"validity_warnings", &Evidence::validity_warnings},
-      {"unaccepted", &Evidence::unaccepted},
-      {"ring", &Evidence::ring},
-      {"accepted", &Evidence::accepted},
-      {"optimistic", &Evidence::optimistic},
-      {"model_form", &Evidence::model_form},
-      {"extrapolated", &Evidence::extrapolated}};
-  for (const auto& [name, member] : texts)
-    columns.push_back(store::repeated_text<Row>(
-        name, [text = member](auto& row) -> auto& { return row.verdict.evidence.*text; }));
   return columns;
 }
 
@@ -195,6 +178,10 @@ const SqlTable<AsCalibrated>& as_calibrated_table() {
   return table;
 }
 
+std::string json_of(const std::vector<std::string>& texts) {
+  return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// An answer as rows.
 struct Rows {
   AnswerRow answer;
@@ -203,7 +190,13 @@ struct Rows {
 
 Rows rows_of(const CaseAnswer& answer) {
   const bool bounded = !std::isnan(answer.critical.bounds.at_least) || !answer.critical.shares.empty();
-  Rows rows{{.key = {}, .check = 0, .answer = answer, .bounded = bounded}, {}};
+  Rows rows{{.key = {},
+             .check = 0,
+             .answer = answer,
+             .bounded = bounded,
+             .runs = json_of(answer.runs),
+             .validity_warnings = json_of(answer.validity_warnings)},
+            {}};
   for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
     rows.gaps.push_back({answer.verdicts[i], answer.heated_temperature[i]});
   return rows;
@@ -233,6 +226,17 @@ MaybeError put_all(Database& database, const SqlTable<Row>& table, std::vector<s
     ++keys.back();
   }
   return {};
+}
+
+/// Fills a list from JSON; false where it is none of texts.
+bool read_texts(const std::string& json, std::vector<std::string>& texts) {
+  const auto list = nlohmann::json::parse(json, nullptr, false);
+  if (!list.is_array()) return false;
+  for (const auto& each : list) {
+    if (!each.is_string()) return false;
+    texts.push_back(each.get<std::string>());
+  }
+  return true;
 }
 
 /// Whether its numbers contradict each other.
@@ -291,21 +295,23 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   if (!found || found->size() != 1 || found->front().key != key) return std::nullopt;
   AnswerRow& row = found->front();
   CaseAnswer answer = std::move(row.answer);
+  if (!read_texts(row.runs, answer.runs) || !read_texts(row.validity_warnings, answer.validity_warnings))
+    return std::nullopt;
   auto gaps = gap_table().select(database, {number});
   auto shares = share_table().select(database, {number});
-  if (!gaps || !shares) return std::nullopt;
-  for (GapRow& each : *gaps) {
-    auto as_calibrated =
-        as_calibrated_table().select(database, {number, static_cast<std::int64_t>(answer.verdicts.size())});
-    if (!as_calibrated) return std::nullopt;
-    each.verdict.as_calibrated = std::move(*as_calibrated);
+  const auto as_calibrated = as_calibrated_table().select(database, {number});
+  if (!gaps || !shares || !as_calibrated) return std::nullopt;
+  // Every gap has as many, in the order of the gaps; the checksum tells where that is not so.
+  const auto of_gap =
+      static_cast<std::ptrdiff_t>(as_calibrated->size() / std::max<std::size_t>(1, gaps->size()));
+  for (auto next = as_calibrated->begin(); GapRow & each : *gaps) {
+    each.verdict.as_calibrated.assign(next, next + of_gap);
+    next += of_gap;
     answer.heated_temperature.push_back(each.heated);
     answer.verdicts.push_back(std::move(each.verdict));
   }
   if (row.bounded) set_shares(answer.critical, std::move(*shares));
   if (check_of(answer) != row.check || !is_sound(answer)) return std::nullopt;
-  for (GapVerdict& each : answer.verdicts)
-    judge_row(answer.failure, answer.run.limiters, answer.critical, each);
   return answer;
 }
 

@@ -1,7 +1,5 @@
 #include "launchsafe/study/verdict.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 
@@ -13,122 +11,83 @@ std::string to_string(Verdict verdict) {
 }
 
 std::string to_string(ReasonCode code) {
-  constexpr std::array words{"failed",
-                             "no temperature",
-                             "validity warning",
+  constexpr std::array words{"not-judged",
+                             "failed",
+                             "no-temperature",
+                             "validity-warning",
                              "ignition",
-                             "not accepted",
-                             "no margin",
+                             "unaccepted",
+                             "no-margin",
                              "optimistic",
-                             "critical gap indeterminate",
-                             "several crossings",
-                             "ignites at smaller gaps",
-                             "no lower bound",
-                             "above lower bound",
-                             "below lower bound",
-                             "within uncertainty",
-                             "within uncertainty as calibrated",
-                             "over uncertainty"};
+                             "critical-gap-indeterminate",
+                             "several-crossings",
+                             "smaller-gaps-ignite",
+                             "margin-within-uncertainty",
+                             "calibrated-margin-within-uncertainty",
+                             "margin-over-uncertainty",
+                             "no-lower-bound",
+                             "may-ignite-without-gap",
+                             "not-below-bound",
+                             "below-bound"};
   return words.at(static_cast<std::size_t>(code));
 }
 
 namespace {
 
-Judgement judged(Verdict verdict, ReasonCode code, const std::string& cause) {
-  return {verdict, cause, code, cause};
+Judgement indeterminate(ReasonCode code, const CriticalGap& critical, GapReason why = {}) {
+  return {Verdict::indeterminate, code, critical.bounds.at_least, std::move(why)};
 }
-Judgement indeterminate(ReasonCode code, const std::string& cause) {
-  return judged(Verdict::indeterminate, code, cause);
-}
-
-/// A difference of temperatures (K) to the digits that count, never as a power of ten.
-std::string kelvin(double value, int digits) {
-  return std::abs(value) < std::pow(10.0, digits) ? fmt::format("{:.{}g} K", value, digits)
-                                                  : fmt::format("{:.0f} K", value);
-}
-
-std::string margin_text(const char* relation, const Evidence& evidence) {
-  return fmt::format("margin {} {} {}", kelvin(evidence.margin, 3), relation,
-                     kelvin(evidence.uncertainty, 2));
-}
-
-/// A bound of the critical gap (m), to the digits that count.
-std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
 
 /// Where nothing ignites up to the end of the search, which a gap may lie at.
 Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
   // Written so that NaN is never safe.
   if (!(evidence.margin > evidence.uncertainty))
-    return indeterminate(ReasonCode::within_uncertainty, margin_text("within the uncertainty,", evidence));
+    return indeterminate(ReasonCode::margin_within_uncertainty, critical);
   if (!(evidence.calibrated_margin > evidence.uncertainty))
-    return indeterminate(
-        ReasonCode::within_uncertainty_as_calibrated,
-        "with the constants of the surface as calibrated the margin is within the uncertainty");
+    return indeterminate(ReasonCode::calibrated_margin_within_uncertainty, critical);
   if (!(evidence.gap <= critical.bounds.at_least))
-    return indeterminate(ReasonCode::above_lower_bound,
-                         "the critical gap may be as small as " + bound_text(critical.bounds.at_least));
-  return judged(Verdict::safe, ReasonCode::over_uncertainty, margin_text("over uncertainty", evidence));
+    return indeterminate(ReasonCode::not_below_bound, critical);
+  return {Verdict::safe, ReasonCode::margin_over_uncertainty, critical.bounds.at_least};
 }
 
 Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   const double at_least = critical.bounds.at_least;
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
-      return indeterminate(ReasonCode::critical_gap_indeterminate,
-                           "the critical gap is indeterminate: " + critical.reason);
+      return indeterminate(ReasonCode::critical_gap_indeterminate, critical, critical.reason);
     case CriticalGapKind::several_crossings:
-      return indeterminate(ReasonCode::several_crossings,
-                           "ignition comes and goes with the gap: " + critical.reason);
+      return indeterminate(ReasonCode::several_crossings, critical, critical.reason);
     case CriticalGapKind::all_ignite:
-      return indeterminate(ReasonCode::ignites_at_smaller_gaps, "no ignition here, but at smaller gaps");
+      return indeterminate(ReasonCode::smaller_gaps_ignite, critical);
     case CriticalGapKind::all_safe:
       return judge_margin(evidence, critical);
     case CriticalGapKind::value:
       break;
   }
-  if (std::isnan(at_least))
-    return indeterminate(ReasonCode::no_lower_bound, "the critical gap has no lower bound");
+  if (std::isnan(at_least)) return indeterminate(ReasonCode::no_lower_bound, critical);
   if (!(evidence.gap < at_least))
-    return indeterminate(ReasonCode::above_lower_bound,
-                         at_least > 0.0 ? "the critical gap may be as small as " + bound_text(at_least)
-                                        : std::string("the launch may ignite without a gap"));
-  return judged(Verdict::safe, ReasonCode::below_lower_bound,
-                fmt::format("below {}, the least that the critical gap can be", bound_text(at_least)));
-}
-
-Judgement judge_sound(const Evidence& evidence, const CriticalGap& critical) {
-  const std::string& unaccepted = evidence.unaccepted;
-  if (evidence.ignited)
-    return judged(Verdict::unsafe, ReasonCode::ignition,
-                  unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted);
-  if (!unaccepted.empty()) return indeterminate(ReasonCode::not_accepted, "validity warning: " + unaccepted);
-  // Written so that NaN is never safe.
-  if (!(evidence.margin > 0.0))
-    return indeterminate(ReasonCode::no_margin, "no margin to the ignition temperature");
-  if (!evidence.optimistic.empty()) return indeterminate(ReasonCode::optimistic, evidence.optimistic);
-  return judge_in_gap(evidence, critical);
+    return indeterminate(at_least > 0.0 ? ReasonCode::not_below_bound : ReasonCode::may_ignite_without_gap,
+                         critical);
+  return {Verdict::safe, ReasonCode::below_bound, at_least};
 }
 
 }  // namespace
 
 Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
-  if (!evidence.completed)
-    return indeterminate(ReasonCode::failed, evidence.failure.empty() ? "the run failed" : evidence.failure);
+  if (evidence.of_case == nullptr) return {};
+  const CaseEvidence& of_case = *evidence.of_case;
+  if (!of_case.completed) return indeterminate(ReasonCode::failed, critical);
   if (!std::isfinite(evidence.maximum_temperature))
-    return indeterminate(ReasonCode::no_temperature, "the temperature is not a number");
-  if (!evidence.validity_warnings.empty())
-    return indeterminate(ReasonCode::validity_warning,
-                         "validity warning: " + evidence.validity_warnings +
-                             (evidence.unaccepted.empty() ? "" : "; " + evidence.unaccepted));
-  Judgement judgement = judge_sound(evidence, critical);
-  if (!evidence.limited.empty()) judgement.reason += "; limiters acted: " + evidence.limited;
-  if (!evidence.noise.empty()) judgement.reason += "; " + evidence.noise;
-  if (!evidence.ring.empty()) judgement.reason += "; " + evidence.ring;
-  if (!evidence.model_form.empty()) judgement.reason += "; " + evidence.model_form;
-  if (!evidence.extrapolated.empty()) judgement.reason += "; " + evidence.extrapolated;
-  // The user's words come last: what the program says stands before them, whatever they are.
-  if (!evidence.accepted.empty()) judgement.reason += "; " + evidence.accepted;
-  return judgement;
+    return indeterminate(ReasonCode::no_temperature, critical);
+  if (!of_case.validity_warnings.empty() || std::isfinite(evidence.when_over))
+    return indeterminate(ReasonCode::validity_warning, critical);
+  if (evidence.ignited) return {Verdict::unsafe, ReasonCode::ignition};
+  if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
+  // Written so that NaN is never safe.
+  if (!(evidence.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
+  if (of_case.input.optimistic || optimistic_by_run(of_case.friction_rise))
+    return indeterminate(ReasonCode::optimistic, critical);
+  return judge_in_gap(evidence, critical);
 }
 
 }  // namespace launchsafe::study

@@ -17,8 +17,17 @@ void check_verdict(const study::CaseAnswer& answer, const study::GapVerdict& row
   fuzz::require(std::isfinite(row.maximum.temperature), "what is safe has a temperature");
 }
 
-void check_answer(const study::CaseAnswer& answer, const std::string& key) {
+/// On an input that has nothing to say, under which most may be safe.
+void check_verdicts(study::CaseAnswer answer) {
+  const auto evidence = std::make_shared<const study::CaseEvidence>(
+      study::CaseEvidence{answer.completed(), answer.failure, answer.run.limiters, answer.validity_warnings,
+                          answer.friction_rise});
+  study::judge_rows({}, evidence, answer.critical, answer.verdicts);
   for (const study::GapVerdict& row : answer.verdicts) check_verdict(answer, row);
+}
+
+void check_answer(const study::CaseAnswer& answer, const std::string& key) {
+  check_verdicts(answer);
   auto database = store::Database::in_memory("again");
   fuzz::require(database && !study::save_answer(*database, key, answer), "an answer can be written");
   const auto again = study::read_answer(*database, key);

@@ -132,19 +132,19 @@ void expect_told(const scene::Scene& scene, const GapVerdict& row) {
     if (is_silent(key.name) ||
         scene::format_value(key, key.get(scene)) == scene::format_value(key, key.get(calibrated)))
       continue;
-    if (row.judgement.reason.find(name_of(key.name)) == std::string::npos) ++untold;
+    if (reason_text(row).find(name_of(key.name)) == std::string::npos) ++untold;
   }
   // Of a long list the reason names four and counts the rest.
-  RC_ASSERT(untold == 0 || row.judgement.reason.find(" more") != std::string::npos);
+  RC_ASSERT(untold == 0 || reason_text(row).find(" more") != std::string::npos);
 }
 
 TEST(EditedInput, IsIndeterminateBefore) {
   const auto scene = scene::parse_scene(scene_text(), studies_folder / "scene.toml");
   ASSERT_TRUE(scene);
   const GapVerdict row = row_of(*scene);
-  EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << row.judgement.reason;
+  EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << reason_text(row);
   // So that little makes it safe.
-  EXPECT_NE(row.judgement.reason.find("as small as 0.0196 cm"), std::string::npos) << row.judgement.reason;
+  EXPECT_NE(reason_text(row).find("as small as 0.0196 cm"), std::string::npos) << reason_text(row);
 }
 
 std::string edited_a_few_times(std::string text) {

@@ -49,7 +49,11 @@ inline study::GapVerdict verdict(double gap, study::Verdict verdict, double temp
   row.early = {350.5, 10e-3, "G1"};
   row.margin = 521.52 - temperature;
   row.uncertainty.numerical = 1.2;
-  row.judgement = {verdict, verdict == study::Verdict::safe ? "margin over uncertainty" : "ignition"};
+  row.evidence.of_case = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.completed = true});
+  row.evidence.margin = row.margin;
+  row.evidence.uncertainty = row.uncertainty.total();
+  row.judgement = {verdict, verdict == study::Verdict::safe ? study::ReasonCode::margin_over_uncertainty
+                                                            : study::ReasonCode::ignition};
   if (verdict == study::Verdict::unsafe)
     row.ignition = study::NamedIgnition{surface::IgnitionCause::trigger, 17.86e-3, "G1", 0.1};
   return row;
@@ -82,7 +86,7 @@ inline study::CaseAnswer all_safe_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, 1.0);
   answer.critical.kind = study::CriticalGapKind::all_safe;
   answer.critical.lower = 1e-3;
-  answer.critical.reason = "no ignition up to 0.1 cm, where the search ended";
+  answer.critical.reason = {study::GapReason::Code::none_ignites, 1e-3};
   return answer;
 }
 
@@ -90,7 +94,7 @@ inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, -1.0);
   answer.critical.kind = study::CriticalGapKind::all_ignite;
   answer.critical.upper = 0.0;
-  answer.critical.reason = "ignition at every gap, also without one";
+  answer.critical.reason = {study::GapReason::Code::all_ignite};
   return answer;
 }
 
@@ -98,11 +102,13 @@ inline study::CaseAnswer broken_answer(const study::Study& study, const std::str
   study::CaseAnswer answer;
   answer.failure = why;
   answer.run.status = run::RunStatus::energy_drift;
-  answer.critical.reason = why;
+  const auto evidence = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.failure = why});
+  answer.critical.reason = {.code = study::GapReason::Code::failed, .of_case = evidence};
   for (const double gap : study.gaps) {
     study::GapVerdict row;
     row.gap = gap;
-    row.judgement = {study::Verdict::indeterminate, why};
+    row.evidence.of_case = evidence;
+    row.judgement = {study::Verdict::indeterminate, study::ReasonCode::failed};
     answer.verdicts.push_back(std::move(row));
     answer.heated_temperature.push_back(study::not_a_number);
   }

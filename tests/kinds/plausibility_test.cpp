@@ -34,8 +34,15 @@ std::string safe_study(const std::string& keys, const std::string& overrides = "
   return text + synthetic_constants + overrides;
 }
 
-const Judgement& judgement_in(const CriticalGapResult& result) {
-  return result.details.at(0).verdicts.at(0).judgement;
+/// A verdict and its words.
+struct Told {
+  Verdict verdict;
+  std::string reason;
+};
+
+Told judgement_in(const CriticalGapResult& result) {
+  const GapVerdict& row = result.details.at(0).verdicts.at(0);
+  return {row.judgement.verdict, reason_text(row)};
 }
 
 CriticalGapResult run_safe_study(const std::string& keys, const std::string& overrides = "") {
@@ -55,13 +62,13 @@ std::string accept(const std::string& key, const std::string& value, const std::
 /// What of a case is to be accepted, accepted for a reason.
 std::string accept_all(const StudyFile& study, const std::string& because) {
   std::string entries;
-  for (const scene::Implausible& each : to_be_accepted(study.study, study.cases.front()))
+  for (const scene::Implausible& each : statements_of(study.study, study.cases.front()).to_be_accepted())
     entries += entry(each.key, each.value, because) + ", ";
   return "accept = [" + entries + "]\n";
 }
 
 TEST(StudyPlausibility, AVerdictOnWhatIsPlausibleSaysNothingOfIt) {
-  const Judgement judgement = judgement_in(run_safe_study(""));
+  const Told judgement = judgement_in(run_safe_study(""));
   EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
   EXPECT_FALSE(says(judgement.reason, "plausible")) << judgement.reason;
   EXPECT_FALSE(says(judgement.reason, "accepted")) << judgement.reason;
@@ -88,7 +95,7 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
     EXPECT_EQ(warned.details[0].critical.kind, CriticalGapKind::indeterminate) << key;
     const std::string reasons = accept_all(study_of(safe_study("", overrides)), "it was measured so");
-    const Judgement accepted = judgement_in(run_safe_study(reasons, overrides));
+    const Told accepted = judgement_in(run_safe_study(reasons, overrides));
     EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;
@@ -100,10 +107,10 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
        {"numerical_uncertainty", "fit_uncertainty", "input_uncertainty", "model_form_uncertainty"}) {
     for (const std::string value : {"0 K", "0.01 K"}) {
       const std::string number = key + ".value", statement = stated(key, value);
-      const Judgement warned = judgement_in(run_safe_study(statement));
+      const Told warned = judgement_in(run_safe_study(statement));
       EXPECT_EQ(warned.verdict, Verdict::indeterminate) << key;
       EXPECT_TRUE(says(warned.reason, number + " = ")) << warned.reason;
-      const Judgement accepted =
+      const Told accepted =
           judgement_in(run_safe_study(statement + accept(number, value, "a test of the search")));
       EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
       EXPECT_TRUE(says(accepted.reason, "accepted: " + number)) << accepted.reason;
@@ -120,18 +127,18 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   ASSERT_EQ(result.answers.size(), 2u);
   EXPECT_EQ(result.answers[0].verdicts[0].judgement.verdict, Verdict::safe);
   EXPECT_EQ(result.answers[1].verdicts[0].judgement.verdict, Verdict::indeterminate);
-  EXPECT_TRUE(says(result.answers[1].verdicts[0].judgement.reason, "gap.skin_thickness = 0.5 cm"))
-      << result.answers[1].verdicts[0].judgement.reason;
+  EXPECT_TRUE(says(reason_text(result.answers[1].verdicts[0]), "gap.skin_thickness = 0.5 cm"))
+      << reason_text(result.answers[1].verdicts[0]);
 }
 
 // Models were compared from 400 to 550 MPa (reports/model_form).
 TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReason) {
   const std::string half = "load.peak = \"300 MPa\"\n";
-  const Judgement warned = judgement_in(run_safe_study("", half));
+  const Told warned = judgement_in(run_safe_study("", half));
   EXPECT_EQ(warned.verdict, Verdict::indeterminate);
   EXPECT_TRUE(says(warned.reason, "model_form.pressure = 300 MPa")) << warned.reason;
   EXPECT_TRUE(says(warned.reason, "400 MPa to 550 MPa")) << warned.reason;
-  const Judgement accepted = judgement_in(
+  const Told accepted = judgement_in(
       run_safe_study(accept("model_form.pressure", "300 MPa", "a charge of a lower zone"), half));
   EXPECT_EQ(accepted.verdict, Verdict::safe) << accepted.reason;
   EXPECT_TRUE(says(accepted.reason, "accepted: model_form.pressure = 300 MPa")) << accepted.reason;
@@ -186,10 +193,10 @@ TEST(StudyPlausibility, TheShellThatNobodyTakesTheConstantsOverForIsNeverSafe) {
   ASSERT_FALSE(shipped.details.at(0).verdicts.empty());
   for (const GapVerdict& each : shipped.details[0].verdicts) {
     EXPECT_EQ(each.judgement.verdict, each.ignition ? Verdict::unsafe : Verdict::indeterminate);
-    EXPECT_TRUE(says(each.judgement.reason, "calibrated on another launch")) << each.judgement.reason;
+    EXPECT_TRUE(says(reason_text(each), "calibrated on another launch")) << reason_text(each);
   }
   const std::string taken_over = accept_all(study_of(text + whole), "for this test") + text + whole;
-  const Judgement& judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
+  const Told judgement = judgement_in(run_critical_gap(study_of(taken_over), options));
   EXPECT_EQ(judgement.verdict, Verdict::safe) << judgement.reason;
 }
 

@@ -174,10 +174,12 @@ TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
 
 TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
   const ModelFormRecord record = made_record();
-  const scene::Scene scene = at_pressure(500e6);
-  EXPECT_EQ(models_without_ignition(record, scene, 4.5e-4), R"("the model late", "the model cold")");
-  EXPECT_EQ(models_that_may_ignite(record, scene, 2e-4), R"("the model rough")");
-  EXPECT_EQ(models_that_may_ignite(record, scene, 0.5e-4), "");
+  const auto around = model_form_shift(record, at_pressure(500e6)).around;
+  ASSERT_TRUE(around);
+  using Titles = std::vector<std::string>;
+  EXPECT_EQ(models_that_differ(record, *around, 4.5e-4, true), (Titles{"the model late", "the model cold"}));
+  EXPECT_EQ(models_that_differ(record, *around, 2e-4, false), Titles{"the model rough"});
+  EXPECT_EQ(models_that_differ(record, *around, 0.5e-4, false), Titles{});
 }
 
 TEST(ModelForm, RefusesADefaultThatHasNoLimitOfMeshes) {
@@ -246,23 +248,23 @@ TEST(ModelForm, IsAssumedWhereNothingIsSaid) {
 TEST(ModelForm, AModelThatIgnitesEarlierTakesItsShiftFromTheMargin) {
   ModelFormRecord record = made_record();
   const GapVerdict calm = verdict_with("0.01", "", &record);
-  EXPECT_EQ(calm.judgement.verdict, Verdict::safe) << calm.judgement.reason;
+  EXPECT_EQ(calm.judgement.verdict, Verdict::safe) << reason_text(calm);
   // At 496 MPa, between 450 and 500 MPa: 0.05 mm, the larger shift of both, in kelvin of that much more air.
   const GapVerdict thicker = verdict_with("0.015", "", &record);
   EXPECT_NEAR(calm.uncertainty.model_form, thicker.maximum.temperature - calm.maximum.temperature, 0.05);
   for (ModelAlternative& each : record.alternatives)
     if (each.name == "early") each.critical_gap = {0.0, 0.0, 0.0};
   const GapVerdict worried = verdict_with("0.01", "", &record);
-  EXPECT_EQ(worried.judgement.verdict, Verdict::indeterminate) << worried.judgement.reason;
+  EXPECT_EQ(worried.judgement.verdict, Verdict::indeterminate) << reason_text(worried);
 }
 
 TEST(ModelForm, AnUnsafeNamesTheModelsWithoutIgnition) {
   ModelFormRecord record = made_record();
   std::erase_if(record.alternatives, [](const auto& each) { return each.name == "early"; });
   const GapVerdict row = verdict_with("0.045", "", &record);
-  ASSERT_EQ(row.judgement.verdict, Verdict::unsafe) << row.judgement.reason;
-  EXPECT_NE(row.judgement.reason.find(R"(under "the model late", "the model cold")"), std::string::npos)
-      << row.judgement.reason;
+  ASSERT_EQ(row.judgement.verdict, Verdict::unsafe) << reason_text(row);
+  EXPECT_NE(reason_text(row).find(R"(under "the model late", "the model cold")"), std::string::npos)
+      << reason_text(row);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // The verdict's order: more margin never makes a gap less safe, more uncertainty or a validity warning never
 // safer.
-#include "launchsafe/study/verdict.hpp"
+#include "launchsafe/study/statement_text.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -40,16 +41,28 @@ double kelvin() { return *rc::gen::inRange(-300000, 300001) / 1000.0; }
 double positive_kelvin() { return *rc::gen::inRange(0, 100001) / 1000.0; }
 double gap() { return *rc::gen::inRange(0, 1001) * 1e-6; }
 
+using Change = void (*)(CaseEvidence& of_case);
+
+/// The same evidence on other terms of its case.
+Evidence with(Evidence evidence, Change change) {
+  CaseEvidence of_case = *evidence.of_case;
+  change(of_case);
+  evidence.of_case = std::make_shared<const CaseEvidence>(std::move(of_case));
+  return evidence;
+}
+
 Evidence any_evidence() {
+  CaseEvidence of_case;
+  of_case.completed = *rc::gen::inRange(0, 8) > 0;
+  of_case.validity_warnings.resize(*rc::gen::inRange(0, 4) == 0 ? 1 : 0, "the air was not resolved");
+  of_case.limited.crack_at_bound = *rc::gen::element(0, 12);
   Evidence evidence;
-  evidence.completed = *rc::gen::inRange(0, 8) > 0;
+  evidence.of_case = std::make_shared<const CaseEvidence>(std::move(of_case));
   evidence.ignited = *rc::gen::inRange(0, 4) == 0;
   evidence.gap = gap();
   evidence.margin = kelvin();
   evidence.maximum_temperature = 525.0 - evidence.margin;
   evidence.uncertainty = positive_kelvin();
-  evidence.validity_warnings = *rc::gen::element<std::string>("", "", "", "the air was not resolved");
-  evidence.limited = *rc::gen::element<std::string>("", "crack bound 12");
   return evidence;
 }
 
@@ -118,9 +131,8 @@ RC_GTEST_PROP(VerdictProperty, SafeIsBelowTheBoundAndBelowTheBoundNothingIsIndet
   Evidence evidence = any_evidence();
   const Judgement judged = judge(evidence, critical);
   if (judged.verdict == Verdict::safe) RC_ASSERT(evidence.gap < critical.bounds.at_least);
-  evidence.completed = true;
+  evidence = with(evidence, [](CaseEvidence& of_case) { of_case = {.completed = true}; });
   evidence.ignited = false;
-  evidence.validity_warnings.clear();
   evidence.margin = 1e-3 + positive_kelvin();
   evidence.maximum_temperature = 525.0 - evidence.margin;
   if (evidence.gap < critical.bounds.at_least) RC_ASSERT(judge(evidence, critical).verdict == Verdict::safe);
@@ -129,9 +141,10 @@ RC_GTEST_PROP(VerdictProperty, SafeIsBelowTheBoundAndBelowTheBoundNothingIsIndet
 RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOrANumberThatIsNone, ()) {
   const CriticalGap critical = any_critical_gap();
   const Evidence sound = any_evidence();
-  Evidence failed = sound, warned = sound, ignited = sound;
-  failed.completed = false;
-  warned.validity_warnings = "the grid did not fit";
+  const Evidence failed = with(sound, [](CaseEvidence& of_case) { of_case.completed = false; });
+  const Evidence warned =
+      with(sound, [](CaseEvidence& of_case) { of_case.validity_warnings = {"the grid did not fit"}; });
+  Evidence ignited = sound;
   ignited.ignited = true;
   RC_ASSERT(judge(failed, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(warned, critical).verdict == Verdict::indeterminate);
@@ -148,10 +161,11 @@ RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOr
 
 RC_GTEST_PROP(VerdictProperty, AlwaysHasAReasonAndNamesTheLimitersOfASoundRun, ()) {
   const Evidence evidence = any_evidence();
-  const Judgement judged = judge(evidence, any_critical_gap());
-  RC_ASSERT(!judged.reason.empty());
-  if (evidence.completed && evidence.validity_warnings.empty() && !evidence.limited.empty())
-    RC_ASSERT(judged.reason.find(evidence.limited) != std::string::npos);
+  const std::string reason = reason_text(evidence, judge(evidence, any_critical_gap()));
+  const CaseEvidence& of_case = *evidence.of_case;
+  RC_ASSERT(!reason.empty());
+  if (of_case.completed && of_case.validity_warnings.empty() && of_case.limited.crack_at_bound > 0)
+    RC_ASSERT(reason.find("crack bound 12") != std::string::npos);
 }
 
 }  // namespace

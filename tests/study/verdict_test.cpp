@@ -1,11 +1,16 @@
 #include "launchsafe/study/verdict.hpp"
 
+#include "launchsafe/study/statement_text.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace {
 
+using namespace launchsafe;
 using namespace launchsafe::study;
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -29,14 +34,23 @@ CriticalGap none_up_to(double gap, double least_raised) {
   return critical;
 }
 
-/// A gap of 0.03 cm, 32 K below ignition, with an uncertainty of 0.1 K.
-Evidence calm() { return {true, "", false, 3e-4, 493.0, 32.0, 0.1}; }
+/// A gap of 0.03 cm of such a case, 32 K below ignition, with an uncertainty of 0.1 K.
+Evidence calm(CaseEvidence of_case = {.completed = true}) {
+  return {std::make_shared<const CaseEvidence>(std::move(of_case)), false, 3e-4, 493.0, 32.0, 0.1};
+}
+
+std::string reason_of(const Evidence& evidence, const CriticalGap& critical) {
+  return reason_text(evidence, judge(evidence, critical));
+}
+
+scene::Implausible wide_station() { return {"station.width", "7 mm", "5 mm", {}, {}}; }
 
 TEST(Verdict, SafeIsBelowTheLowerBoundOfTheCriticalGap) {
   EXPECT_EQ(judge(calm(), critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
   const Judgement judged = judge(calm(), critical_at(3.95e-4, 1.2e-4));
   EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-  EXPECT_EQ(judged.reason, "the critical gap may be as small as 0.0275 cm");
+  EXPECT_EQ(judged.code, ReasonCode::not_below_bound);
+  EXPECT_EQ(reason_text(calm(), judged), "the critical gap may be as small as 0.0275 cm");
 }
 
 /// 0.03 cm, and a bound of 0.03 cm: the bound is the largest gap that no end of a range ignites, but what
@@ -69,7 +83,7 @@ TEST(Verdict, ReasonsHaveNoPowersOfTen) {
   Evidence evidence = calm();
   evidence.margin = 1034.5;
   evidence.uncertainty = 138.2;
-  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).reason, "margin 1034 K over uncertainty 138 K");
+  EXPECT_EQ(reason_of(evidence, none_up_to(1e-3, no_ignition)), "margin 1034 K over uncertainty 138 K");
 }
 
 TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
@@ -79,7 +93,7 @@ TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
   set_shares(critical, {{ShareKind::peak_pressure, 0.0, no_ignition}});
   const Judgement judged = judge(evidence, critical);
   EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-  EXPECT_EQ(judged.reason, "the launch may ignite without a gap");
+  EXPECT_EQ(judged.code, ReasonCode::may_ignite_without_gap);
 }
 
 TEST(Verdict, IgnitionIsUnsafe) {
@@ -90,15 +104,44 @@ TEST(Verdict, IgnitionIsUnsafe) {
 }
 
 TEST(Verdict, WhatNobodyAcceptsIsNeverSafeAndUndoesNoIgnition) {
-  Evidence evidence = calm();
-  evidence.unaccepted = "station.width = 7 mm";
+  CaseEvidence of_case{.completed = true};
+  of_case.input.implausible = {wide_station()};
+  Evidence evidence = calm(of_case);
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
   evidence.ignited = true;
-  const Judgement judged = judge(evidence, critical_at(2e-4, 1e-6));
-  EXPECT_EQ(judged.verdict, Verdict::unsafe);
-  EXPECT_EQ(judged.reason, "ignition; validity warning: station.width = 7 mm");
-  evidence.validity_warnings = "the load ends above 1 % of its peak";
-  EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::indeterminate);
+  EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::unsafe);
+  EXPECT_EQ(reason_of(evidence, critical_at(2e-4, 1e-6)),
+            "ignition; validity warning: station.width = 7 mm is not plausible (5 mm)");
+  of_case.validity_warnings = {"the load ends above 1 % of its peak"};
+  EXPECT_EQ(judge(calm(of_case), critical_at(2e-4, 1e-6)).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, WithoutTheEvidenceOfItsCaseNothingIsSafe) {
+  Evidence evidence = calm();
+  evidence.of_case.reset();
+  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
+  EXPECT_EQ(reason_of(evidence, critical_at(3.95e-4, 1e-6)), "nothing was judged");
+}
+
+TEST(Verdict, ALaunchThatIsCutShortIsNeverSafe) {
+  Evidence evidence = calm();
+  evidence.when_over = 300.0;
+  EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, NoIgnitionOfWhatOnlyCoolsOrWasNotLaunchedIsSafe) {
+  for (const Optimistic::Why why :
+       {Optimistic::Why::film, Optimistic::Why::cooling, Optimistic::Why::short_travel}) {
+    CaseEvidence of_case{.completed = true};
+    of_case.input.optimistic.why = why;
+    EXPECT_EQ(judge(calm(of_case), critical_at(3.95e-4, 1e-6)).code, ReasonCode::optimistic);
+  }
+  for (const double rise : {0.99, -1.0, nan_value}) {
+    const Evidence unheated = calm({.completed = true, .friction_rise = rise});
+    EXPECT_EQ(judge(unheated, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate) << rise;
+  }
+  const Evidence launched = calm({.completed = true, .friction_rise = 1.0});
+  EXPECT_EQ(judge(launched, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
 }
 
 TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecidesToo) {
@@ -112,24 +155,23 @@ TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecid
 }
 
 TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {
-  Evidence evidence = calm();
-  evidence.extrapolated = "extrapolated: peak pressure";
+  CaseEvidence of_case{.completed = true};
+  of_case.input.extrapolated = {"peak pressure"};
+  of_case.input.calibrated_gap = 2e-4;
+  Evidence evidence = calm(of_case);
   for (const double margin : {32.0, 0.05}) {
     evidence.margin = margin;
-    const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
-    EXPECT_NE(judged.reason.find("extrapolated: peak pressure"), std::string::npos) << judged.reason;
+    const std::string reason = reason_of(evidence, critical_at(3.95e-4, 1e-6));
+    EXPECT_TRUE(reason.ends_with("; extrapolated: peak pressure, gap")) << reason;
   }
 }
 
 TEST(Verdict, AFailedRunIsNeitherSafeNorUnsafe) {
   for (const bool ignited : {false, true}) {
-    Evidence evidence = calm();
-    evidence.completed = false;
-    evidence.failure = "energy drift: at 3 ms";
+    Evidence evidence = calm({.failure = "energy drift: at 3 ms"});
     evidence.ignited = ignited;
-    const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
-    EXPECT_EQ(judged.verdict, Verdict::indeterminate);
-    EXPECT_EQ(judged.reason, "energy drift: at 3 ms");
+    EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
+    EXPECT_EQ(reason_of(evidence, critical_at(3.95e-4, 1e-6)), "energy drift: at 3 ms");
   }
 }
 
@@ -146,7 +188,7 @@ TEST(Verdict, NotANumberIsNeverSafe) {
 
 TEST(Verdict, AnIndeterminateCriticalGapLeavesNoSafeGap) {
   CriticalGap critical;
-  critical.reason = "the run with skin ignites";
+  critical.reason = {GapReason::Code::coupled_run_ignites, 3.9e-4};
   EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
 }
 

@@ -22,7 +22,8 @@ double launch_end(const Load& load);
 /// curve is 0.
 double share_left(const Load& load, double time);
 
-/// Travel of the projectile as one rigid body until a time (s), over its diameter.
+/// Travel of the projectile as one rigid body over its diameter; until a time (s).
+double calibres_of(const Scene& scene, const RigidMotion& motion);
 double calibres_until(const Scene& scene, double time);
 
 /// Whether the simulation ends before the launch is over.

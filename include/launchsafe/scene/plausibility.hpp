@@ -23,13 +23,17 @@ bool is_plausible(const KeyDescription& key, const Value& value);
 /// plausible.
 struct DerivedQuantity {
   KeyDescription description;
-  std::function<std::optional<double>(const Scene&)> value;  ///< SI; none where a scene has no such quantity
+  /// SI, of a scene and of its motion as one rigid body until scene::read_time; none where a scene has no
+  /// such quantity.
+  std::function<std::optional<double>(const Scene& scene, const RigidMotion& launch)> value;
 };
 const std::vector<DerivedQuantity>& derived_quantities();
 
 /// All values of a scene that are not plausible, accepted or not: keys in the order of their declaration,
 /// bodies, then derived quantities. They depend on the scene alone, whatever file or study it came from.
 std::vector<Implausible> implausible_values(const Scene& scene);
+/// The same where the motion until scene::read_time is known.
+std::vector<Implausible> implausible_values(const Scene& scene, const RigidMotion& launch);
 
 /// What `accept` may name: scene keys, "body.<name>.x" and ".r", derived quantities, and what of a
 /// calibration is foreign.

@@ -22,8 +22,11 @@ struct CaseAnswer {
   RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
   std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
   RunSummary run;                        ///< of a case that ran
-  CriticalGap critical;                  ///< at the observation points
-  std::vector<GapVerdict> verdicts;      ///< in the order of the study's gaps
+  std::vector<std::string> runs;  ///< hashes of the runs that it was drawn from; while it is stored or read
+  std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
+  double friction_rise = not_a_number;         ///< K, likewise
+  CriticalGap critical;                        ///< at the observation points
+  std::vector<GapVerdict> verdicts;            ///< in the order of the study's gaps
   std::vector<double>
       heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that
                            ///< air and friction heat and that neither reacts nor is triggered
@@ -40,8 +43,9 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 
-/// Whether an answer that was read can be that of the study's case: its gaps, and margins and times that the
-/// case's scene allows.
-bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input);
+/// An answer that was read with its verdicts, which are not stored; nothing where it cannot be that of the
+/// study's case: by its gaps, margins and times, or by less uncertainty or fewer validity warnings than its
+/// input has.
+std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input);
 
 }  // namespace launchsafe::study

@@ -47,14 +47,12 @@ struct Rises {
 double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises);
 
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
-/// Nothing where the record does: it gives a shift of the gap.
-std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input);
+/// Nothing where the record does: it gives a shift of the gap (`recorded`).
+std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input,
+                                              const ModelFormShift& recorded);
 /// Which shares of the bounds of a case with a critical gap (m) are assumed, as neither the study nor a
 /// record speaks of it: "computation, model form"; empty for none.
 std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap);
-
-/// The models that could change the verdict on a gap (m) that ignites or not, for people; empty for none.
-std::string model_form_text(const Study& study, const StudyCase& input, double gap, bool ignites);
 
 /// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 double stated_input_share(const Study& study, const StudyCase& input);
@@ -69,14 +67,6 @@ struct LoadCurveErrors {
 };
 LoadCurveErrors load_curve_errors(const scene::Load& load);
 
-/// What of a case and of what its study states is not plausible, or foreign to the calibration; accepted or
-/// not. Nothing for a study without verdicts.
-std::vector<scene::Implausible> to_be_accepted(const Study& study, const StudyCase& input);
-/// What of that nobody accepted, for its verdicts; empty for nothing.
-std::string unaccepted_text(const Study& study, const StudyCase& input);
-/// What of that is accepted and why, for its verdicts; empty for nothing.
-std::string accepted_text(const Study& study, const StudyCase& input);
-
 /// What all cases of a study rest on, each once.
 struct AcceptancesOfStudy {
   std::vector<scene::Implausible> accepted;  ///< by key and by what the user writes as its value
@@ -84,17 +74,6 @@ struct AcceptancesOfStudy {
   std::vector<std::string> extrapolated;     ///< as in the reasons of verdicts
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
-
-/// Why a case that does not ignite is not safe for that, whatever it accepts: its model is a bound on that
-/// side, or only averages or removes heat beside the calibrated one, or its launch ends within ten calibres
-/// of travel. Empty for the others. No stress case of a stability study may pass for the last two.
-std::string optimistic_text(const Study& study, const StudyCase& input);
-/// Likewise of what its run shows: a bottom that friction does not heat by a kelvin (`friction_rise`, of T
-/// max without a gap, K) was not launched.
-std::string unheated_text(double friction_rise);
-
-/// What is extrapolated for a gap (m), for its verdict; empty for nothing.
-std::string extrapolation_text(const Study& study, const StudyCase& input, double gap);
 
 /// Where the share of the calibrated constants comes from and how it grows; a sentence without its subject.
 std::string fit_uncertainty_text(const Study& study);

@@ -46,9 +46,9 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 void evaluate_film(const Study& study, CaseOutcome& outcome);
 /// The same of its longer launch, on the mechanics of that one.
 void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
-/// What becomes of a gap, by its place in the study, when a launch that is cut short goes on until it is
-/// over: a clause after its validity warnings. Empty for other launches, and where that is not known.
-std::string when_launch_is_over(const CaseOutcome& outcome, std::size_t gap);
+/// T max (K) of a gap, by its place in the study, when a launch that is cut short goes on until it is over.
+/// NaN for other launches, and where that is not known.
+double when_launch_is_over(const CaseOutcome& outcome, std::size_t gap);
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.
 void apply_confirmations(const Study& study, CaseOutcome& outcome);

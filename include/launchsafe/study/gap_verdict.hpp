@@ -51,10 +51,11 @@ struct GapVerdict {
   double early_misfit() const;
 };
 
-/// Judges a row on its numbers and on the clauses about its validity that its evidence holds already: the
-/// same whether they were computed or read. `failure` is empty for a completed run.
-void judge_row(const std::string& failure, const run::LimiterCounts& limiters, const CriticalGap& critical,
-               GapVerdict& row);
+/// Judges the rows of a case on their numbers and on what all of them rest on: the same whether they were
+/// computed or read.
+void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& of_case,
+                const CriticalGap& critical, std::vector<GapVerdict>& rows);
+std::string reason_text(const GapVerdict& row);
 
 /// A coupled run on one side of the bracket.
 struct Confirmation {
@@ -87,6 +88,9 @@ struct CaseOutcome {
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;
+  std::shared_ptr<const CaseEvidence> evidence;  ///< once its gaps are evaluated
+  /// K, T max without a gap of a skin that never reacts; NaN where nothing was computed.
+  double heated_without_gap = not_a_number;
   CriticalGap critical;  ///< by the hottest station
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps

@@ -55,11 +55,18 @@ scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const
 /// or of the one that ships (reports/model_form).
 scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record);
 
+/// The recorded pressures around a peak: their indices, equal where it is one of them.
+struct PressureInterval {
+  std::size_t below = 0, above = 0;
+};
+
 /// How far the alternatives that count move the critical gap from the default's.
 struct ModelFormShift {
   double gap = 0;      ///< m, >= 0, by which the smallest one is below: towards ignition; NaN where not known
   double later = 0;    ///< m, >= 0, by which the largest one is above; infinite where one never ignites
   std::string reason;  ///< why it is not known, a clause
+  /// Around the launch's peak; nothing where the record is of another launch.
+  std::optional<PressureInterval> around = {};
 };
 /// Of a launch of the record's scene at a peak pressure among the recorded ones; between two of them, which
 /// must be within 15 % of each other, the larger shift of both. Not known where the scene differs in anything
@@ -67,9 +74,10 @@ struct ModelFormShift {
 /// instead of a critical gap.
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene);
 
-/// The alternatives under which a gap (m) that ignites would not, or might not; those under which one that
-/// does not ignite might, apart from those that count. For people; empty for none, and outside the record.
-std::string models_without_ignition(const ModelFormRecord& record, const scene::Scene& scene, double gap);
-std::string models_that_may_ignite(const ModelFormRecord& record, const scene::Scene& scene, double gap);
+/// The titles of alternatives that could change what a gap (m) does, between the recorded pressures around
+/// its launch: under which one that ignites would not, or might not; or, apart from those that count, one
+/// that does not ignite might.
+std::vector<std::string> models_that_differ(const ModelFormRecord& record, const PressureInterval& around,
+                                            double gap, bool ignites);
 
 }  // namespace launchsafe::study

@@ -14,7 +14,7 @@ namespace launchsafe::study {
 void save_answer(store::CaseStore& store, const std::string& key, const CaseAnswer& answer);
 store::MaybeError save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
 
-/// Exactly what was saved, its rows judged again; not finite numbers but infinity become NaN. Nothing where
+/// Exactly what was saved, its rows not judged; not finite numbers but infinity become NaN. Nothing where
 /// there is none, and for what was not written by this program as it is: another checksum, an unknown
 /// enumerator, a negative amount, numbers that contradict each other.
 std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::string& key);

@@ -1,11 +1,15 @@
 // Safe, unsafe or indeterminate: the rules.
 #pragma once
 
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/bracket.hpp"
+#include "launchsafe/study/case_statements.hpp"
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace launchsafe::study {
 
@@ -34,56 +38,64 @@ struct Uncertainty {
   double total() const { return input + load_curve + computed() + fit + model_form; }
 };
 
-/// All that a verdict rests on.
-struct Evidence {
-  bool completed = false;          ///< the run ended as it should
-  std::string failure;             ///< why not, otherwise
-  bool ignited = false;            ///< at a station
-  double gap = 0;                  ///< m
-  double maximum_temperature = 0;  ///< K, over the stations
-  double margin = 0;               ///< K, ignition temperature minus maximum temperature
-  double uncertainty = 0;          ///< K
-  /// Why a completed run is no basis (see run::validity_warnings); empty for a sound one.
-  std::string validity_warnings = {};
-  /// What of the input is not plausible, or foreign to the calibration, and not accepted; empty for nothing.
-  std::string unaccepted = {};
-  /// K, margin with the constants of the surface as calibrated; infinite where they are.
-  double calibrated_margin = std::numeric_limits<double>::infinity();
-  std::string optimistic = {};  ///< why no ignition shows nothing, for people; empty where it shows something
-  std::string limited = {};     ///< limiters that acted, for people; empty where none did
-  std::string noise = {};       ///< what the noise of a measured curve counts, for people; empty for nothing
-  std::string ring = {};        ///< that a measured curve rings, for people; empty where it does not
-  std::string accepted = {};    ///< what is not plausible and why it is meant, for people; empty: nothing
-  std::string model_form = {};  ///< models that could change the verdict, for people; empty: none
-  std::string extrapolated = {};  ///< what lies outside the calibration's domain, for people; empty: nothing
+/// What all verdicts of a case rest on besides numbers of their gaps.
+struct CaseEvidence {
+  bool completed = false;           ///< the run ended as it should
+  std::string failure = {};         ///< why not, otherwise
+  run::LimiterCounts limited = {};  ///< limiters that acted
+  /// Why a completed run is no basis (see run::validity_warnings), a clause each; none for a sound one.
+  std::vector<std::string> validity_warnings = {};
+  /// K, of T max without a gap by friction; infinite where a study does not ask whether it was launched.
+  double friction_rise = std::numeric_limits<double>::infinity();
+  CaseStatements input = {};
 };
 
-/// The rule of the contract below that decided.
+/// All that a verdict rests on.
+struct Evidence {
+  std::shared_ptr<const CaseEvidence> of_case = {};  ///< without it nothing is safe
+  bool ignited = false;                              ///< at a station
+  double gap = 0;                                    ///< m
+  double maximum_temperature = 0;                    ///< K, over the stations
+  double margin = 0;                                 ///< K, ignition temperature minus maximum temperature
+  double uncertainty = 0;                            ///< K
+  /// K, margin with the constants of the surface as calibrated; infinite where they are.
+  double calibrated_margin = std::numeric_limits<double>::infinity();
+  double noise = 0;  ///< K, what noise and smoothing of a measured curve count
+  /// K, T max when a launch that is cut short goes on until it is over; NaN for others.
+  double when_over = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::string> models = {};  ///< titles of other models that could change the verdict
+};
+
+/// Which rule gave a verdict.
 enum class ReasonCode {
+  not_judged,
   failed,
   no_temperature,
   validity_warning,
   ignition,
-  not_accepted,
+  unaccepted,
   no_margin,
   optimistic,
   critical_gap_indeterminate,
   several_crossings,
-  ignites_at_smaller_gaps,
+  smaller_gaps_ignite,
+  margin_within_uncertainty,
+  calibrated_margin_within_uncertainty,
+  margin_over_uncertainty,
   no_lower_bound,
-  above_lower_bound,
-  below_lower_bound,
-  within_uncertainty,
-  within_uncertainty_as_calibrated,
-  over_uncertainty
+  may_ignite_without_gap,
+  not_below_bound,
+  below_bound
 };
+/// In files: "below-bound".
 std::string to_string(ReasonCode code);
 
+/// A verdict and why; its words are in statement_text.hpp.
 struct Judgement {
   Verdict verdict = Verdict::indeterminate;
-  std::string reason;  ///< the cause, and what else the evidence says, for people
-  ReasonCode code = ReasonCode::failed;
-  std::string cause = {};  ///< what decided, for people
+  ReasonCode code = ReasonCode::not_judged;
+  double at_least = std::numeric_limits<double>::quiet_NaN();  ///< m, CriticalGap::bounds
+  GapReason critical_gap = {};  ///< why there is none, where that is the reason
 };
 
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
