@@ -40,7 +40,7 @@ constexpr double largest_scaling_when_sliding = 16.0, largest_steel_inertia_when
 
 /// A load that rises faster rings a shell whose inertia is selective. On the 155 mm shell with steps four
 /// times as long T max changes by 1.1 K or less with pulses of a half, a quarter and an eighth of the
-/// published width (from 10 to 90 % of the peak in 0.4 ms), and with a thirtieth it ignites or does not.
+/// published width (from 10 to 90 % of the peak in 0.6 ms), and with a thirtieth it ignites or does not.
 constexpr double shortest_selective_rise = 0.5e-3;  // s, from 10 to 90 % of the peak
 
 /// The sampling error is the difference to a trace with half the samples. On the 155 mm shell (0.03 cm) a

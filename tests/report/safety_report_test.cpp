@@ -221,7 +221,7 @@ TEST_F(SafetyReport, ARowOfWhichNothingSaysHowWrongItIsHasNoUncertainty) {
   change(study, [](auto& results) {
     for (auto& row : results["verdicts"]) {
       row["verdict"] = "INDETERMINATE";
-      row["reason_code"] = "not accepted";
+      row["reason_code"] = "unaccepted";
       row["reason"] =
           "validity warning: extrapolated: the constants were calibrated on another launch (gap.air = film), "
           "and "

@@ -396,7 +396,7 @@ TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
 TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
   scene::Scene scene = shipped_scene();
   scene.interfaces.clear();
-  scene.load.width = 0.25 * scene.load.width;  // from 10 to 90 % in 0.9 ms
+  scene.load.width = 0.12 * scene.load.width;  // from 10 to 90 % in 0.59 ms
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.numerics.selective_inertia = 4.0;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());

@@ -138,10 +138,10 @@ TEST_F(ForeignNames, WhatAKillLeftOfOurOwnIsUsedAgain) {
 }
 
 TEST_F(ForeignNames, AResultsFileOfAnotherFormatIsRefusedWithWhatToDo) {
-  make_database(results(), 0x4c534146, 2);
+  make_database(results(), 0x4c534146, 1);
   const auto store = try_open(where());
   ASSERT_FALSE(store);
-  EXPECT_NE(store.error().message.find("format 2"), std::string::npos) << store.error().message;
+  EXPECT_NE(store.error().message.find("format 1"), std::string::npos) << store.error().message;
   EXPECT_NE(store.error().message.find("run the study anew"), std::string::npos) << store.error().message;
 }
 
