@@ -400,7 +400,7 @@ TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
   scene.numerics.selective_inertia = 4.0;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
-  scene.load.width = 0.5 * scene.load.width;
+  scene.load.width = 0.75 * scene.load.width;
   expect_one(validity_warnings(scene, sound_run()), "numerics.selective_inertia = 1 for this one");
   scene.numerics.selective_inertia = 1.0;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
