@@ -26,7 +26,7 @@ class SafetyReportOfOneLaunch : public SafetyReport {
   void SetUp() override {
     SafetyReport::SetUp();
     main_ = copy_of("critical_gap_155mm");
-    sweep_ = current_sweep();
+    sweep_ = copy_of("sweep_pressure_defect");
     change(main_, [](auto& results) {
       auto& row = results["cases"][0];
       row["critical_gap_kind"] = "value";

@@ -56,16 +56,6 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
     write(study / "study.json", results.dump(1));
     replace_in(study / "manifest.json", before, store::sha256(read(study / "study.json")));
   }
-  /// A copy of a shipped sweep, whose verdicts have the code of their reason though it was written before
-  /// that.
-  path current_sweep() const {
-    const path to = copy_of("sweep_pressure_defect");
-    change(to, [](auto& results) {
-      for (auto& row : results["verdicts"])
-        row.emplace("reason_code", row["verdict"] == "UNSAFE" ? "ignition" : "below lower bound");
-    });
-    return to;
-  }
   static std::string fault_of(const std::vector<path>& folders) {
     const auto evidence = read_safety_evidence(folders);
     return evidence ? "" : evidence.error().message;

@@ -86,7 +86,7 @@ TEST_F(SafetyReport, ASafeThatItsTemperatureOrCriticalGapContradictsIsRefused) {
 }
 
 TEST_F(SafetyReport, ASafeOfASweepThatItsCriticalGapContradictsIsRefused) {
-  const path sweep = current_sweep();
+  const path sweep = copy_of("sweep_pressure_defect");
   change(sweep, [](auto& results) {
     for (auto& row : results["cases"]) row["critical_gap_at_least_cm"] = 0.0;
   });
@@ -270,7 +270,7 @@ TEST_F(SafetyReport, TheScenesLaunchIsNotCalledCoveredWhereNoCaseIsOfIt) {
 TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
   const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12");
   ASSERT_TRUE(criterion);
-  const std::string page = file_of({current_sweep()}, "report.md", *criterion);
+  const std::string page = file_of({copy_of("sweep_pressure_defect")}, "report.md", *criterion);
   EXPECT_TRUE(has(page, "no gap is recommended"));
   EXPECT_TRUE(has(page, "Covered are the 56 computed cases alone"));
   EXPECT_TRUE(has(page, "No gap can be recommended: there are no verdicts of one launch"));
@@ -295,7 +295,7 @@ void make_of_temperature(nlohmann::ordered_json& results) {
 
 // Issue 30, point 9: under the old load 336 K took a third of the critical gap at 300 K.
 TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
-  const path sweep = current_sweep();
+  const path sweep = copy_of("sweep_pressure_defect");
   change(sweep, make_of_temperature);
   const auto page_one = [](const std::vector<path>& studies) {
     const std::string page = file_of(studies, "report.md");
@@ -315,7 +315,7 @@ TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
 }
 
 TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {
-  const path study = current_sweep();
+  const path study = copy_of("sweep_pressure_defect");
   for (const char* quantity : {"safe_gap", "critical_gap"}) {
     const std::string first = read(study / (std::string(quantity) + ".svg"));
     write(study / (std::string(quantity) + "_2.svg"), first);
