@@ -29,6 +29,12 @@ std::string text_of(math::Design design) {
   return names.at(static_cast<std::size_t>(design));
 }
 
+std::string correlated_text(const SensitivitySettings& own) {
+  if (!own.correlated) return {};
+  return " The constants of the calibration vary together, by the covariance of their logarithms in its "
+         "record, and are one input.";
+}
+
 std::string interval_text(const SensitivitySettings& own) {
   return fmt::format("{}% intervals from a bootstrap of {} resamples, seed {}",
                      digits_of(own.confidence, keys::significant(6, percent)), own.resamples, own.seed);
@@ -75,17 +81,19 @@ std::string estimate_text(const math::Estimate& estimate) {
 
 std::string method_text(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  if (own.method == SensitivityMethod::polynomial_chaos)
+    return fmt::format(
+        "Sobol indices of a polynomial chaos (Blatman & Sudret 2011) fitted to {} launches on {} and held "
+        "against "
+        "{} others; {}, widened by what it does not explain.{}",
+        own.samples, text_of(own.design), own.held_out, interval_text(own), correlated_text(own));
   std::string text = fmt::format(
       "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
       "evaluations, on {}; {}.",
       own.samples, result.answers.size(), text_of(own.design), interval_text(own));
   if (own.design == math::Design::scrambled_sobol && own.samples < 256)
     text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
-  if (own.correlated)
-    text +=
-        " The constants of the calibration vary together, by the covariance of their logarithms in its "
-        "record, and are one input.";
-  return text;
+  return text + correlated_text(own);
 }
 
 namespace {
@@ -208,13 +216,17 @@ std::string share_failed(const SensitivityResult& result) {
       failures_list({}, result.study, result.answers));
 }
 
+bool has_fit(const SensitivityResult& result) {
+  return sensitivity_settings(result.study.study).method == SensitivityMethod::polynomial_chaos;
+}
+
 std::string picture_name(const OutputSensitivity& output) {
   return "sensitivity_" + shown_output(output.output).column.name + ".svg";
 }
 
 nlohmann::ordered_json method_json(const SensitivityResult& result) {
   const auto& settings = sensitivity_settings(result.study.study);
-  return {{"name", "sobol"},
+  return {{"name", settings.method == SensitivityMethod::sobol ? "sobol" : "polynomial-chaos"},
           {"text", method_text(result)},
           {"N", settings.samples},
           {"evaluations", result.answers.size()},
@@ -239,7 +251,8 @@ Report report_of(const SensitivityResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.items.push_back(
       ReportTable{sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
-  report.items.push_back(ReportTable{output_table(result), "", "outputs", Shown::file});
+  report.items.push_back(ReportTable{output_table(result), "", "outputs",
+                                     has_fit(result) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     if (output.reason.empty())

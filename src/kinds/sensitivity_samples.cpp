@@ -2,6 +2,7 @@
 
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "sensitivity_chaos.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
@@ -169,6 +170,21 @@ IgnitionShare ignition_share(const SensitivityResult& result) {
   return share;
 }
 
+namespace {
+
+/// What the fit of the critical gap says of the study's gap; empty without one.
+std::string predicted_text(const SensitivityResult& result, const OutputSensitivity& output) {
+  if (!output.fit || !output.reason.empty()) return {};
+  const Study& study = result.study.study;
+  const PredictedShare share = share_below(study, *output.fit, study.gaps.front());
+  return fmt::format(
+      " Predicted by the fit of the critical gap, and not computed: {} of all launches ignite there, {} with "
+      "its largest error.",
+      in_percent(share.predicted), in_percent(share.at_most));
+}
+
+}  // namespace
+
 std::string samples_text(const SensitivityResult& result) {
   const IgnitionShare share = ignition_share(result);
   if (share.completed + share.failed == 0) return {};
@@ -179,6 +195,7 @@ std::string samples_text(const SensitivityResult& result) {
       in_percent(share.interval.upper));
   if (share.failed > 0) text += fmt::format(" {} more failed, and may have done either.", share.failed);
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
+    text += predicted_text(result, *gap);
     const OutputSample sample = sample_of(result, *gap);
     text += fmt::format(" Quantiles of the critical gap: 2.5 % at {}, 5 % at {}, half at {}.",
                         quantile_text(result, sample.quantile(0.025)),

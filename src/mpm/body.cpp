@@ -30,9 +30,7 @@ ParticleFields make_kinematics(const scene::Scene& scene, int index, double dens
   ParticleFields p;
   const scene::Body& body = scene.bodies[static_cast<std::size_t>(index)];
   p.lattice = make_lattice(scene, body);
-  const scene::Numerics& numerics = scene.numerics;
-  const double inertial_factor =
-      numerics.inertial_scaling * (scene::is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
+  const double inertial_factor = scene.numerics.inertial_scaling;
   p.body = index;
   const Lattice& lattice = p.lattice;
   const std::size_t slots = lattice.slots();

@@ -1,6 +1,7 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/selective_inertia.hpp"
 #include "launchsafe/scene/stations.hpp"
 
 #include <fmt/format.h>
@@ -35,13 +36,11 @@ constexpr double largest_scaled_share = 0.03;
 /// scaling of 16, by up to 25 K with 100, and with steel four times as heavy by up to 0.5 K. With steps
 /// lengthened by selective inertia four times it changes by 0.18 K without friction, 0.44 K with 0.05 and
 /// 1.1 K with 0.1; eight times by 2.4 and 9 K.
-constexpr double largest_scaling_when_sliding = 16.0, largest_steel_inertia_when_sliding = 4.0,
-                 largest_selective_inertia_when_sliding = 4.0;
+constexpr double largest_scaling_when_sliding = 16.0, largest_selective_inertia_when_sliding = 4.0;
 
 /// A load that rises faster rings a shell whose inertia is selective. On the 155 mm shell with steps four
 /// times as long T max changes by 1.1 K or less with pulses of a half, a quarter and an eighth of the
 /// published width (from 10 to 90 % of the peak in 0.6 ms), and with a thirtieth it ignites or does not.
-constexpr double shortest_selective_rise = 0.5e-3;  // s, from 10 to 90 % of the peak
 
 /// The sampling error is the difference to a trace with half the samples. On the 155 mm shell (0.03 cm) a
 /// single interval errs by 19 K and finds no difference at all; two err by 5 K, four by 0.6 K, eight by less
@@ -118,7 +117,7 @@ void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
   }
 }
 
-/// The largest factor on the inertia of anything but steel by itself.
+/// The largest factor on the inertia of any cell.
 double largest_inertial_factor(const scene::Numerics& numerics) {
   return numerics.inertial_scaling * numerics.selective_inertia * numerics.selective_inertia;
 }
@@ -138,18 +137,15 @@ void check_inertia(const Scene& scene, const MechanicsResult& mechanics, Warning
 
 void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
   if (scene::sliding_interfaces(scene).empty()) return;
-  const double all = scene.numerics.inertial_scaling, steel = scene.numerics.steel_inertia,
-               selective = scene.numerics.selective_inertia;
-  const bool measured = all <= largest_scaling_when_sliding && steel <= largest_steel_inertia_when_sliding &&
+  const double all = scene.numerics.inertial_scaling, selective = scene.numerics.selective_inertia;
+  const bool measured = all <= largest_scaling_when_sliding &&
                         selective <= largest_selective_inertia_when_sliding &&
-                        (all > 1.0) + (steel > 1.0) + (selective > 1.0) <= 1;
+                        !(all > 1.0 && selective > 1.0);
   if (measured) return;
   warnings.add(
-      "inertia scaled by {:.6g}, that of steel by {:.6g}, steps lengthened {:.6g} times by selective "
-      "inertia, "
-      "of a charge that slides: what that does was measured up to {:g}, {:g} and {:g}, one of them at a time",
-      all, steel, selective, largest_scaling_when_sliding, largest_steel_inertia_when_sliding,
-      largest_selective_inertia_when_sliding);
+      "inertia scaled by {:.6g}, steps lengthened {:.6g} times by selective inertia, of a charge that "
+      "slides: what that does was measured up to {:g} and {:g}, one of them at a time",
+      all, selective, largest_scaling_when_sliding, largest_selective_inertia_when_sliding);
 }
 
 void check_samples(const MechanicsResult& mechanics, Warnings& warnings) {
@@ -190,28 +186,11 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
   if (crack > room) warn(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
 }
 
-/// Largest pressure (Pa) by which a load rises within a time window (s). Sampled eight times a window and
-/// where a measured curve bends, so that less than an eighth of a window is missed on the way up.
-double largest_rise(const scene::Load& load, double window) {
-  const scene::PressureHistory history(load);
-  std::vector<double> times = history.marks();
-  const double end = scene::end_time(load), between = std::max(window / 8.0, end * 1e-6);
-  for (double time = 0.0; time < end; time += between) times.push_back(time);
-  double rise = 0.0;
-  for (const double time : times) {
-    const double earlier = std::max(0.0, time - window), later = std::min(end, time + window);
-    rise = std::max({rise, history.at(time) - history.at(earlier), history.at(later) - history.at(time)});
-  }
-  return rise;
-}
-
 void check_rise(const Scene& scene, Warnings& warnings) {
   const double peak = scene::PressureHistory(scene.load).peak();
   if (!(peak > 0.0)) return;
-  const scene::Extent charge = scene::charge_extent(scene);
-  const double transit = std::max(charge.x_end - charge.x_begin, charge.r_end) /
-                         scene::longitudinal_speed(materials::Law(scene.charge()));
-  const double share = largest_rise(scene.load, transit) / peak;
+  const double transit = scene::transit_time(scene);
+  const double share = scene::largest_changes(scene.load, transit).rise / peak;
   if (!(share > largest_rise_in_a_transit)) return;
   warnings.add(
       "the load rises by {:.3g} % of its peak within {:.3g} us, the time that sound takes through "
@@ -221,13 +200,11 @@ void check_rise(const Scene& scene, Warnings& warnings) {
 
 void check_selective_rise(const Scene& scene, Warnings& warnings) {
   if (!(scene.numerics.selective_inertia > 1.0)) return;
-  const double share =
-      largest_rise(scene.load, shortest_selective_rise) / scene::PressureHistory(scene.load).peak();
-  if (!(share > 0.8)) return;
+  if (!scene::changes_too_fast_for_selective_inertia(scene)) return;
   warnings.add(
-      "the load rises by {:.3g} % of its peak within {:.3g} ms, and inertia is selective: what that does was "
-      "measured for slower loads (numerics.selective_inertia = 1 for this one)",
-      100.0 * share, 1e3 * shortest_selective_rise);
+      "the load rises or falls by more than 80 % of its peak within 0.5 ms, or 2.5 transits of sound through "
+      "the charge, and inertia is selective: what that does was measured for slower loads "
+      "(numerics.selective_inertia = 1 for this one)");
 }
 
 /// Highest bulk temperature (K) of the charge's bottom under friction heat with factor 1.
@@ -391,11 +368,11 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
                                                       const CombustionHistory& combustion) {
   Warnings warnings;
   const scene::Numerics& numerics = scene.numerics;
-  if (const double factor = largest_inertial_factor(numerics); factor > 1.0 || numerics.steel_inertia > 1.0)
+  if (const double factor = largest_inertial_factor(numerics); factor > 1.0)
     warnings.add(
-        "inertia is scaled by up to {:.6g} and that of steel by {:.6g}: what burning gas sets in motion, and "
-        "its pressure, are those of heavier bodies",
-        factor, numerics.steel_inertia);
+        "inertia is scaled by up to {:.6g}: what burning gas sets in motion, and its pressure, are those of "
+        "heavier bodies",
+        factor);
   const std::vector<double>& measured = scene.load.curve_time;
   const double end = combustion.time.empty() ? 0.0 : combustion.time.back();
   if (!measured.empty() && !scene::exit_time(scene.load) && end > measured.back())

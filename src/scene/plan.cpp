@@ -196,12 +196,10 @@ double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
   double shortest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const double inertia =
-        numerics.inertial_scaling * (is_charge(scene, body) ? 1.0 : numerics.steel_inertia);
-    shortest = std::min(
-        shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)) * std::sqrt(inertia));
+    shortest = std::min(shortest, mesh.cells[i].shortest() / longitudinal_speed(law_of(scene, body)));
   }
-  return numerics.time_step_factor * numerics.selective_inertia * shortest;
+  return numerics.time_step_factor * numerics.selective_inertia * std::sqrt(numerics.inertial_scaling) *
+         shortest;
 }
 
 void count_particles(const Scene& scene, const MeshSize& mesh, Plan& plan) {

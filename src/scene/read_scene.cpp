@@ -5,6 +5,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/selective_inertia.hpp"
 #include "use_materials.hpp"
 
 #include <fmt/format.h>
@@ -74,6 +75,8 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
     return error;
   }
   settle_load(file.scene);
+  if (!file.given.contains("numerics.selective_inertia"))
+    file.scene.numerics.selective_inertia = usual_selective_inertia(file.scene);
   return validate(file);
 }
 

@@ -197,19 +197,14 @@ std::vector<Key<Numerics>> numerics_keys() {
               "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
               &Numerics::inertial_scaling),
           between(1, 100), "larger ones moved temperatures by tens of kelvin", setting_exact_at(1.0)),
-      plausibly(
-          number_key("steel_inertia", Dimension::number, between(1, 100), Standing::assumed,
-                     "Factor on the inertia of what is no charge, beside inertial_scaling; an accuracy knob.",
-                     &Numerics::steel_inertia),
-          between(1, 10), "larger ones were never compared with a reference", setting_exact_at(1.0)),
-      written_where(
-          plausibly(
-              number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
-                         "Multiple of the step that the smallest cells allow; cells that allow less get "
-                         "the inertia for it (selective mass scaling). 1 is true inertia.",
-                         &Numerics::selective_inertia),
-              between(1, 8), "larger ones were never compared with a reference", setting_exact_at(1.0)),
-          [](const Numerics& numerics) { return numerics.selective_inertia > 1.0; }),
+      usually(
+          plausibly(number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
+                               "Multiple of the step that the smallest cells allow; cells that allow less "
+                               "get the inertia for it (selective mass scaling). 1 is true inertia.",
+                               &Numerics::selective_inertia),
+                    between(1, 8), "larger ones were never compared with a reference", setting_exact_at(1.0)),
+          "4, or 1 where that was not measured: two-way coupling, rises below 0.5 ms, other scaled "
+          "inertia, no charge, the lab frame, updated-Lagrangian"),
       zero_or_plausibly(number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
                                    "Decay time of the relative velocity; \"0 ms\" for no damping.",
                                    &Numerics::damping_time),
@@ -292,6 +287,7 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
     // What only the user can say has no default, even where it may be left out.
     const bool no_default = key.required || key.standing == Standing::input;
     DocumentedKey entry{key, no_default ? std::string{} : format_value(key, key.default_value())};
+    if (!key.usual.empty()) entry.default_text = key.usual;
     entry.description.name = prefix + key.name;
     documented.push_back(std::move(entry));
   }

@@ -115,11 +115,9 @@ Fault check_formulation(const SceneFile& file) {
   for (const auto& [key, places] : {std::pair{"numerics.refined_x", &numerics.refined_x},
                                     std::pair{"numerics.refined_r", &numerics.refined_r}})
     if (!places->empty()) return fault_at(file, key, length_text(places->front()), "absent" + even);
-  for (const auto& [key, factor] : {std::pair{"numerics.steel_inertia", numerics.steel_inertia},
-                                    std::pair{"numerics.selective_inertia", numerics.selective_inertia}})
-    if (factor > 1.0)
-      return fault_at(file, key, fmt::format("{:g}", factor),
-                      "1 with formulation \"updated-lagrangian\", which has one factor on all inertia");
+  if (numerics.selective_inertia > 1.0)
+    return fault_at(file, "numerics.selective_inertia", fmt::format("{:g}", numerics.selective_inertia),
+                    "1 with formulation \"updated-lagrangian\", which has one factor on all inertia");
   return std::nullopt;
 }
 
@@ -271,7 +269,6 @@ Fault check_inertia(const SceneFile& file) {
   if (file.scene.frame == Frame::co_moving) return std::nullopt;
   const Numerics& numerics = file.scene.numerics;
   for (const auto& [key, factor] : {std::pair{"numerics.inertial_scaling", numerics.inertial_scaling},
-                                    std::pair{"numerics.steel_inertia", numerics.steel_inertia},
                                     std::pair{"numerics.selective_inertia", numerics.selective_inertia}})
     if (factor > 1.0)
       return fault_at(file, key, fmt::format("{:.6g} in the lab frame", factor),

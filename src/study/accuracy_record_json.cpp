@@ -26,17 +26,9 @@ constexpr double smallest_bound = 1e-4;
 constexpr double longest_processor_time = 1e9;  ///< s, some thirty years
 constexpr double widest_gap = 0.01;             ///< m, as in studies
 
-/// Whether a key is written only where it differs from its default, as one that came after a record was made.
-bool may_be_left_out(const scene::Key<scene::Scene>& key) {
-  static const scene::Scene usual;
-  return key.is_written && !key.is_written(usual);
-}
-
 ordered_json json_of(const Setting& setting) {
   ordered_json object = ordered_json::object();
   for (const auto& entry : setting) {
-    const auto& key = *scene::find_key(scene::scene_keys(), entry.first);
-    if (may_be_left_out(key) && entry.second == key.default_value()) continue;
     std::visit([&](const auto& value) { object[entry.first] = value; }, entry.second);
   }
   return object;
@@ -54,17 +46,12 @@ bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   return key.kind == scene::KeyKind::number && std::isfinite(number) && whole && key.limits.contain(number);
 }
 
-/// Every key of a setting, none besides, each with a value that a scene may have; one that is left out has
-/// its default.
+/// Every key of a setting, none besides, each with a value that a scene may have.
 Setting setting_from(const ordered_json& object, const std::string& path, RecordReader& reader) {
   Setting setting;
   std::vector<std::string> keys;
   for (const auto& key : scene::scene_keys()) {
-    if (!belongs_to_setting(key)) continue;
-    if (may_be_left_out(key) && object.is_object() && !object.contains(key.name))
-      setting[key.name] = key.default_value();
-    else
-      keys.push_back(key.name);
+    if (belongs_to_setting(key)) keys.push_back(key.name);
   }
   if (!reader.has_keys(object, path, keys)) return setting;
   for (const std::string& key : keys) {

@@ -15,6 +15,7 @@ scene::Scene calibration_scene() {
   scene.numerics.growth_x = scene.numerics.growth_r = 1.3;
   scene.numerics.largest_cell = 20e-3;
   scene.numerics.time_step_factor = 0.65;
+  scene.numerics.selective_inertia = 4.0;
   return scene;
 }
 

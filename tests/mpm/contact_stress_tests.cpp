@@ -77,20 +77,19 @@ void throw_block(mpm::Simulation& simulation, double along, double across) {
 TEST(ContactStressTests, TheLedgerClosesWithScaledInertiaAndWithDamping) {
   // What is left is the third power of a step's strain: a few 1e-6 for the longest steps, as without contact.
   struct Case {
-    double scaling, steel, damping_time;
+    double scaling, damping_time;
   };
-  for (const Case& each : {Case{1, 2, 0}, {1, 4, 0}, {16, 1, 0}, {16, 2, 0}, {1, 1, 1e-5}, {1, 2, 1e-4}})
+  for (const Case& each : {Case{2, 0}, {16, 0}, {1, 1e-5}, {4, 1e-4}})
     for (const double friction : {0.0, 0.1}) {
       const ContactWatch watch = watched_launch([&](scene::Scene& shell) {
         set_friction(shell, friction);
         shell.numerics.inertial_scaling = each.scaling;
-        shell.numerics.steel_inertia = each.steel;
         shell.numerics.damping_time = each.damping_time;
       });
-      EXPECT_LT(watch.drift / watch.scale, 1e-5) << each.scaling << ' ' << each.steel << ' ' << friction;
+      EXPECT_LT(watch.drift / watch.scale, 1e-5) << each.scaling << ' ' << friction;
     }
   scene::Scene shell = held_shell();
-  shell.numerics.steel_inertia = 4.0;
+  shell.numerics.inertial_scaling = 4.0;
   mpm::Simulation tied(shell);
   const ContactWatch watch = watched(tied, 2e-3);
   EXPECT_LT(watch.drift / watch.scale, 1e-5);

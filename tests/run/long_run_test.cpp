@@ -44,6 +44,7 @@ scene::Scene pulsing_shell(double steps) {
     scene.load.curve_time.push_back(scene::end_time(scene.load) * i / (2 * pulses));
     scene.load.curve_pressure.push_back(i % 2 == 0 ? 0.0 : 20e6);
   }
+  scene.numerics.selective_inertia = 1.0;
   return scene;
 }
 

@@ -171,6 +171,7 @@ const std::map<std::string, Keys> scenes{
     {"conduction", {{"physics.conduction", "\"on\""}}},
     {"bulk reaction", {{"physics.bulk_reaction", "\"on\""}}},
     {"scaled inertia", {{"numerics.inertial_scaling", "9"}, {"numerics.damping_time", "\"0.05 ms\""}}},
+    {"selective inertia", {{"numerics.selective_inertia", "3"}}},
     {"two particles a cell",
      {{"numerics.particles_per_cell", "2"},
       {"numerics.pic_fraction", "0.1"},
@@ -241,6 +242,7 @@ Numbers computed() {
   shell.charge().kinetics.ignition_temperature = 519.445;
   shell.numerics.cell_size = 10e-3;
   shell.numerics.inertial_scaling = 16.0;
+  shell.numerics.selective_inertia = 1.0;
   shell.load.duration = 18e-3;  // until the exit
   add_run(numbers, "155 mm", shell);
   return numbers;

@@ -16,6 +16,7 @@ scene::Scene coarse_scene() {
   scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   scene.numerics.cell_size = 10e-3;
   scene.numerics.inertial_scaling = 16.0;
+  scene.numerics.selective_inertia = 1.0;
   scene.load.duration = 18e-3;  // until the exit
   return scene;
 }

@@ -108,11 +108,15 @@ TEST(Plan, TellsWhatARunThroughIgnitionAddsAndAtWhichCost) {
 
 TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {
   Scene scene = small();
+  scene.numerics.selective_inertia = 1.0;
   EXPECT_NEAR(longitudinal_speed(scene), 5905.50, 0.01);
   const Plan plan = make_plan(scene);
   EXPECT_EQ(plan.particles(), particle_count(scene));
   EXPECT_NEAR(plan.time_step, 0.5 * 2.5e-3 / 5905.50, 1e-12);
   EXPECT_EQ(plan.steps, static_cast<std::int64_t>(std::ceil(1e-3 / plan.time_step)));
+  scene.numerics.selective_inertia = 3.0;
+  EXPECT_NEAR(make_plan(scene).time_step, 3.0 * plan.time_step, 1e-15);
+  scene.numerics.selective_inertia = 1.0;
   scene.numerics.inertial_scaling = 16.0;
   EXPECT_NEAR(make_plan(scene).time_step, 4.0 * plan.time_step, 1e-15);
   EXPECT_DOUBLE_EQ(predicted_time(plan, 1e6), static_cast<double>(plan.steps * plan.particles()) / 1e6);

@@ -30,20 +30,6 @@ TEST(AccuracyRecord, ItsBoundsFollowFromWhatTheSettingsGave) {
   EXPECT_NEAR(record.settings[3].critical_gap_bound, 1e-6 * scaled_bound, 1e-12);
 }
 
-TEST(AccuracyRecord, AKeyThatIsWrittenOnlyWhereItDiffersMayBeLeftOut) {
-  // As in a record that was made before there was the key.
-  const std::string key = "numerics.selective_inertia";
-  AccuracyRecord record = made_record();
-  EXPECT_EQ(to_json_text(record).find(key), std::string::npos);
-  const auto read = parse_accuracy_record(to_json_text(record), "accuracy.json");
-  ASSERT_TRUE(read);
-  EXPECT_EQ(read->settings[3].setting.at(key), scene::Value(1.0));
-  record.settings[3].setting[key] = 4.0;
-  const auto other = parse_accuracy_record(to_json_text(record), "accuracy.json");
-  ASSERT_TRUE(other);
-  EXPECT_EQ(other->settings[3].setting.at(key), scene::Value(4.0));
-}
-
 TEST(AccuracyRecord, ASettingWithoutACriticalGapHasNoBoundOfIt) {
   AccuracyRecord record = made_record();
   record.settings[3].critical_gap = std::nan("");

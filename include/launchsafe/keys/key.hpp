@@ -105,6 +105,7 @@ struct KeyDescription {
   std::string example = {};                 ///< of a text, without quotation marks
   bool may_be_empty = false;                ///< of a list: [] is allowed
   bool required = false;                    ///< no default: the user must say
+  std::string usual = {};                   ///< the default in words, where it follows from other keys
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
   Plausible plausible = {};
   std::optional<Role> stated_role = {};  ///< none: it changes everything
@@ -349,6 +350,13 @@ std::vector<Key<Owner>> in_role(const Role& role, std::vector<Key<Owner>> keys) 
 template <class Owner>
 Key<Owner> required(Key<Owner> key) {
   key.required = true;
+  return key;
+}
+
+/// The same key, whose default follows from others; whoever reads the file sets it.
+template <class Owner>
+Key<Owner> usually(Key<Owner> key, std::string words) {
+  key.usual = std::move(words);
   return key;
 }
 

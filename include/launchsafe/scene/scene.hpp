@@ -62,9 +62,9 @@ struct Load {
   std::optional<double> duration;      ///< s, where not all of the launch is simulated: see `end_time`
   double peak = 496e6;                 ///< Pa
   double base = 101325.0;              ///< p0, Pa
-  double peak_time = 11.4422e-3;       ///< t_m, s [C]
-  double width = 3.01097e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
-  double steepness = 1.37895;          ///< a [C], of the bell alone
+  double peak_time = 11.3923e-3;       ///< t_m, s [C]
+  double width = 2.92580e-3;           ///< w, s [C], of the bell alone: the pressure is 1/e of its peak there
+  double steepness = 1.36939;          ///< a [C], of the bell alone
   double exponent = 13.578;            ///< n [A], of the power-exponential alone
   std::string curve_file;              ///< as the user wrote it
   std::vector<double> curve_time;      ///< s, increasing; empty for the analytic shape
@@ -106,11 +106,11 @@ struct Surface {
   AirModel air_model = AirModel::reservoir;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
-  double exchange_time = 2.90026e-4;  ///< tau_ex, s [C]
+  double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]
   /// Stations tile the charge's bottom by about this width and this depth, m.
   double station_width = 5e-3, station_depth = 5e-3;
   FrictionClosure friction = FrictionClosure::total_strain_rate;
-  double localisation = 1349.57;  ///< [C]
+  double localisation = 1346.94;  ///< [C]
 };
 
 struct Numerics {
@@ -127,8 +127,8 @@ struct Numerics {
   int particles_per_cell = 1;  ///< in each direction
   double time_step_factor = 0.5;  ///< CFL
   double inertial_scaling = 1.0;  ///< s >= 1
-  double steel_inertia = 1.0;     ///< >= 1; factor on the inertia of metal bodies beside the scaling
-  /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it
+  /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it. Of a
+  /// scene file that does not say it: selective_inertia.hpp.
   double selective_inertia = 1.0;
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP

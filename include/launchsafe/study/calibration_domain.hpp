@@ -15,7 +15,7 @@ struct CalibrationEvidence {
   /// K, of T max by the constants on this launch; taken where no fit uncertainty is stated. Half the distance
   /// between the temperatures that T1 separates, or the bound of the misfits of what nothing was fitted to,
   /// whichever is larger.
-  double fit_uncertainty = 2.75;
+  double fit_uncertainty = 2.86;
 };
 
 /// A launch with its calibrated constants: they hold where they were found.
