@@ -252,7 +252,7 @@ TEST_F(RecordedStudy, CarriesABoundToOtherLaunchesOnlySoFar) {
                                {"[set]\nload.width = \"1 ms\"\nload.muzzle_exit = \"14 ms\"\n", assumed},
                                {"[set]\nload.peak_time = \"5 ms\"\nload.muzzle_exit = \"9 ms\"\n", assumed},
                                {"[set]\nload.duration = \"30 ms\"\n", assumed},
-                               {"[set]\nfriction.localisation = 2699.08\n", 2.0 * own},
+                               {"[set]\nfriction.localisation = 2693.88\n", 2.0 * own},
                                {"[set]\nfriction.localisation = 5000\n", assumed},
                                {"[set]\ninitial_temperature = \"219 K\"\n", own},
                                // (336/300)^2 = 1.2544 of the recorded 300 K; 366 K are hotter by 22 %.

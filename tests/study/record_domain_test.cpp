@@ -20,8 +20,12 @@ using keys::ActsOn, keys::Part;
 
 constexpr RecordKind kinds[] = {RecordKind::calibration, RecordKind::accuracy, RecordKind::model_form};
 
+/// The shipped scene, whose inertia is stated: what a scene takes by default follows from other keys.
 const scene::SceneFile& own() {
-  static const scene::SceneFile file = scene::read_scene(studies_folder / "scene_155mm.toml").value();
+  static const scene::SceneFile file =
+      scene::with_written_key(scene::read_scene(studies_folder / "scene_155mm.toml").value(),
+                              "numerics.selective_inertia", "4", {})
+          .value();
   return file;
 }
 

@@ -147,11 +147,14 @@ inline Runners synthetic_runners(double kelvin = 116.1) {
 /// The constants that the synthetic launch is made for, on the hot side of the calibrated ones.
 inline const std::string synthetic_constants =
     "[set]\nfriction.closure = \"total strain rate\"\nfriction.localisation = 1700\ngap.exchange_time = "
-    "\"0.29 ms\"\n"
+    "\"0.285 ms\"\n"
     "kinetics.set = \"comp-b\"\nkinetics.ignition_temperature = \"519 K\"\n";
-/// On a lattice of 2.5 mm whose cells do not grow, which needs no setting that tells what growth changes.
+/// With true inertia on a lattice of 2.5 mm whose cells do not grow, which needs no settings that tell what
+/// these change.
 inline const std::string constants_on_even_lattice =
-    synthetic_constants + "numerics.cell_size = \"2.5 mm\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n";
+    synthetic_constants +
+    "numerics.cell_size = \"2.5 mm\"\nnumerics.growth_x = 1\nnumerics.growth_r = 1\n"
+    "numerics.selective_inertia = 1\n";
 
 inline StudyOptions synthetic_options(int jobs = 1) {
   StudyOptions options;
