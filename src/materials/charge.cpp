@@ -96,9 +96,22 @@ struct EosOf {
   }
 };
 
+/// The keys of all of them. A charge has those of its own alone, and one that is given takes back what was
+/// given of the others.
 template <class... Eos>
 std::vector<Key<Charge>> keys_of_eos(const std::variant<Eos...>&) {
-  return joined({keys_of_part<Charge>("charge.", EosOf<Eos>{}, Eos::parameters())...});
+  const std::vector<std::vector<Key<Charge>>> lists{
+      keys_of_part<Charge>("charge.", EosOf<Eos>{}, Eos::parameters())...};
+  std::vector<Key<Charge>> all;
+  for (std::size_t own = 0; own < lists.size(); ++own)
+    for (Key<Charge> key : lists[own]) {
+      key.is_written = [own](const Charge& charge) { return charge.eos.index() == own; };
+      for (std::size_t other = 0; other < lists.size(); ++other)
+        if (other != own)
+          for (const Key<Charge>& replaced : lists[other]) key.overrides.push_back(replaced.name);
+      all.push_back(std::move(key));
+    }
+  return all;
 }
 
 std::vector<Key<Charge>> heat_keys() {

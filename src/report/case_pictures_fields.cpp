@@ -2,13 +2,13 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "launchsafe/run/snapshot_fields.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,33 +17,20 @@ namespace {
 
 constexpr double millimetres = 1e3;  // per m, of the drawing
 
-/// A quantity of snapshots as it is drawn.
-struct DrawnField {
-  const char* file;   ///< part of the name
-  const char* name;   ///< in the title
-  const char* label;  ///< of the colour bar
-  std::vector<double> run::Snapshot::*values;
-  keys::Unit unit;    ///< pure numbers are told as such
-  bool charges_only;  ///< what other bodies do not have
-};
-constexpr std::array drawn_fields{
-    DrawnField{"temperature", "bulk temperature", "temperature", &run::Snapshot::temperature, kelvin, false},
-    DrawnField{"pressure", "pressure", "pressure", &run::Snapshot::pressure, megapascal, false},
-    DrawnField{"von_mises", "von Mises stress", "von Mises stress", &run::Snapshot::von_mises, megapascal,
-               false},
-    DrawnField{"crack_radius", "crack radius", "crack radius", &run::Snapshot::crack_radius, micrometre,
-               true},
-    DrawnField{"burnt_share", "burnt share", "burnt share", &run::Snapshot::burnt_share, {}, true},
-};
+using Field = run::SnapshotField;
 
 bool is_charge(const DrawnCase& drawn, int body) {
   return scene::is_charge(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(body)]);
 }
 
-double value_of(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot, std::size_t i) {
-  if (field.charges_only && !is_charge(drawn, shot.body[i])) return std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double>& values = shot.*field.values;
-  return values.empty() ? 0.0 : shown_value(values[i], keys::significant(6, field.unit));
+/// Six digits of a field, in the unit in which people read it.
+keys::Form form_of(const Field& field) { return keys::significant(6, field.shown); }
+
+double value_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot, std::size_t i) {
+  if (!has_field(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])], field))
+    return std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double>& values = values_of(shot, field);
+  return values.empty() ? 0.0 : shown_value(values[i], form_of(field));
 }
 
 /// The bodies whose values share colours: stresses of a shell are many times those of its charge.
@@ -51,22 +38,24 @@ struct ScaleGroup {
   const char* name;
   bool charges;
 };
-std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const DrawnField& field) {
+std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field) {
   std::vector<ScaleGroup> groups;
-  const bool others =
-      std::any_of(drawn.scene.bodies.begin(), drawn.scene.bodies.end(),
-                  [&](const scene::Body& body) { return !scene::is_charge(drawn.scene, body); });
-  if (scene::has_charge(drawn.scene)) groups.push_back({"charge", true});
-  if (others && !field.charges_only) groups.push_back({"shell", false});
+  for (const ScaleGroup& group : {ScaleGroup{"charge", true}, ScaleGroup{"shell", false}}) {
+    const bool has_it =
+        std::any_of(drawn.scene.bodies.begin(), drawn.scene.bodies.end(), [&](const scene::Body& body) {
+          return scene::is_charge(drawn.scene, body) == group.charges && has_field(drawn.scene, body, field);
+        });
+    if (has_it) groups.push_back(group);
+  }
   return groups;
 }
 
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
 /// either compare: what burns may press harder by far than any launch.
-ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const ScaleGroup& group, bool burning) {
-  ColourScale scale{
-      fmt::format("{}: {} [{}]", group.name, field.label, field.unit.name.empty() ? "1" : field.unit.name),
-      HUGE_VAL, -HUGE_VAL};
+ColourScale scale_of(const DrawnCase& drawn, const Field& field, const ScaleGroup& group, bool burning) {
+  ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.meaning,
+                                field.shown.name.empty() ? "1" : field.shown.name),
+                    HUGE_VAL, -HUGE_VAL};
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
     if (each.gap.has_value() != burning) continue;
     const run::Snapshot& shot = *each.snapshot;
@@ -80,7 +69,7 @@ ColourScale scale_of(const DrawnCase& drawn, const DrawnField& field, const Scal
   return scale;
 }
 
-std::vector<ColourScale> scales_of(const DrawnCase& drawn, const DrawnField& field, bool burning) {
+std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, bool burning) {
   std::vector<ColourScale> scales;
   for (const ScaleGroup& group : scale_groups(drawn, field))
     scales.push_back(scale_of(drawn, field, group, burning));
@@ -151,10 +140,10 @@ std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const run::Sna
   return Enlargement{"At the bottom of the charge", millimetres * from, millimetres * (from + length)};
 }
 
-std::vector<FieldCell> cells_of(const DrawnCase& drawn, const DrawnField& field, const run::Snapshot& shot) {
+std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   std::vector<FieldCell> cells;
   cells.reserve(shot.x.size());
-  const bool charges_first = scene::has_charge(drawn.scene);
+  const bool charges_first = scale_groups(drawn, field).front().charges;
   for (std::size_t i = 0; i < shot.x.size(); ++i)
     cells.push_back({millimetres * shot.x[i], millimetres * shot.r[i], millimetres * shot.half_length_x[i],
                      millimetres * shot.half_length_r[i], value_of(drawn, field, shot, i),
@@ -197,11 +186,12 @@ std::string name_of(const ShownSnapshot& shown) {
   return name;
 }
 
-CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const ShownSnapshot& shown,
+CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
                     const std::vector<ColourScale>& scales) {
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
-  plot.title = fmt::format("{} at {}", field.name, in_words(shot.time, quantity::time_in_titles()));
+  plot.title = fmt::format("{} at {}", field.title.empty() ? field.meaning : field.title,
+                           in_words(shot.time, quantity::time_in_titles()));
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
   if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
@@ -210,7 +200,10 @@ CellPlot field_plot(const DrawnCase& drawn, const DrawnField& field, const Shown
   plot.cells = cells_of(drawn, field, shot);
   plot.outlines = outlines_of(drawn, shot);
   plot.enlargement = enlargement_of(drawn, shot);
-  if (field.charges_only) plot.without_value = "not a charge";
+  const bool grey = std::any_of(plot.cells.begin(), plot.cells.end(),
+                                [](const FieldCell& cell) { return std::isnan(cell.value); });
+  const auto groups = scale_groups(drawn, field);
+  if (grey) plot.without_value = groups.size() == 1 && groups[0].charges ? "not a charge" : "without it";
   return plot;
 }
 
@@ -238,11 +231,11 @@ bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
   return first == shot.body.size();
 }
 
-bool has_field(const DrawnCase& drawn, const DrawnField& field, bool burning) {
-  if (field.charges_only && !scene::has_charge(drawn.scene)) return false;
+bool is_recorded(const DrawnCase& drawn, const Field& field, bool burning) {
+  if (scale_groups(drawn, field).empty()) return false;
   const auto shown = shown_snapshots(drawn);
   return std::any_of(shown.begin(), shown.end(), [&](const ShownSnapshot& each) {
-    return each.gap.has_value() == burning && !(each.snapshot->*field.values).empty();
+    return each.gap.has_value() == burning && !values_of(*each.snapshot, field).empty();
   });
 }
 
@@ -263,13 +256,13 @@ std::string lacks_fields(const DrawnCase& drawn) {
 
 std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
-  for (const DrawnField& field : drawn_fields) {
+  for (const Field& field : run::snapshot_fields()) {
     for (const bool burning : {false, true}) {
-      if (!has_field(drawn, field, burning)) continue;
+      if (!field.drawn || !is_recorded(drawn, field, burning)) continue;
       const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
       for (const ShownSnapshot& each : chosen_snapshots(drawn))
         if (each.gap.has_value() == burning)
-          pictures.push_back({fmt::format("field_{}{}.svg", field.file, name_of(each)),
+          pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
                               field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }
   }
@@ -284,39 +277,23 @@ struct ParticleRow {
 };
 
 Quantities<ParticleRow> particle_quantities() {
-  using run::Snapshot, keys::significant;
-  const auto of = [](std::vector<double> Snapshot::*values) {
-    return [values](const ParticleRow& row) {
-      const std::vector<double>& all = row.shot->*values;
-      return all.empty() ? std::nullopt : std::optional(all[row.particle]);
-    };
-  };
-  const auto stress = [&](std::string name, std::string heading, auto values) {
-    return Quantity<ParticleRow>(
-        {std::move(name), std::move(heading), significant(6, megapascal), "Of stress."}, of(values));
-  };
-  const auto length = [&](std::string name, std::string heading, auto values) {
-    return Quantity<ParticleRow>(
-        {std::move(name), std::move(heading), significant(6, millimetre), "Of the particle's cell."},
-        of(values));
-  };
-  return {{{"body", "body", keys::text(), "Body of the particle."},
-           [](const ParticleRow& row) {
-             return row.drawn->scene.bodies[static_cast<std::size_t>(row.shot->body[row.particle])].name;
-           }},
-          length("x", "x", &Snapshot::x),
-          length("r", "r", &Snapshot::r),
-          length("half_length_x", "half length x", &Snapshot::half_length_x),
-          length("half_length_r", "half length r", &Snapshot::half_length_r),
-          {{"temperature", "temperature", significant(6, kelvin), "Bulk temperature."},
-           of(&Snapshot::temperature)},
-          {quantity::pressure(), of(&Snapshot::pressure)},
-          stress("deviator_xx", "deviator xx", &Snapshot::deviator_xx),
-          stress("deviator_rr", "deviator rr", &Snapshot::deviator_rr),
-          stress("deviator_rx", "deviator rx", &Snapshot::deviator_rx),
-          {{"plastic_strain", "plastic strain", significant(6), "Of steel."}, of(&Snapshot::plastic_strain)},
-          {quantity::crack_radius(), of(&Snapshot::crack_radius)},
-          {{"burnt_share", "burnt share", significant(6), "Of the mass."}, of(&Snapshot::burnt_share)}};
+  Quantities<ParticleRow> quantities{
+      {{"body", "body", keys::text(), "Body of the particle."},
+       [](const ParticleRow& row) {
+         return row.drawn->scene.bodies[static_cast<std::size_t>(row.shot->body[row.particle])].name;
+       }},
+      {{"x", "x", keys::significant(6, millimetre), "Of the particle at present."},
+       [](const ParticleRow& row) { return row.shot->x[row.particle]; }},
+      {{"r", "r", keys::significant(6, millimetre), "Likewise."},
+       [](const ParticleRow& row) { return row.shot->r[row.particle]; }}};
+  for (const Field& field : run::snapshot_fields()) {
+    const std::string name(field.name), meaning(field.meaning);
+    quantities.push_back({{name, name, form_of(field), meaning}, [&field](const ParticleRow& row) {
+                            const std::vector<double>& all = values_of(*row.shot, field);
+                            return all.empty() ? std::nullopt : std::optional(all[row.particle]);
+                          }});
+  }
+  return quantities;
 }
 
 std::vector<CaseTable> field_tables(const DrawnCase& drawn) {

@@ -1,5 +1,6 @@
 #include "launchsafe/run/cost.hpp"
 
+#include "launchsafe/run/snapshot_fields.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace launchsafe::run {
 namespace {
@@ -41,15 +41,6 @@ double trace_memory(const TraceSize& size) {
 double skin_memory(const scene::Scene& scene, const TraceSize& size) {
   return copies * bytes_per_number * static_cast<double>(scene.surface.gaps.size()) * size.samples *
          (2.0 + size.stations);
-}
-
-/// Whether a body's law has a state field of that name.
-bool has_field(const scene::Scene& scene, std::string_view name) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const scene::Body& body) {
-    return std::visit(
-        [&]<class Law>(const Law&) { return materials::field_index<Law>(name) < Law::state.size(); },
-        scene::law_of(scene, body));
-  });
 }
 
 std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
@@ -88,16 +79,21 @@ Cost cost_of(const scene::Scene& scene) {
 }
 
 SnapshotSize snapshot_size(const scene::Scene& scene) {
-  // Of a particle: its body, place and velocity as rows of three, half lengths, density, pressure,
-  // temperature, von Mises stress, deviator, stress tensor, and its cell with four corners.
-  constexpr double of_particle = 1 + 3 + 3 + 2 + 1 + 1 + 1 + 1 + 3 + 6 + 4 + 8;
+  // Of a particle, besides its fields: its body, place and velocity as rows of three, stress tensor, and its
+  // cell with four corners.
+  constexpr double of_particle = 1 + 3 + 3 + 6 + 4 + 8;
   // Of a station: its radius, two ends as rows of three, their numbers.
   constexpr double of_station = 1 + 6 + 2;
   const auto& output = scene.output;
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
   const bool burns = scene.coupling == scene::Coupling::two_way;
   double numbers = of_particle;
-  for (const char* field : {"crack_radius", "plastic_strain"}) numbers += has_field(scene, field) ? 1.0 : 0.0;
+  for (const SnapshotField& field : snapshot_fields()) {
+    if (field.values == &Snapshot::burnt_share && !burns) continue;
+    const bool recorded = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                      [&](const scene::Body& body) { return has_field(scene, body, field); });
+    if (recorded) numbers += 1.0;
+  }
   SnapshotSize size;
   size.of_launch = output.snapshot_times.size() + output.snapshot_events.size();
   if (burns) {

@@ -1,6 +1,7 @@
 #include "snapshot.hpp"
 
 #include "bracket.hpp"
+#include "launchsafe/run/snapshot_fields.hpp"
 #include "launchsafe/scene/stations.hpp"
 #include "monitor.hpp"
 
@@ -63,7 +64,7 @@ std::vector<double> burnt_shares(const mpm::Simulation& simulation) {
 }
 
 /// A state field, which not all laws have.
-std::vector<double> values_of(const mpm::Simulation& simulation, std::string_view name) {
+std::vector<double> state_of(const mpm::Simulation& simulation, std::string_view name) {
   return values_where_known(simulation, [name](const mpm::AnyBody& body, std::size_t slot) {
     const math::AlignedArray* field = field_of(body, name);
     return field != nullptr ? std::optional((*field)[slot]) : std::nullopt;
@@ -165,8 +166,11 @@ Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trac
   Snapshot shot;
   shot.time = simulation.time();
   for (const mpm::AnyBody& any : simulation.bodies()) add_body(any, shot);
-  shot.crack_radius = values_of(simulation, "crack_radius");
-  shot.plastic_strain = values_of(simulation, "plastic_strain");
+  for (const SnapshotField& field : snapshot_fields()) {
+    if (field.values != nullptr) continue;
+    if (std::vector<double> values = state_of(simulation, field.name); !values.empty())
+      shot.state.emplace(field.name, std::move(values));
+  }
   shot.burnt_share = burnt_shares(simulation);
   add_bottom(simulation, stations, shot);
   if (const mpm::TotalLagrangian* form = simulation.total_lagrangian())

@@ -56,13 +56,18 @@ bool scene_gives(const SceneFile& file, const std::string& name) {
 /// what rests on defaults, such as the constants of a calibration, stays as it is.
 void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
   std::vector<Source> sources = material.sources;
-  for (const auto& [name, given] : material.values) {
-    if (scene_gives(file, name)) {
-      forget_source(sources, name);
-    } else if (const Key<Scene>& key = *find_key(scene_keys(), name); given.value != key.default_value()) {
-      file.given[name] = given;
+  materials::for_each_law([&]<class Law>(const Law& usual) {
+    if (material.law != Law::name) return;
+    static const std::vector<Key<Law>> keys = Law::parameters();
+    for (const Key<Law>& key : keys) {
+      const auto given = material.values.find(key.name);
+      if (given == material.values.end()) continue;
+      if (scene_gives(file, key.name))
+        forget_source(sources, key.name);
+      else if (given->second.value != key.get(usual) || (key.is_written && !key.is_written(usual)))
+        file.given[key.name] = given->second;
     }
-  }
+  });
   const std::string title = material.law + ".title";
   if (!material.title.empty() && !scene_gives(file, title))
     file.given[title] = {material.place, Value(material.title), true};

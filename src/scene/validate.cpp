@@ -156,6 +156,11 @@ Fault check_kinetics(const SceneFile& file) {
 }
 
 Fault check_equation_of_state(const SceneFile& file) {
+  static const std::vector<Key<Charge>> keys = Charge::parameters();
+  for (const Key<Charge>& key : keys)
+    if (file.given.contains(key.name) && key.is_written && !key.is_written(file.scene.charge()))
+      return fault_at(file, key.name, "a constant beside those of another equation of state",
+                      "the constants of one equation of state");
   const auto fault = std::visit([](const auto& eos) { return eos.fault(); }, file.scene.charge().eos);
   if (!fault) return std::nullopt;
   const auto given = std::find_if(fault->keys.begin(), fault->keys.end(), [&](const std::string& key) {

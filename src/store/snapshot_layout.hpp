@@ -2,50 +2,16 @@
 #pragma once
 
 #include "archive_parts.hpp"
-#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/run/snapshot_fields.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::store {
-
-/// Whether files hold a quantity of snapshots always, or where it was recorded: older ones do without.
-enum class Kept { always, where_recorded };
-
-/// A quantity that snapshots may hold of every particle.
-struct ParticleField {
-  const char* name;
-  std::vector<double> run::Snapshot::*values;
-  const char* units;
-  const char* description;
-  Kept kept = Kept::always;
-};
-inline constexpr std::array particle_fields{
-    ParticleField{"density", &run::Snapshot::density, "kg/m3", "density"},
-    ParticleField{"pressure", &run::Snapshot::pressure, "Pa", "pressure, compression positive"},
-    ParticleField{"von_mises", &run::Snapshot::von_mises, "Pa", "von Mises stress"},
-    ParticleField{
-        "deviator_rr", &run::Snapshot::deviator_rr, "Pa",
-        "radial stress deviator; the stress, positive in tension, is deviator_rr - pressure; of the "
-        "hoop -(deviator_rr + deviator_xx) - pressure"},
-    ParticleField{"deviator_xx", &run::Snapshot::deviator_xx, "Pa",
-                  "axial stress deviator; the stress, positive in tension, is deviator_xx - pressure"},
-    ParticleField{"deviator_rx", &run::Snapshot::deviator_rx, "Pa", "shear stress"},
-    ParticleField{"temperature", &run::Snapshot::temperature, "K", "temperature"},
-    ParticleField{"crack_radius", &run::Snapshot::crack_radius, "m", "crack radius", Kept::where_recorded},
-    ParticleField{"plastic_strain", &run::Snapshot::plastic_strain, "1", "equivalent plastic strain",
-                  Kept::where_recorded},
-    ParticleField{"half_length_x", &run::Snapshot::half_length_x, "m",
-                  "of the particle's cell at present, axial", Kept::where_recorded},
-    ParticleField{"half_length_r", &run::Snapshot::half_length_r, "m",
-                  "of the particle's cell at present, radial", Kept::where_recorded},
-    ParticleField{"burnt_share", &run::Snapshot::burnt_share, "1", "burnt share of the particle's mass",
-                  Kept::where_recorded},
-};
 
 /// Whether snapshots hold the cells of their particles.
 inline bool has_cells(const run::Snapshot& snapshot) {
@@ -168,10 +134,12 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
   plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});
   plane_vectors(archive, "velocity", snapshot.velocity_x, snapshot.velocity_r, count,
                 {"m/s", "axial, radial, 0; relative to the frame"});
-  for (const ParticleField& field : particle_fields) {
-    auto& values = snapshot.*field.values;
-    if (field.kept == Kept::always || is_recorded(archive, field.name, values))
-      history(archive, field.name, values, count, {field.units, field.description});
+  for (const run::SnapshotField& field : run::snapshot_fields()) {
+    const std::string name(field.name);
+    if (!field.always && !is_recorded(archive, name, values_of(std::as_const(snapshot), field))) continue;
+    history(archive, name, values_of(snapshot, field), count,
+            {std::string(field.unit),
+             std::string(field.description.empty() ? field.meaning : field.description)});
   }
   if constexpr (!Archive::reading) {
     if (has_stresses(snapshot))

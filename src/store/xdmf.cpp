@@ -86,9 +86,10 @@ std::string particles_of(const Stored& stored) {
     text += attribute("velocity", "Vector", centre, item("Float", one + " 3", group + "/velocity"));
   if (has_stresses(snapshot))
     text += attribute("stress", "Tensor6", centre, item("Float", one + " 6", group + "/stress"));
-  for (const ParticleField& field : particle_fields) {
-    if ((snapshot.*field.values).empty()) continue;
-    text += attribute(field.name, "Scalar", centre, item("Float", one, group + "/" + field.name));
+  for (const run::SnapshotField& field : run::snapshot_fields()) {
+    if (values_of(snapshot, field).empty()) continue;
+    text +=
+        attribute(field.name, "Scalar", centre, item("Float", one, fmt::format("{}/{}", group, field.name)));
   }
   return text;
 }

@@ -145,9 +145,21 @@ class Comparison {
     };
     for (const auto& key : scene::scene_keys())
       if (!measured || &key != &peak) compare(key, key.get(scene_), key.get(recorded_));
+    materials::for_each_law([&]<class Law>(const Law&) { compare_forms<Law>(); });
     if (measured)
       compare(peak, scene::PressureHistory(scene_.load).stated_peak(),
               scene::PressureHistory(recorded_.load).stated_peak());
+  }
+
+  /// A key that only one of them has is of another form of the law, also where it is as usual there.
+  template <class Law>
+  void compare_forms() {
+    static const std::vector<scene::Key<Law>> keys = Law::parameters();
+    const Law &ours = scene_.parameters<Law>(), &theirs = recorded_.parameters<Law>();
+    for (const scene::Key<Law>& key : keys)
+      if (key.is_written && key.is_written(ours) != key.is_written(theirs) &&
+          same_value(key.get(ours), key.get(theirs)))
+        found.push_back({key, key.get(ours), key.get(theirs), true});
   }
 
   /// Whether the keys of the scenes speak of both.

@@ -60,10 +60,10 @@ class Bits {
   }
   void fields(const Snapshot& shot) {
     add({shot.time});
-    for (const auto* values :
-         {&shot.x, &shot.r, &shot.velocity_x, &shot.velocity_r, &shot.density, &shot.pressure,
-          &shot.von_mises, &shot.temperature, &shot.crack_radius, &shot.plastic_strain})
+    for (const auto* values : {&shot.x, &shot.r, &shot.velocity_x, &shot.velocity_r, &shot.density,
+                               &shot.pressure, &shot.von_mises, &shot.temperature})
       add(*values);
+    for (const auto& [name, values] : shot.state) add(values);
     for (const int body : shot.body) bits_.push_back(static_cast<std::uint64_t>(body));
   }
 

@@ -154,10 +154,11 @@ void check_finite(const CaseResult& result) {
     finite(sample.largest_crack_radius, "the crack radius");
   }
   for (const Snapshot& shot : result.mechanics.snapshots) {
-    for (const auto* field :
-         {&shot.x, &shot.r, &shot.velocity_x, &shot.velocity_r, &shot.density, &shot.pressure,
-          &shot.von_mises, &shot.temperature, &shot.crack_radius, &shot.plastic_strain})
+    for (const auto* field : {&shot.x, &shot.r, &shot.velocity_x, &shot.velocity_r, &shot.density,
+                              &shot.pressure, &shot.von_mises, &shot.temperature})
       for (const double value : *field) finite(value, "a field of a snapshot");
+    for (const auto& [name, values] : shot.state)
+      for (const double value : values) finite(value, name.c_str());
   }
   for (const GapResult& gap : result.gaps) {
     for (const double temperature : gap.skin.temperature) finite(temperature, "a skin temperature");

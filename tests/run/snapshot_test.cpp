@@ -1,5 +1,7 @@
 // Snapshots: which instants they are of, and what they hold beside the fields of the particles.
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/run/snapshot_fields.hpp"
+#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/stations.hpp"
 #include "small_shell.hpp"
@@ -9,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 namespace launchsafe::run {
 namespace {
@@ -85,16 +89,16 @@ TEST(SnapshotsOfEvents, OfFirstYieldAndCrackGrowthAreTheFirstSamplesWithThem) {
   const double grown = 1.001 * scene.charge().strength.initial_crack_radius;
   EXPECT_TRUE(is_sample(run, yield.time));
   EXPECT_TRUE(is_sample(run, growth.time));
-  EXPECT_GT(largest(yield.plastic_strain), 0.0);
-  EXPECT_GT(largest(growth.crack_radius), grown);
+  EXPECT_GT(largest(yield.state.at("plastic_strain")), 0.0);
+  EXPECT_GT(largest(growth.state.at("crack_radius")), grown);
   const MechanicsResult before =
       run_at(scene, {sample_before(run, yield.time), sample_before(run, growth.time)});
   for (const Snapshot& shot : before.snapshots) {
     if (shot.time < yield.time) {
-      EXPECT_EQ(largest(shot.plastic_strain), 0.0);
+      EXPECT_EQ(largest(shot.state.at("plastic_strain")), 0.0);
     }
     if (shot.time < growth.time) {
-      EXPECT_LE(largest(shot.crack_radius), grown);
+      EXPECT_LE(largest(shot.state.at("crack_radius")), grown);
     }
   }
 }
@@ -277,6 +281,33 @@ TEST(Snapshots, OfAGapThatBurnsBeginWithItsIgnition) {
                    [](const Snapshot& shot) { return shot.time >= 1e-3 && shot.events.empty(); });
   ASSERT_NE(late, burning.snapshots.end());
   EXPECT_TRUE(events_without_snapshot(scene, result).empty());
+}
+
+TEST(SnapshotFields, AreNamedOnceInTheUnitOfWhatTheyMeasure) {
+  std::set<std::string_view> names;
+  for (const SnapshotField& field : snapshot_fields()) {
+    EXPECT_TRUE(names.insert(field.name).second) << field.name;
+    const std::string_view unit = scene::si_unit_of(field.shown.dimension);
+    EXPECT_EQ(field.unit, unit.empty() ? "1" : unit) << field.name;
+    EXPECT_NE(field.meaning, "") << field.name;
+  }
+  for (const char* of_laws : {"crack_radius", "plastic_strain"}) EXPECT_TRUE(names.contains(of_laws));
+}
+
+TEST(SnapshotFields, HoldWhatTheLawOfABodyShows) {
+  scene::Scene scene = shell();
+  scene.output.snapshot_times = {0.0};
+  const MechanicsResult run = run_mechanics(scene);
+  const Snapshot& shot = run.snapshots.front();
+  for (const SnapshotField& field : snapshot_fields())
+    if (field.name != "burnt_share") {
+      EXPECT_EQ(values_of(shot, field).size(), shot.x.size()) << field.name;
+    }
+  const double radius = scene.charge().strength.initial_crack_radius;
+  for (std::size_t i = 0; i < shot.x.size(); ++i) {
+    const scene::Body& body = scene.bodies[static_cast<std::size_t>(shot.body[i])];
+    EXPECT_EQ(shot.state.at("crack_radius")[i], scene::is_charge(scene, body) ? radius : 0.0) << body.name;
+  }
 }
 
 }  // namespace

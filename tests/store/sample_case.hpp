@@ -39,7 +39,7 @@ inline run::Snapshot sample_snapshot(double time) {
   snapshot.deviator_xx = {2e8, -3e8, not_a_number};
   snapshot.deviator_rx = {-0.0, 2e8, 1e5};
   snapshot.temperature = {300, 301, 302};
-  snapshot.plastic_strain = {0, 0.01, 0};
+  snapshot.state["plastic_strain"] = {0, 0.01, 0};
   snapshot.body = {0, 0, 1};
   return snapshot;  // no crack radius
 }

@@ -26,22 +26,23 @@ struct Charge {
   /// The deviator S, then those of the Maxwell elements but the first, which is what they leave of S; all by
   /// orthonormal components (math::DeviatorVector).
   enum Field : std::size_t { stress = 0, second_element = 3, crack_radius = 3 * maxwell_elements, fields };
-  static constexpr std::array<StateField, fields> state{{{"deviator_hoop", "Pa"},
-                                                         {"deviator_difference", "Pa"},
-                                                         {"deviator_shear", "Pa"},
-                                                         {"element_2_hoop", "Pa"},
-                                                         {"element_2_difference", "Pa"},
-                                                         {"element_2_shear", "Pa"},
-                                                         {"element_3_hoop", "Pa"},
-                                                         {"element_3_difference", "Pa"},
-                                                         {"element_3_shear", "Pa"},
-                                                         {"element_4_hoop", "Pa"},
-                                                         {"element_4_difference", "Pa"},
-                                                         {"element_4_shear", "Pa"},
-                                                         {"element_5_hoop", "Pa"},
-                                                         {"element_5_difference", "Pa"},
-                                                         {"element_5_shear", "Pa"},
-                                                         {"crack_radius", "m"}}};
+  static constexpr std::array<StateField, fields> state{
+      {{"deviator_hoop", "Pa"},
+       {"deviator_difference", "Pa"},
+       {"deviator_shear", "Pa"},
+       {"element_2_hoop", "Pa"},
+       {"element_2_difference", "Pa"},
+       {"element_2_shear", "Pa"},
+       {"element_3_hoop", "Pa"},
+       {"element_3_difference", "Pa"},
+       {"element_3_shear", "Pa"},
+       {"element_4_hoop", "Pa"},
+       {"element_4_difference", "Pa"},
+       {"element_4_shear", "Pa"},
+       {"element_5_hoop", "Pa"},
+       {"element_5_difference", "Pa"},
+       {"element_5_shear", "Pa"},
+       {"crack_radius", "m", "crack radius", keys::micrometre, true}}};
 
   double initial_density() const { return density; }
   double shear_modulus() const { return strength.shear_modulus(); }

@@ -20,7 +20,7 @@
 // its own.
 #pragma once
 
-#include "launchsafe/keys/key.hpp"
+#include "launchsafe/keys/quantity.hpp"
 #include "launchsafe/math/deviator.hpp"
 
 #include <array>
@@ -31,10 +31,14 @@
 
 namespace launchsafe::materials {
 
-/// One number that a particle of a law carries, by name and SI unit ("1" for none).
+/// One number that a particle of a law carries, by name and SI unit ("1" for none). One with a meaning is
+/// shown: snapshots hold it, and with them case files, XDMF and the tables of `plot --csv`.
 struct StateField {
   std::string_view name;
   std::string_view unit;
+  std::string_view meaning = {};  ///< as people read it; of what is drawn a few words
+  keys::Unit shown = {};          ///< to people; pure numbers have none
+  bool drawn = false;             ///< in a picture of its own
 };
 
 template <class Law, class Real>

@@ -55,4 +55,9 @@ void for_each_law(F&& f) {
   detail::ForEachLaw<Law>::call(f);
 }
 
+/// Whether a particle of the law carries a number of that name.
+inline bool has_field(const Law& law, std::string_view name) {
+  return std::visit([&]<class Each>(const Each&) { return has_field<Each>(name); }, law);
+}
+
 }  // namespace launchsafe::materials

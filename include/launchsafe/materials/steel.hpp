@@ -20,7 +20,7 @@ struct Steel {
                                                     {"deviator_xx", "Pa"},
                                                     {"deviator_rx", "Pa"},
                                                     {"energy", "J/kg"},
-                                                    {"plastic_strain", "1"},
+                                                    {"plastic_strain", "1", "equivalent plastic strain"},
                                                     {"flow_stress", "Pa"}}};
 
   double initial_density() const { return eos.density; }

@@ -7,6 +7,8 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,8 +82,10 @@ struct FaceSnapshot {
 struct Snapshot {
   double time = 0;
   std::vector<scene::Event> events;  ///< that it is of; none where it is of a time alone
-  std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature, crack_radius,
-      plastic_strain;  ///< crack radius and plastic strain are empty where no body's law has them
+  std::vector<double> x, r, velocity_x, velocity_r, density, pressure, von_mises, temperature;
+  /// What laws show of their state (materials::StateField), by name: 0 for bodies whose law has it not, and
+  /// no entry where none has it.
+  std::map<std::string, std::vector<double>, std::less<>> state;
   /// Stress deviator, Pa; tt = -(rr + xx). Stresses, positive in tension, are sigma_ii = deviator_ii -
   /// pressure and sigma_rx = deviator_rx.
   std::vector<double> deviator_rr, deviator_xx, deviator_rx;
