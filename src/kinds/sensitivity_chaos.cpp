@@ -100,18 +100,17 @@ void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
     for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.unexplained);
 }
 
-PredictedShare share_below(const Study& study, const SurrogateFit& fit, double gap) {
-  constexpr std::size_t draws = 16384;
+PredictedIgnitions predicted_ignitions(const Study& study, const SurrogateFit& fit, double gap) {
+  PredictedIgnitions ignitions{.draws = 16384};
   const std::size_t inputs = study.axes.size();
-  const std::vector<double> points = math::unit_points(math::Design::scrambled_sobol, draws, inputs,
+  const std::vector<double> points = math::unit_points(math::Design::scrambled_sobol, ignitions.draws, inputs,
                                                        math::hashed(sensitivity_settings(study).seed, 2));
-  std::size_t below = 0, perhaps = 0;
-  for (std::size_t row = 0; row < draws; ++row) {
+  for (std::size_t row = 0; row < ignitions.draws; ++row) {
     const double predicted = fit.chaos.at(point_of(points, row, inputs));
-    below += predicted <= gap;
-    perhaps += predicted - fit.largest_error <= gap;
+    ignitions.predicted += predicted <= gap;
+    ignitions.at_most += predicted - fit.largest_error <= gap;
   }
-  return {static_cast<double>(below) / draws, static_cast<double>(perhaps) / draws};
+  return ignitions;
 }
 
 }  // namespace launchsafe::kinds

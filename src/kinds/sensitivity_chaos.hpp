@@ -16,11 +16,11 @@ std::vector<double> chaos_points(const study::Study& study);
 /// tenth, or not known from 10 evaluations at least.
 void estimate_by_chaos(const study::Study& study, OutputSensitivity& output);
 
-/// Shares (0 to 1) of launches drawn from the inputs whose critical gap a fit predicts below a gap (m): as
-/// predicted, and with predictions lowered by the largest error that was found.
-struct PredictedShare {
-  double predicted = study::not_a_number, at_most = study::not_a_number;
+/// Of launches drawn from the inputs, those whose critical gap a fit predicts to be no larger than a gap (m):
+/// as predicted, and with predictions lowered by the largest error that was found.
+struct PredictedIgnitions {
+  std::size_t draws = 0, predicted = 0, at_most = 0;
 };
-PredictedShare share_below(const study::Study& study, const SurrogateFit& fit, double gap);
+PredictedIgnitions predicted_ignitions(const study::Study& study, const SurrogateFit& fit, double gap);
 
 }  // namespace launchsafe::kinds

@@ -176,11 +176,12 @@ namespace {
 std::string predicted_text(const SensitivityResult& result, const OutputSensitivity& output) {
   if (!output.fit || !output.reason.empty()) return {};
   const Study& study = result.study.study;
-  const PredictedShare share = share_below(study, *output.fit, study.gaps.front());
+  const PredictedIgnitions of = predicted_ignitions(study, *output.fit, study.gaps.front());
   return fmt::format(
-      " Predicted by the fit of the critical gap, and not computed: {} of all launches ignite there, {} with "
-      "its largest error.",
-      in_percent(share.predicted), in_percent(share.at_most));
+      " The fit of the critical gap predicts, and nothing computes: of {} launches {} ignite there, {} with "
+      "its "
+      "largest error.",
+      of.draws, of.predicted, of.at_most);
 }
 
 }  // namespace
