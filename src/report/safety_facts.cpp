@@ -315,7 +315,7 @@ void add_limits(const StudyEvidence& main, const std::vector<CaseEvidence>& case
 }
 
 /// A study's own drawing of that name.
-Row drawing_of(const StudyEvidence* study, const std::string& file, SafetyFacts& all) {
+Row drawing_of(const StudyEvidence* study, const std::string& file, PageFacts& all) {
   if (study == nullptr || !study->drawings.contains(file)) return {};
   all.drawings[file] = study->drawings.at(file);
   return {{"file", file}};
@@ -323,7 +323,7 @@ Row drawing_of(const StudyEvidence* study, const std::string& file, SafetyFacts&
 
 /// The maps or curves that a sweep drew, lower bounds first: one for every place on the axes behind the first
 /// two, in the order of the cases.
-Row maps_of(const StudyEvidence& sweep, SafetyFacts& all) {
+Row maps_of(const StudyEvidence& sweep, PageFacts& all) {
   std::vector<std::pair<std::string, std::vector<CaseEvidence>>> places;
   for (CaseEvidence& each : cases_of(sweep)) {
     auto place = std::ranges::find(places, each.others, [](const auto& one) { return one.first; });
@@ -348,7 +348,7 @@ Row maps_of(const StudyEvidence& sweep, SafetyFacts& all) {
 }
 
 /// The case that the report is about in detail.
-void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, SafetyFacts& all) {
+void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts& all) {
   const StudyEvidence& main = evidence.main();
   Row& facts = all.facts["own"];
   facts = told_case(main, own);
@@ -369,12 +369,12 @@ void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, SafetyFact
 
 }  // namespace
 
-SafetyFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
+PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
   const StudyEvidence& main = evidence.main();
   const bool of_launch = main.tells == Tells::launch, of_sweep = main.tells == Tells::sweep;
   const std::vector<CaseEvidence> cases =
       of_launch || of_sweep ? cases_of(main) : std::vector<CaseEvidence>{};
-  SafetyFacts all;
+  PageFacts all;
   Row& facts = all.facts;
   facts["main"] = tables_of(main, main);
   for (const StudyEvidence& study : evidence.studies) facts["studies"].push_back(about(study, main));
@@ -440,3 +440,26 @@ SafetyFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCrit
 }
 
 }  // namespace launchsafe::report::safety
+
+namespace launchsafe::report {
+
+PageTemplates built_in_templates() {
+  PageTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};
+  const auto built_in = texts_in(safety::built_in_texts, "texts");
+  for (const PageText& each : *built_in) templates.texts[each.id] = each.words;
+  return templates;
+}
+
+store::Result<RenderedPage> make_safety_report(const SafetyEvidence& evidence,
+                                               const std::optional<GapCriterion>& criterion,
+                                               const PageTemplates& templates, const DrawingLimits& limits) {
+  const PageFacts facts = safety::facts_of(evidence, criterion);
+  return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
+                     {{"format", "launchsafe safety report 2"},
+                      {"title", evidence.main().title},
+                      {"subject", evidence.main().scene.scene.title},
+                      {"answer", facts.facts["answer"]}},
+                     limits);
+}
+
+}  // namespace launchsafe::report
