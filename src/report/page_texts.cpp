@@ -68,8 +68,9 @@ std::string digits_of(double value, const std::string& form, int digits) {
 }
 
 /// Facts by name, those that were pushed last first; behind a bar in a form: "margin_K|down 1", where the
-/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger; of a text
-/// "words" has blanks between them and "first 12" is its beginning; of a list "list 4" are its first texts,
+/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger, "is 1"
+/// where a number or a word is that one, and "counted case" is "2 cases"; of a text "words" has blanks
+/// between them and "first 12" is its beginning; of a list "list 4" are its first texts, "and" all of them,
 /// "some" is there where it has any, and "count verdict SAFE" is how many rows have that there.
 class Facts : public mustache::basic_context<std::string> {
  public:
@@ -106,18 +107,27 @@ class Facts : public mustache::basic_context<std::string> {
     if (form == "count") {
       made = std::ranges::count_if(fact,
                                    [&](const Row& row) { return fact_text(found_in(row, digits)) == value; });
-    } else if (form == "list") {
+    } else if (form == "list" || form == "and") {
       std::vector<std::string> texts;
       for (const Row& each : fact) texts.push_back(fact_text(each));
       if (number > 0 && texts.size() > static_cast<std::size_t>(number)) {
         texts.resize(static_cast<std::size_t>(number));
         texts.push_back(fmt::format("and {} more", fact.size() - texts.size()));
       }
+      if (form == "and" && texts.size() > 1) {
+        const std::string last = texts.back();
+        texts.pop_back();
+        texts.back() += " and " + last;
+      }
       made = fmt::format("{}", fmt::join(texts, ", "));
     } else if (form == "words") {
       std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
     } else if (form == "first") {
       made = made.get<std::string>().substr(0, static_cast<std::size_t>(number));
+    } else if (form == "counted") {
+      made = counted(fact.get<std::int64_t>(), digits + (value.empty() ? "" : " " + value));
+    } else if (form == "is") {
+      made = fact_text(fact) == digits;
     } else if (form == "some") {
       made = !fact.empty();
     } else if (form == "over") {
@@ -251,6 +261,16 @@ std::vector<const Row*> selected(const PageText& text, const Row& facts) {
     }
   }
   return rows;
+}
+
+std::vector<std::string> said(const std::vector<PageText>& texts, const std::string& name, const Row& facts) {
+  std::vector<std::string> all;
+  for (const PageText& text : texts) {
+    if (text.id != name && !text.id.starts_with(name + ".")) continue;
+    for (const Row* each : selected(text, facts)) all.push_back(filled(text.words, {&facts, each}));
+  }
+  std::erase(all, "");
+  return all;
 }
 
 store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates templates) {

@@ -55,6 +55,10 @@ store::Result<std::string> filled(const std::string& text, std::vector<const Row
 /// Of a text that was read: nothing is escaped.
 std::string filled(const std::string& text, std::vector<const Row*> facts);
 
+/// What the texts under a name say, "answer" those of "answer.value" too: in their order, each once for
+/// everything that it is said of; empty ones are left out.
+std::vector<std::string> said(const std::vector<PageText>& texts, const std::string& name, const Row& facts);
+
 /// Mustache templates of the pages, and the texts by their names, each a template too.
 struct PageTemplates {
   std::string html, markdown;
