@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "notes.hpp"
 
 #include <fmt/format.h>
 
@@ -68,26 +69,6 @@ std::string kilojoules_per_area(double energy) { return in_words(energy, quantit
 std::string place_of_gap(const AuditedGap& gap) {
   const std::string place = "a gap of " + centimetres(gap.gap);
   return gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label);
-}
-
-/// Where the skin took most against what can be supplied; nullptr where nothing was computed or no gap is
-/// open.
-const AuditedGap* worst_of(const std::vector<AuditedGap>& gaps) {
-  const AuditedGap* worst = nullptr;
-  for (const AuditedGap& gap : gaps) {
-    if (!std::isfinite(gap.air.ratio())) continue;
-    if (worst == nullptr || gap.air.ratio() > worst->air.ratio()) worst = &gap;
-  }
-  return worst;
-}
-
-std::string excess_text(const AuditedGap& worst) {
-  return fmt::format(
-      "At {} the skin took {} times what compression can supply ({} against {}), so that energy is not "
-      "conserved. That is conservative as to the heat of the air. The critical gap is therefore calibrated, "
-      "and not derived from what the air can give.",
-      place_of_gap(worst), significant(worst.air.ratio(), 2), kilojoules_per_area(worst.air.taken),
-      kilojoules_per_area(worst.air.supplied));
 }
 
 Quantities<NamedRun> run_quantities() {
@@ -263,21 +244,19 @@ Table combustion_history_table(const run::CombustionHistory& c, double gap, std:
 }
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
-  const std::string impact = " A gap that closes by impact is not modelled.";
-  if (model == scene::AirModel::film)
-    return "The air is a film that conducts into charge and base, and gives no more than compression "
-           "supplies. What the skin took is told as of a skin of one temperature, and says nothing of a "
-           "film." +
-           impact;
-  const std::string reservoir =
-      "The air is the published reservoir, which stays on its adiabat whatever the skin draws from it. ";
-  const AuditedGap* worst = worst_of(gaps);
-  if (worst == nullptr)
-    return reservoir + "No gap with air in it was computed, to see how much the skin took." + impact;
-  if (worst->air.ratio() > 1.0) return reservoir + excess_text(*worst) + impact;
-  return fmt::format(
-      "{}At no gap did the skin take more than compression can supply; the most was {} times that, at {}.{}",
-      reservoir, significant(worst->air.ratio(), 2), place_of_gap(*worst), impact);
+  Row facts{{"film", model == scene::AirModel::film}};
+  // Where the skin took most against what can be supplied.
+  double most = -HUGE_VAL;
+  for (const AuditedGap& gap : gaps) {
+    const double ratio = gap.air.ratio();
+    if (!std::isfinite(ratio) || ratio <= most) continue;
+    most = ratio;
+    facts["worst"] = {{"place", place_of_gap(gap)},
+                      {"ratio", ratio},
+                      {"taken", kilojoules_per_area(gap.air.taken)},
+                      {"supplied", kilojoules_per_area(gap.air.supplied)}};
+  }
+  return noted("air", facts).front();
 }
 
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
@@ -285,10 +264,7 @@ Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gap
   const bool labelled =
       std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
   Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
-  table.notes.push_back(
-      "Per area of the charge's bottom, until the end or ignition. Taken: the heat that the exchange brought "
-      "to the hottest station, net and at its most. Supplied: the upper bound for air that is compressed "
-      "before it gives up heat and cools down under pressure, the rise of its enthalpy on the adiabat.");
+  table.notes = noted("air_energy");
   table.notes.push_back(air_energy_statement(model, gaps));
   return table;
 }
