@@ -246,10 +246,7 @@ Table quantile_table(const SensitivityResult& result) {
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
-  table.notes.emplace_back(
-      "Draws are the evaluations A and B of the design; the others are made for differences. A critical gap "
-      "that is no number has its rank and no value. The interval of the probability is that of Clopper and "
-      "Pearson, for independent draws; those of a design that is laid out evenly scatter less.");
+  table.notes.push_back(said("sensitivity.draws").front());
   return table;
 }
 

@@ -211,10 +211,7 @@ Table interface_table(const run::MechanicsResult& mechanics) {
       rows.push_back({&faces, static_cast<std::size_t>(hottest - faces.friction_heat.begin())});
   }
   Table table = table_of("Faces that slide on the charge", face_quantities(), rows);
-  if (!table.rows.empty())
-    table.notes.push_back(
-        "Heat of friction is per area of the face, over the whole launch, and heats no skin: that at the "
-        "charge's bottom counts as uncertainty of T max instead.");
+  table.notes = noted("faces");
   return table;
 }
 
@@ -224,14 +221,7 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
     if (gap.combustion) burnt.push_back(&gap);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities(), burnt);
   if (table.rows.empty()) return table;
-  table.notes = {
-      "At the end of the run; p max is the largest over it. Released and kept back: of the heat of reaction "
-      "of what had burnt. Brought: heat above the initial temperature that it had before, from air, friction "
-      "and slow reaction.",
-      flame_kinetics_note(scene),
-      "The flame lives on conduction alone. Friction heats by the closure and the localisation of the "
-      "launch, which are not calibrated for the motion that the gas causes: how fast burning spreads over "
-      "the bottom is a result of the model, and no prediction."};
+  table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
 }
 

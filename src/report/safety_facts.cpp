@@ -197,17 +197,25 @@ Row told_verdict(const CaseEvidence& judged, std::size_t place) {
   return row;
 }
 
+/// The case with the smallest critical gap; nullptr where none is a value.
+const CaseEvidence* smallest_of(const std::vector<CaseEvidence>& cases) {
+  const CaseEvidence* smallest = nullptr;
+  for (const CaseEvidence& each : cases)
+    if (is_value(*each.critical) &&
+        (smallest == nullptr ||
+         number_of(*each.critical, "critical_gap_cm") < number_of(*smallest->critical, "critical_gap_cm")))
+      smallest = &each;
+  return smallest;
+}
+
 /// What is smallest, and in how many cases there is none.
 Row summary_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
   std::size_t none_safe = 0, unknown = 0;
-  const CaseEvidence* smallest = nullptr;
+  const CaseEvidence* smallest = smallest_of(cases);
   for (const CaseEvidence& each : cases) {
     const std::string kind = text_of(*each.critical, "critical_gap_kind");
     none_safe += kind == "all-ignite";
     unknown += kind != "all-ignite" && kind != "all-safe" && kind != "value";
-    if (kind == "value" && (smallest == nullptr || number_of(*each.critical, "critical_gap_cm") <
-                                                       number_of(*smallest->critical, "critical_gap_cm")))
-      smallest = &each;
   }
   return {{"cases", cases.size()},
           {"sweeps", study.tells == Tells::sweep},
@@ -222,14 +230,13 @@ bool is_own(const StudyEvidence& study, const CaseEvidence& judged) {
   });
 }
 
-/// The case of the scene's own launch, or else the one with the smallest critical gap; nullptr without any.
+/// The case of the scene's own launch, or else the one with the smallest critical gap, or the first; nullptr
+/// without any.
 const CaseEvidence* own_case(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
   const auto own = std::ranges::find_if(cases, [&](const CaseEvidence& each) { return is_own(study, each); });
   if (own != cases.end()) return &*own;
-  const auto smallest = std::ranges::min_element(cases, {}, [](const CaseEvidence& each) {
-    return is_value(*each.critical) ? number_of(*each.critical, "critical_gap_cm") : HUGE_VAL;
-  });
-  return smallest == cases.end() ? nullptr : &*smallest;
+  const CaseEvidence* smallest = smallest_of(cases);
+  return smallest != nullptr || cases.empty() ? smallest : &cases.front();
 }
 
 Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
