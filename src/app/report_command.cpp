@@ -24,9 +24,9 @@ std::optional<std::string> obstacle_to(const NamedTexts& files, const std::files
   return prepare_output_folder(folder);
 }
 
-store::Result<report::SafetyTemplates> templates_of(const ReportArguments& arguments) {
+store::Result<report::PageTemplates> templates_of(const ReportArguments& arguments) {
   if (!arguments.templates) return report::built_in_templates();
-  return report::read_templates(*arguments.templates);
+  return report::read_templates(*arguments.templates, report::built_in_templates());
 }
 
 /// Takes away figures of an earlier report in the folder that the new one does not have, if they are as they

@@ -1,4 +1,5 @@
 // The answer, the picture, the page and the files of an accuracy study.
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -19,50 +20,55 @@ using namespace report;
 namespace {
 
 std::string kelvins(double value) { return in_words(value, keys::significant(2, kelvin)); }
-std::string in_cm(double length, int digits) {
-  return in_words(length, keys::significant(digits, centimetre));
-}
-std::string seconds(double time, int digits = 3) { return in_words(time, keys::significant(digits, second)); }
 
-const char* limit_text(bool unjustified) {
-  return unjustified ? "that of the finest mesh (no extrapolation is justified)" : "the limit";
+/// A setting with its bound and its cost.
+Row facts_of(const RecordedSetting& setting) {
+  return {
+      {"label", setting.label}, {"bound_K", setting.temperature_bound}, {"time_s", setting.processor_time}};
 }
 
-/// Where no error is known: what the reference meshes share and no setting varies.
-std::string unvaried_text(const VariantAccuracy& variant) {
+/// How wrong T max and the critical gap of the scene as it is may be, and what would halve that.
+Row facts_of(const VariantAccuracy& variant, const AccuracyRow& own) {
   const study::AccuracyRecord& record = variant.record;
-  std::string keys;
+  Row facts = facts_of(own.setting);
+  // Where no error is known: what the reference meshes share and no setting varies.
   for (const std::string& key : record.unvaried)
-    keys += fmt::format("{}{} = {}", keys.empty() ? "" : ", ", key,
-                        scene::format_value(*scene::find_key(scene::scene_keys(), key),
-                                            record.settings.front().setting.at(key)));
-  return fmt::format(
-      "How wrong T max is, is not known: all reference meshes have {}, and no setting tells what the exact "
-      "value changes. Run the meshes with the exact value, or add [[settings]] that differ from another "
-      "setting in this key alone, at its exact value.",
-      keys);
-}
-
-/// How wrong the critical gap of the scene as it is may be.
-std::string wrongness(const VariantAccuracy& variant, const AccuracyRow& own) {
-  if (!variant.record.unvaried.empty()) return unvaried_text(variant);
-  std::string text = fmt::format(
-      "With the setting of the scene, T max is off by at most about {} over the compared gaps; its "
-      "distance from {} is {}.",
-      kelvins(own.setting.temperature_bound), limit_text(variant.any_indeterminate()),
-      kelvins(own.largest_temperature_error));
-  if (std::isfinite(own.setting.critical_gap_bound)) {
-    text += fmt::format(" Its critical gap, {}, is off by at most about {}; {} is {} ({} {}).",
-                        in_cm(own.setting.critical_gap, 4), in_cm(own.setting.critical_gap_bound, 2),
-                        limit_text(!variant.reference->critical_gap.limit.justified),
-                        in_cm(variant.reference->critical_gap.limit.value, 4),
-                        own.critical_gap_error > 0 ? "smaller by" : "larger by",
-                        in_cm(std::abs(own.critical_gap_error), 2));
+    facts["unvaried"].push_back(fmt::format("{} = {}", key,
+                                            scene::format_value(*scene::find_key(scene::scene_keys(), key),
+                                                                record.settings.front().setting.at(key))));
+  const ReferenceValue& gap = variant.reference->critical_gap;
+  facts.update({{"limit", !variant.any_indeterminate()},
+                {"distance_K", own.largest_temperature_error},
+                {"reference_K", variant.reference_uncertainty()},
+                {"gap_cm", shown_gap(own.setting.critical_gap)},
+                {"gap_bound_cm", number(shown_gap(own.setting.critical_gap_bound))},
+                {"gap_limit", gap.limit.justified},
+                {"gap_reference_cm", shown_gap(gap.limit.value)},
+                {"gap_larger", own.critical_gap_error > 0},
+                {"gap_distance_cm", shown_gap(std::abs(own.critical_gap_error))}});
+  if (const auto* half = cheapest_within(record, 0.5 * own.setting.temperature_bound)) {
+    facts["half"] = facts_of(*half);
+    facts["half"]["times"] = half->processor_time / own.setting.processor_time;
   }
-  return text;
+  return facts;
 }
 
-std::string belief(const VariantAccuracy& variant) {
+/// The cheapest setting for every tolerance of T max.
+Row cheapest_settings(const study::AccuracyRecord& record) {
+  Row all = Row::array();
+  const RecordedSetting* last = nullptr;
+  for (const double tolerance : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
+    const RecordedSetting* setting = cheapest_within(record, tolerance);
+    if (setting == nullptr || setting == last) continue;
+    last = setting;
+    all.push_back(facts_of(*setting));
+    all.back()["tolerance_K"] = tolerance;
+  }
+  return all;
+}
+
+/// Why believe that.
+Row belief_facts(const VariantAccuracy& variant) {
   double inexactness = 0, drift = 0;
   std::size_t justified = 0, sound = 0;
   const std::vector<ReferenceValue>& limits = variant.reference->temperature;
@@ -75,51 +81,13 @@ std::string belief(const VariantAccuracy& variant) {
     ++sound;
     drift = std::max(drift, row.answer.run.energy_drift);
   }
-  std::string text = fmt::format(
-      "The reference is what {} grids tend to, all of which run along the charge. For T max that limit is "
-      "justified at {} of {} gaps; elsewhere the finest grid stands for it, with a wider uncertainty "
-      "(`reference.csv`). An uncertainty is a grid convergence index: of made series it holds the limit of "
-      "smooth ones always, of those with 2 % noise in their errors in nine of ten or more. {} of {} settings "
-      "ran soundly, with an energy drift of at most {}.",
-      accuracy_settings(variant.study.study).reference_cell_sizes.size(), justified, limits.size(), sound,
-      variant.rows.size(), in_words(drift, keys::significant(2, percent)));
-  if (inexactness > 0)
-    text += fmt::format(
-        " The grids share numerics that are not exact; by what settings tell of that, it adds up to {} to "
-        "every bound of T max.",
-        kelvins(inexactness));
-  return text + "\n";
-}
-
-std::string halving(const VariantAccuracy& variant, const AccuracyRow& own) {
-  if (!variant.record.unvaried.empty()) return "No error is known that could be halved.";
-  const double half = 0.5 * own.setting.temperature_bound;
-  if (const RecordedSetting* setting = cheapest_within(variant.record, half)) {
-    return fmt::format(
-        "The cheapest setting here with half the bound is {}: {} for {} of processor time a run, {} "
-        "times the {} of the scene's setting.",
-        setting->label, kelvins(setting->temperature_bound), seconds(setting->processor_time),
-        significant(setting->processor_time / own.setting.processor_time, 2),
-        seconds(own.setting.processor_time));
-  }
-  return fmt::format(
-      "No setting here halves the bound: {} of it are the uncertainty of the reference itself, which "
-      "finer reference meshes would reduce; cells half as large cost 8 times the processor time in a "
-      "run of two dimensions.",
-      kelvins(variant.reference_uncertainty()));
-}
-
-std::string cheapest_text(const VariantAccuracy& variant) {
-  std::string text;
-  const RecordedSetting* last = nullptr;
-  for (const double tolerance : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
-    const RecordedSetting* setting = cheapest_within(variant.record, tolerance);
-    if (setting == nullptr || setting == last) continue;
-    last = setting;
-    text += fmt::format("- T max within {:g} K: {} ({}, {})\n", tolerance, setting->label,
-                        kelvins(setting->temperature_bound), seconds(setting->processor_time));
-  }
-  return text;
+  return {{"grids", accuracy_settings(variant.study.study).reference_cell_sizes.size()},
+          {"justified", justified},
+          {"gaps", limits.size()},
+          {"sound", sound},
+          {"settings", variant.rows.size()},
+          {"drift_percent", shown_value(drift, keys::significant(2, percent))},
+          {"inexactness_K", inexactness}};
 }
 
 constexpr int grey = 7;
@@ -202,12 +170,15 @@ Plot error_plot(const VariantAccuracy& variant) {
 std::string answer(const AccuracyResult& result) {
   const VariantAccuracy& first = result.variants.front();
   const std::string of = first.name.empty() ? "" : fmt::format("Variant {}: ", first.name);
-  if (!first.reference) return of + "There is no reference: " + first.no_reference + ".";
   const AccuracyRow* own = first.baseline();
-  const std::string text = own != nullptr ? wrongness(first, *own) + "\n" + halving(first, *own)
-                                          : "The scene's own setting did not run soundly.";
-  const std::string settings = cheapest_text(first);
-  return of + text + (settings.empty() ? "" : "\nCheapest settings:\n" + settings);
+  Row facts{{"no_reference", first.reference ? "" : first.no_reference},
+            {"unsound", first.reference && own == nullptr},
+            {"cheapest", Row::array()}};
+  if (first.reference) facts["cheapest"] = cheapest_settings(first.record);
+  if (first.reference && own != nullptr) facts["own"] = facts_of(first, *own);
+  const std::string settings = said_below("accuracy.cheapest", facts);
+  return fmt::format("{}{}{}", of, fmt::join(said("accuracy.answer", facts), "\n"),
+                     settings.empty() ? "" : "\nCheapest settings:\n" + settings);
 }
 
 Report report_of(const AccuracyResult& result) {
@@ -228,11 +199,10 @@ Report report_of(const AccuracyResult& result) {
   report.items.push_back(ReportTable{setting_table(result), "accuracy.csv", "settings", settings});
   report.items.push_back(ReportTable{reference_table(result), "reference.csv", "reference", Shown::file});
   report.items.push_back(ReportTable{point_table(result), "points.csv", "points", Shown::file});
-  report.items.push_back(Statement{
-      "In files: cost and errors of every setting, over the launch too (`accuracy.csv`), what the grids "
-      "tend to (`reference.csv`), and T max of the stations (`points.csv`).\n"});
+  report.items.push_back(Statement{said_below("accuracy.files")});
   if (first.baseline() != nullptr)
-    report.items.push_back(Statement{"## Why believe that?\n\n" + belief(first)});
+    report.items.push_back(
+        Statement{"## Why believe that?\n\n" + said_below("accuracy.belief", belief_facts(first))});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(first.study)});
   report.items.push_back(Statement{timing_sentence(result.timing)});
   report.json = study_json(result.study, report, {{"timing", timing_json(result.timing)}});

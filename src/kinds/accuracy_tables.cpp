@@ -1,4 +1,5 @@
 // The tables of an accuracy study.
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -315,11 +316,7 @@ Table setting_table(const AccuracyResult& result) {
   const ComparedAt at{all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
                       all_of_variants(result, times_of)};
   Table table = table_of("Error against run time", with_variants(result, setting_quantities(at)), rows);
-  table.notes.push_back(
-      "Errors are this minus the extrapolated value (where none is justified, the finest mesh); p(t) is the "
-      "relative L2 difference of the bottom pressure from the finest mesh. Bounds: the "
-      "distance from the finest mesh and its uncertainty, the largest over the gaps. Front: no setting is "
-      "both cheaper and of a smaller bound.");
+  table.notes = said("accuracy.note.settings");
   return table;
 }
 
@@ -327,10 +324,7 @@ Table variant_table(const AccuracyResult& result) {
   std::vector<VariantRow> rows;
   for (const VariantAccuracy& variant : result.variants) rows.push_back(row_of(variant));
   Table table = table_of("How wrong each variant is with its own setting", variant_quantities(), rows);
-  table.notes.push_back(
-      "A bound is the distance from the finest grid and the uncertainty of the reference, the largest over "
-      "the gaps; a distance is that from the limit of the grids, or from the finest where no limit is "
-      "justified, and of settings with a validity warning too.");
+  table.notes = said("accuracy.note.variants");
   return table;
 }
 

@@ -1,6 +1,7 @@
 #include "calibration_load_report.hpp"
 
 #include "calibration_numbers.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -16,16 +17,6 @@ using namespace report;
 namespace {
 
 bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
-
-}  // namespace
-
-std::string load_sentence(const FittedLoad& load) {
-  return fmt::format(" The load has its peak at {}, a width of {} and a steepness of {}.",
-                     milliseconds(load.peak_time), milliseconds(load.width),
-                     in_words(load.steepness, keys::significant(6)));
-}
-
-namespace {
 
 /// One of the fitted keys.
 struct FittedRow {
@@ -57,48 +48,25 @@ Table fitted_table(const CalibrationResult& result) {
   std::vector<FittedRow> rows;
   for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
   Table table = table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
-  table.notes.push_back(
-      "Correlations of their logarithms. The weights of the fit count as standard deviations of what is "
-      "published, and larger ones where more than them is left.");
+  table.notes = said("calibration.note.fitted");
   return table;
 }
 
 std::string fit_text(const CalibrationResult& result) {
   if (!has_load(result)) return {};
-  const FittedLoad& load = *result.load;
-  std::string text = fmt::format(
-      "The five are fitted to {} published numbers by least squares, with weights of {} and {}. What is "
-      "left has a sum of squares of {:.2f}; the condition of the fit, in their logarithms, is {:.0f}. It "
-      "took {} "
-      "mechanical runs.",
-      load.numbers, in_words(temperature_weight, keys::significant(6, kelvin)), milliseconds(instant_weight),
-      load.sum_of_squares, load.condition, load.runs);
-  const std::string& frozen = settings_of<CalibrationSettings>(result.study.study).frozen_at;
-  if (!frozen.empty()) text += fmt::format(" Rule and weights were frozen before the fit, at {}.", frozen);
-  if (std::isfinite(load.base_gain)) {
-    text += fmt::format(
-        " As a sixth unknown the pressure at the start, `load.base`, would change by {} and take "
-        "{:.2g} "
-        "from the sum of squares.",
-        in_words(load.base_change, keys::significant(2, megapascal)), load.base_gain);
-  }
-  return text + "\n";
+  Row facts = load_json(result);
+  facts.update({{"temperature_weight_K", temperature_weight},
+                {"instant_weight_ms", shown_value(instant_weight, keys::significant(6, millisecond))}});
+  return said_below("calibration.fit", facts);
 }
 
 std::string misfits_text(const CalibrationResult& result) {
   if (result.recommended() == nullptr) return {};
   const MisfitBound misfits = misfit_bound(*result.recommended());
-  if (misfits.count == 0) return {};
-  return fmt::format(
-      "The {} temperatures that nothing was fitted to are missed by {} (RMS). The largest of so few is "
-      "no "
-      "bound: with Student's factor for {}, {:.3f}, 95 % of such misfits are below {}. That, or half "
-      "the "
-      "distance of the two temperatures between which T1 lies if it is larger, is the fit uncertainty that "
-      "the "
-      "record gives to other studies.\n",
-      misfits.count, in_words(misfits.root_mean_square, keys::significant(3, kelvin)), misfits.count,
-      misfits.factor, in_words(misfits.bound(), keys::significant(3, kelvin)));
+  return said_below("calibration.misfits", {{"count", misfits.count},
+                                            {"root_mean_square_K", misfits.root_mean_square},
+                                            {"factor", misfits.factor},
+                                            {"bound_K", misfits.bound()}});
 }
 
 nlohmann::ordered_json load_json(const CalibrationResult& result) {

@@ -8,9 +8,6 @@
 
 namespace launchsafe::kinds {
 
-/// Peak time, width and steepness; of a load without a failure. Begins with a blank.
-std::string load_sentence(const FittedLoad& load);
-
 /// What the calibrated rows determine: the five, their standard deviations and correlations. No rows where no
 /// load was fitted.
 report::Table fitted_table(const CalibrationResult& result);

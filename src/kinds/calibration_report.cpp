@@ -1,5 +1,6 @@
 // Tables, page and files of a calibration.
 #include "calibration_load_report.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -80,10 +81,7 @@ Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
 Table calibration_table(const CalibrationResult& result) {
   Table table = table_of("Calibrated constants, and how far they miss what nothing was fitted to",
                          calibration_quantities(result.study.study), result.rows);
-  table.notes.push_back(
-      "RMS: over the temperatures that nothing was fitted to, computed minus published. T1 is the middle "
-      "between the "
-      "untriggered T max of the largest published gap that is safe and of the smallest that ignites.");
+  table.notes = said("calibration.note.calibrations");
   return table;
 }
 
@@ -132,19 +130,13 @@ Table compared_table(const CalibrationResult& result, const CalibrationRow& row)
                                      in_words(row.cell_size, quantity::cell_size().form),
                                      study::to_string(row.closure), row.kinetics),
                          compared_quantities(), row.compared);
-  for (const Placement& each : row.placements) {
-    table.notes.push_back(fmt::format("Place of {} at {}: computed {}, published {}.", each.quantity,
-                                      centimetres(each.gap), each.computed, each.published));
-  }
-  table.notes.push_back(
-      "Fitted: its difference is what the fit leaves. Chosen by: seen when a form of the model was picked, "
-      "so no "
-      "prediction; held out: neither. Line: straight over the gap through what is published of the two "
-      "fitted rows, the rival of the model; gaps near those rows prove little. A fast rise is where the "
-      "highest "
-      "temperature grows, over half a millisecond and without a trigger, at more than 15 % of its largest "
-      "rate.");
-  if (result.study.study.references.empty()) table.notes.push_back("The study has no published rows.");
+  Row facts{{"places", Row::array()}, {"without_rows", result.study.study.references.empty()}};
+  for (const Placement& each : row.placements)
+    facts["places"].push_back({{"quantity", each.quantity},
+                               {"gap", centimetres(each.gap)},
+                               {"computed", each.computed},
+                               {"published", each.published}});
+  table.notes = said("calibration.note.compared", facts);
   return table;
 }
 
@@ -160,10 +152,7 @@ Table selection_table(const CalibrationResult& result) {
   const CalibrationRow* row = result.recommended();
   if (!row) return {};
   Table table = table_of("Differences that choose among models", selection_quantities(), row->selection);
-  table.notes.push_back(
-      fmt::format("Their root mean square is {}. A spread is the root mean square over the gaps; a hottest "
-                  "place is the temperature of the published place minus the highest.",
-                  in_words(row->selection_root_mean_square, significant(4, kelvin))));
+  table.notes = said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}});
   return table;
 }
 
@@ -183,17 +172,6 @@ Quantities<Placement> placement_quantities() {
           {quantity::gap(), &Placement::gap},
           {{"computed", "computed", text(), "Station where it was computed."}, &Placement::computed},
           {{"published", "published", text(), "Where it was published to be."}, &Placement::published}};
-}
-
-/// How far the stations move from mesh to mesh. Empty where that was not seen.
-std::string stations_text(const CalibrationResult& result) {
-  if (!std::isfinite(result.stations.finer)) return {};
-  return fmt::format(
-      "With these constants no station without a gap changes by more than {} on the next finer mesh, "
-      "and by more than {} from the next coarser one: the stations {} by the rule of "
-      "`studies/model_form/README.md`.\n",
-      in_words(result.stations.finer, fixed(2, kelvin)), in_words(result.stations.coarser, fixed(2, kelvin)),
-      result.stations.converges() ? "converge" : "do not converge");
 }
 
 Json recommendation_json(const CalibrationResult& result) {
@@ -271,30 +249,24 @@ Table constants_table(const CalibrationResult& result) {
   }
   add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, kelvin);
   Table table = table_of("Constants the scene should hold", scene_quantities(), rows);
-  table.notes.push_back(fmt::format("They belong to cells of {} and the scene's other settings.",
-                                    in_words(row.cell_size, quantity::cell_size().form)));
+  table.notes = said("calibration.note.constants", json_of(calibration_setting_quantities(), row));
   return table;
 }
 
 std::string answer(const CalibrationResult& result) {
-  std::string text = result.recommendation.reason;
+  Row facts{{"reason", result.recommendation.reason}, {"load", load_json(result)}};
   if (const CalibrationRow* row = result.recommended()) {
-    const Constants& fitted = row->calibrated.constants;
-    if (result.load) text += load_sentence(*result.load);
-    text += fmt::format(
-        " The scene should hold \"{}\": at {}, localisation {}, exchange time {}, ignition temperature {}.",
-        study::to_string(row->closure), in_words(row->cell_size, quantity::cell_size().form),
-        in_words(fitted.localisation, quantity::localisation().form), milliseconds(fitted.exchange_time),
-        in_words(fitted.ignition_temperature, significant(6, kelvin)));
+    facts["row"] = json_of(calibration_setting_quantities(), *row);
+    facts["row"].update(json_of(constant_quantities(), row->calibrated.constants));
   }
-  return text.empty() ? "No calibration: no run was made." : text;
+  return said("calibration.answer", facts).front();
 }
 
 Report report_of(const CalibrationResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
-  report.items.push_back(Statement{stations_text(result)});
+  report.items.push_back(Statement{said_below("calibration.stations", stations_json(result.stations))});
   report.items.push_back(ReportTable{constants_table(result), "", "constants"});
   report.items.push_back(ReportTable{fitted_table(result), "", "fitted"});
   report.items.push_back(Statement{fit_text(result)});

@@ -1,5 +1,6 @@
 #include "comparison_model_form.hpp"
 
+#include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -150,9 +151,7 @@ Table model_constants_table(const ModelForm& form) {
     if (each.calibration->failure.empty()) rows.push_back(&each);
   Table table =
       table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(), rows);
-  table.notes.push_back(
-      "Changes: of any station's temperature at the end of the launch without a gap, with the constants "
-      "held.");
+  table.notes = said("comparison.note.constants");
   return table;
 }
 
@@ -197,13 +196,6 @@ bool is_of_models(const ComparisonResult& result) {
                      [](const Variant& each) { return each.calibration.has_value(); });
 }
 
-constexpr const char* meaning =
-    "## Other models\n\nWhere every model is calibrated on the same published rows, all agree at the "
-    "calibration's own pressure; what differs is how the critical gap moves. A model that ignites at smaller "
-    "gaps than the default is a share of the uncertainty of every SAFE. One that ignites at larger gaps "
-    "alone weakens no SAFE, and an UNSAFE names it where it would not ignite. One without a calibration or "
-    "without a limit of meshes enters no share, and is named beside every verdict that it could change.\n";
-
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
 /// none, a clause. The comparison has to live as long as what is made of it.
 std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::string& reason) {
@@ -236,7 +228,7 @@ void add_model_form(const ComparisonResult& result, Report& report) {
     return;
   }
   report.files.push_back({"model_form.json", to_json_text(form->record)});
-  report.items.push_back(Statement{meaning});
+  report.items.push_back(Statement{"## Other models\n\n" + said_below("comparison.models")});
   report.items.push_back(ReportTable{model_form_table(*form), "model_form.csv", "models"});
   report.items.push_back(Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
   report.items.push_back(ReportTable{model_constants_table(*form), "", "constants", Shown::page});

@@ -1,6 +1,7 @@
 // The answer, the tables and the page of a comparison.
 #include "answer_tables.hpp"
 #include "comparison_model_form.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -47,43 +48,10 @@ double hottest(const ComparedCase& each) {
   return highest;
 }
 
-/// "of bonded: `interface.wall.condition` = bonded".
-std::string changes_text(const std::vector<Variant>& variants) {
-  std::string text;
-  for (const Variant& each : variants) {
-    text += fmt::format("- `{}`{}{}", each.name, each.description.empty() ? "" : ": ", each.description);
-    for (const std::string& change : each.changes) text += fmt::format("; `{}`", change);
-    if (each.calibration && !each.calibration->failure.empty())
-      text += "; not calibrated, with the constants of the study: " + each.calibration->failure;
-    text += "\n";
-  }
-  return text;
-}
-
 /// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
 double shift_of(const ComparisonResult& result, std::size_t index) {
   return value_of(result.answers[index].critical) -
          value_of(result.answers[result.counterpart(index)].critical);
-}
-
-/// The variant with the smallest critical gap against that of the scene as it is.
-std::string largest_shift_text(const ComparisonResult& result) {
-  std::optional<std::size_t> most;
-  std::size_t unknown = 0;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    if (result.answers[i].variant == 0) continue;
-    const double shift = shift_of(result, i);
-    if (std::isnan(shift)) ++unknown;
-    if (shift < 0.0 && (!most || shift < shift_of(result, *most))) most = i;
-  }
-  std::string text = most ? fmt::format("The largest step towards ignition is {}, of {}.",
-                                        in_words(shift_of(result, *most), significant(3, centimetre)),
-                                        result.study.cases[*most].label)
-                          : std::string("No variant has a smaller critical gap that is a value.");
-  if (unknown > 0)
-    text += fmt::format(" In {} case{} one of both critical gaps is none or a bound.", unknown,
-                        unknown == 1 ? "" : "s");
-  return text;
 }
 
 Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
@@ -119,9 +87,7 @@ Table comparison_table(const ComparisonResult& result) {
   std::vector<CaseRow> rows;
   for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
   Table table = table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
-  table.notes.emplace_back(
-      "T max without reaction: over stations and gaps. Only a critical gap that is a value has a "
-      "difference.");
+  table.notes = said("comparison.note.cases");
   return table;
 }
 
@@ -184,15 +150,42 @@ Table stations_side_by_side(const ComparisonResult& result) {
 }  // namespace
 
 std::string answer(const ComparisonResult& result) {
-  std::vector<std::string> lines{fmt::format("{} variants of a scene, {} cases, each at {} gaps.",
-                                             result.variants().size() - 1, result.answers.size(),
-                                             result.study.study.gaps.size())};
-  for (std::size_t i = 0; i < result.answers.size() && result.answers[i].variant == 0; ++i)
-    lines.push_back(fmt::format("{}: critical gap {}.", result.study.cases[i].label,
-                                reads_as(result.answers[i].critical)));
-  lines.push_back(largest_shift_text(result));
-  return answer_of(std::move(lines), result.study);
+  Row facts{{"variants", result.variants().size() - 1},
+            {"cases", result.answers.size()},
+            {"gaps", result.study.study.gaps.size()}};
+  // The variant with the smallest critical gap against that of the scene as it is.
+  double least = 0.0;
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const std::string& label = result.study.cases[i].label;
+    if (result.answers[i].variant == 0) {
+      facts["own"].push_back({{"case", label}, {"critical_gap", reads_as(result.answers[i].critical)}});
+      continue;
+    }
+    const double shift = shift_of(result, i);
+    unknown += std::isnan(shift);
+    if (!(shift < least)) continue;
+    least = shift;
+    facts["least"] = in_words(shift, significant(3, centimetre)) + ", of " + label;
+  }
+  facts["unknown"] = unknown;
+  return answer_of(said("comparison.answer", facts), result.study);
 }
+
+namespace {
+
+/// What each variant does otherwise.
+std::string variants_text(const ComparisonResult& result) {
+  Row variants = Row::array();
+  for (const Variant& each : result.variants())
+    variants.push_back({{"name", each.name},
+                        {"description", each.description},
+                        {"changes", each.changes},
+                        {"failure", each.calibration ? each.calibration->failure : ""}});
+  return said_below("comparison.variants", {{"variants", variants}});
+}
+
+}  // namespace
 
 Report report_of(const ComparisonResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
@@ -201,7 +194,7 @@ Report report_of(const ComparisonResult& result) {
   report.items.push_back(
       ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
   add_model_form(result, report);
-  report.items.push_back(Statement{"## Variants\n\n" + changes_text(result.variants())});
+  report.items.push_back(Statement{"## Variants\n\n" + variants_text(result)});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
   report.items.push_back(Statement{station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});

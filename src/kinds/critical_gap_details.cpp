@@ -1,5 +1,6 @@
 // What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
 #include "critical_gap_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/kinetics_text.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -121,14 +122,6 @@ Quantities<OtherRow> longer_launch_quantities() {
   return quantities;
 }
 
-/// The rows of a case, and the note on its critical gap.
-void add_other(const CaseOutcome& outcome, const OtherAnswer& other, const char* words,
-               std::vector<OtherRow>& rows, std::vector<std::string>& notes) {
-  for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
-  notes.push_back(fmt::format(fmt::runtime(words), outcome.input.label, reads_as(outcome.critical),
-                              reads_as(other.critical)));
-}
-
 /// A line over the gap; only that of least squares has errors.
 struct FittedLine {
   std::string label, name;
@@ -179,11 +172,7 @@ Table as_calibrated_table(const CriticalGapResult& result) {
     for (const GapVerdict& gap : outcome.verdicts)
       for (const AsCalibrated& each : gap.as_calibrated) rows.push_back({&outcome, &gap, &each});
   Table table = table_of("With constants of the surface as calibrated", calibrated_quantities(), rows);
-  if (!rows.empty())
-    table.notes.emplace_back(
-        "The same skin on the same trace, but for this constant. What all of gap and friction together "
-        "change "
-        "lowers the bound of the critical gap.");
+  table.notes = said("critical_gap.note.as_calibrated");
   return table;
 }
 
@@ -196,38 +185,33 @@ Table air_energy_table(const CriticalGapResult& result) {
   return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
 }
 
-Table air_model_table(const CriticalGapResult& result) {
+/// Answers on other terms, where a case has them.
+Table other_table(const CriticalGapResult& result, const char* title, const Quantities<OtherRow>& quantities,
+                  std::optional<OtherAnswer> CaseOutcome::*member, const char* note) {
   std::vector<OtherRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.details)
-    if (outcome.film)
-      add_other(outcome, *outcome.film, "Critical gap, {}: {} with the reservoir, {} with the film.", rows,
-                notes);
-  if (!rows.empty())
-    notes.emplace_back(
-        "The film conserves energy and conducts into charge and base: an optimistic bound, on which no "
-        "verdict rests. Its temperature is that of the hottest depth of the charge: the base cools the "
-        "surface.");
-  Table table = table_of("Under both models of the air", film_quantities(), rows);
-  table.notes = std::move(notes);
+  Row facts = Row::object();
+  for (const CaseOutcome& outcome : result.details) {
+    if (!(outcome.*member) ||
+        (member == &CaseOutcome::longer_launch && scene::is_cut_short(outcome.input.scene.scene.load)))
+      continue;
+    for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
+    facts["others"].push_back({{"case", outcome.input.label},
+                               {"usual", reads_as(outcome.critical)},
+                               {"other", reads_as((outcome.*member)->critical)}});
+  }
+  Table table = table_of(title, quantities, rows);
+  table.notes = said(note, facts);
   return table;
 }
 
+Table air_model_table(const CriticalGapResult& result) {
+  return other_table(result, "Under both models of the air", film_quantities(), &CaseOutcome::film,
+                     "critical_gap.note.air_models");
+}
+
 Table without_exit_table(const CriticalGapResult& result) {
-  std::vector<OtherRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.details)
-    if (outcome.longer_launch && !scene::is_cut_short(outcome.input.scene.scene.load))
-      add_other(outcome, *outcome.longer_launch, "Critical gap, {}: {} with the muzzle exit, {} without.",
-                rows, notes);
-  if (!rows.empty())
-    notes.emplace_back(
-        "Verdicts rest on the muzzle exit that the scene states. Without it the load goes on until it is "
-        "below "
-        "1 % of its peak: what the answer would be if the exit were wrong.");
-  Table table = table_of("In a barrel without end", longer_launch_quantities(), rows);
-  table.notes = std::move(notes);
-  return table;
+  return other_table(result, "In a barrel without end", longer_launch_quantities(),
+                     &CaseOutcome::longer_launch, "critical_gap.note.without_exit");
 }
 
 Table fit_table(const CaseOutcome& outcome) {
@@ -239,15 +223,10 @@ Table fit_table(const CaseOutcome& outcome) {
   if (fit.mixed)
     rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
   if (fit.published) rows.push_back({label, "as published", &*fit.published});
+  const Quantities<FittedLine> quantities = line_quantities(fit.gaps);
   Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
-                         line_quantities(fit.gaps), rows);
-  if (ols.degrees_of_freedom > 0) {
-    table.notes.push_back(
-        fmt::format("Least squares: slope {:.1f} +- {:.1f} K/cm, intercept {:.2f} +- {:.2f} K "
-                    "(standard errors), R^2 {:.5f}, residual deviation {:.2f} K.",
-                    ols.coefficients[1], ols.standard_errors[1], ols.coefficients[0], ols.standard_errors[0],
-                    ols.r_squared, ols.residual_deviation));
-  }
+                         quantities, rows);
+  table.notes = said("critical_gap.note.fit", json_of(quantities, rows.front()));
   return table;
 }
 
@@ -270,31 +249,24 @@ bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) 
          row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
 
-/// The cause that lowers the bound most; nothing without any.
-std::string largest_cause(const study::CriticalGap& gap) {
-  const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
-  const auto largest =
-      std::max_element(gap.shares.begin(), gap.shares.end(),
-                       [&](const GapShare& a, const GapShare& b) { return moves(a) < moves(b); });
-  if (largest == gap.shares.end()) return {};
-  return fmt::format(" The largest part, {}, is that of {}; {} would make it smaller.",
-                     centimetres(moves(*largest)), traits_of(largest->kind).title,
-                     traits_of(largest->kind).remedy);
-}
-
-/// Which gaps of every case lie between the lower bound of the critical gap and ignition; empty where none
-/// does.
+/// Which gaps of every case lie between the lower bound of the critical gap and ignition, with the cause that
+/// lowers the bound most; empty where none does.
 std::string undecided_text(const CriticalGapResult& result) {
-  std::string text;
+  Row facts{{"several", result.details.size() > 1}, {"undecided", Row::array()}};
   for (const CaseOutcome& outcome : result.details) {
-    std::string gaps;
-    for (const study::GapVerdict& row : outcome.verdicts)
-      if (is_within_bounds(outcome, row)) gaps += (gaps.empty() ? "" : ", ") + centimetres(row.gap);
-    if (gaps.empty()) continue;
-    text += fmt::format("- {}{}: the critical gap may be as small as {}.{}\n",
-                        result.details.size() > 1 ? outcome.input.label + ", " : std::string{}, gaps,
-                        centimetres(outcome.critical.bounds.at_least), largest_cause(outcome.critical));
+    const study::CriticalGap& gap = outcome.critical;
+    Row row{{"case", outcome.input.label}, {"at_least", centimetres(gap.bounds.at_least)}};
+    for (const study::GapVerdict& each : outcome.verdicts)
+      if (is_within_bounds(outcome, each)) row["gaps"].push_back(centimetres(each.gap));
+    if (!row.contains("gaps")) continue;
+    const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
+    if (const auto largest = std::ranges::max_element(gap.shares, {}, moves); largest != gap.shares.end())
+      row.update({{"moves", centimetres(moves(*largest))},
+                  {"cause", traits_of(largest->kind).title},
+                  {"remedy", traits_of(largest->kind).remedy}});
+    facts["undecided"].push_back(std::move(row));
   }
+  const std::string text = said_below("critical_gap.undecided", facts);
   return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
 }
 
@@ -322,14 +294,11 @@ std::string confirmation_text(const CaseOutcome& outcome) {
 }
 
 std::string limiter_remark(const CriticalGapResult& result) {
-  std::string text;
-  for (const CaseOutcome& outcome : result.details) {
-    const run::LimiterCounts& limiters = outcome.result.mechanics.limiters;
-    if (!acted(limiters)) continue;
-    text += fmt::format("Limiters acted in {} ({} particle steps); its verdicts rest on them too.\n",
-                        outcome.input.label, limiters_text(limiters));
-  }
-  return text;
+  Row runs = Row::array();
+  for (const CaseOutcome& outcome : result.details)
+    runs.push_back(
+        {{"case", outcome.input.label}, {"limiters", limiters_text(outcome.result.mechanics.limiters)}});
+  return said_below("critical_gap.limiters", {{"runs", runs}});
 }
 
 void add_details(const CriticalGapResult& result, Report& report) {

@@ -1,10 +1,9 @@
 // What each axis of a critical-gap study changes.
 #include "critical_gap_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,23 +99,17 @@ Quantities<EffectRow> effect_quantities() {
 
 bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
 
-/// What stands behind a crack radius that changes little below the flaw size; empty where it changes much.
-std::string crack_note(const CriticalGapResult& result, const Effect& below) {
+/// What there is to say of a crack radius that changes little below the flaw size; nothing where it changes
+/// much.
+Row crack_facts(const CriticalGapResult& result, const Effect& below) {
   constexpr double little = 5.0;  // K
   if (!(below.temperature <= little)) return {};
-  const auto& axes = result.study.study.axes;
-  const bool friction_varies = std::any_of(axes.begin(), axes.end(), [](const study::Axis& axis) {
+  const bool friction_varies = std::ranges::any_of(result.study.study.axes, [](const study::Axis& axis) {
     return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
   });
-  const bool rubs = result.study.scene.scene.charge().strength.face_friction > 0.0;
-  return fmt::format(
-      "Below the flaw size the crack radius is all but dead: T max moves by {} at most, critical gaps by {}. "
-      "The strain that cracks add goes with the cube of crack radius over flaw size{}.",
-      in_words(below.temperature, significant(2, kelvin)),
-      in_words(below.critical, significant(2, centimetre)),
-      rubs && !friction_varies
-          ? ", and friction between closed crack faces keeps them from growing under the pressure of a launch"
-          : "");
+  return {{"temperature", in_words(below.temperature, significant(2, kelvin))},
+          {"critical_gap", in_words(below.critical, significant(2, centimetre))},
+          {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
 }
 
 }  // namespace
@@ -125,7 +118,7 @@ std::vector<Column> axis_effect_columns() { return keys::described(effect_quanti
 
 Table axis_effect_table(const CriticalGapResult& result) {
   std::vector<EffectRow> rows;
-  std::vector<std::string> notes;
+  Row facts = Row::object();
   const auto keys = shown_axes(result.study.study);
   const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
     if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
@@ -135,15 +128,10 @@ Table axis_effect_table(const CriticalGapResult& result) {
     if (keys[axis].scene_key != "charge.crack_radius") continue;
     const Effect below = effect_of(result, axis, below_flaw);
     add(keys[axis], ", below the flaw size", below);
-    if (std::string note = crack_note(result, below); !note.empty()) notes.push_back(std::move(note));
+    facts["cracks"] = crack_facts(result, below);
   }
   Table table = table_of("What each axis changes", effect_quantities(), rows);
-  table.notes = std::move(notes);
-  if (!rows.empty()) {
-    table.notes.push_back(
-        "Changes over the whole axis with all other values the same: of T max at gaps where nothing ignites, "
-        "and of critical gaps that are values.");
-  }
+  table.notes = said("critical_gap.note.axis_effects", facts);
   return table;
 }
 

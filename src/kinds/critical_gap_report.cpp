@@ -1,5 +1,6 @@
 // The answer, the page and the files of a critical-gap study.
 #include "critical_gap_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
@@ -9,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <optional>
 
 namespace launchsafe::kinds {
 
@@ -20,30 +21,6 @@ namespace {
 
 /// Rows of a table on the page; the files have all.
 constexpr std::size_t most_rows = 200;
-
-/// "6 gaps from 0 to 0.04 cm".
-std::string gaps_text(const std::vector<double>& gaps) {
-  if (gaps.empty()) return "no gap";
-  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
-  if (gaps.size() == 1) return "the gap " + centimetres(*least);
-  return fmt::format("{} gaps from {} to {}", gaps.size(), digits_of(*least, quantity::gap().form),
-                     centimetres(*most));
-}
-
-/// What was swept.
-std::string extent_text(const CriticalGapResult& result, const std::vector<ShownKey>& keys) {
-  const study::Study& study = result.study.study;
-  std::string axes;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    axes += fmt::format("{}{} ({})",
-                        axes.empty()          ? " over "
-                        : i + 1 < keys.size() ? ", "
-                                              : " and ",
-                        keys[i].heading, values_text(keys[i], study.axes[i].values));
-  }
-  return fmt::format("{}{}, each judged at {}.", counted(result.answers.size(), "case"), axes,
-                     gaps_text(study.gaps));
-}
 
 /// The largest gap that the searches which met no ignition came to, m.
 double end_of_search(const CriticalGapResult& result) {
@@ -55,69 +32,9 @@ double end_of_search(const CriticalGapResult& result) {
   return end;
 }
 
-std::string kinds_text(const CriticalGapResult& result, const SweepCounts& counts) {
-  const auto add = [&](CriticalGapKind kind, const std::string& words) {
-    const std::size_t count = counts.critical_gaps.at(kind);
-    return count > 0 ? fmt::format(", {} in {}", words, counted(count, "case")) : std::string{};
-  };
-  std::string text = fmt::format("The critical gap is a value in {}",
-                                 counted(counts.critical_gaps.at(CriticalGapKind::value), "case"));
-  text += add(CriticalGapKind::all_safe, fmt::format("more than {} (the end of the search: a bound)",
-                                                     centimetres(end_of_search(result))));
-  text += add(CriticalGapKind::all_ignite, "below every gap (ignition even at the smallest: a bound)");
-  text += add(CriticalGapKind::several_crossings, "one of several crossings");
-  text += add(CriticalGapKind::indeterminate, "indeterminate");
-  return text + ".";
-}
-
-/// The case with the smallest critical gap that is a value.
-std::optional<std::size_t> smallest(const CriticalGapResult& result) {
-  std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const double value = value_of(result.answers[i].critical);
-    if (!std::isfinite(value)) continue;
-    if (!best || value < result.answers[*best].critical.value) best = i;
-  }
-  return best;
-}
-
-/// The cases that ignite at every gap: their critical gap is below every value.
-std::vector<std::size_t> without_safe_gap(const CriticalGapResult& result) {
-  std::vector<std::size_t> cases;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    if (result.answers[i].critical.kind == study::CriticalGapKind::all_ignite) cases.push_back(i);
-  }
-  return cases;
-}
-
-std::string smallest_text(const CriticalGapResult& result, const std::vector<ShownKey>& keys) {
-  std::string text;
-  if (const auto best = smallest(result)) {
-    text = fmt::format("The smallest value is {}, at {}.", measured_text(result.answers[*best].critical),
-                       name_of(keys, result.study.cases[*best]));
-  }
-  const std::vector<std::size_t> none = without_safe_gap(result);
-  if (none.empty()) return text;
-  const std::string others =
-      none.size() > 1 ? " and " + counted(none.size() - 1, "other case") : std::string{};
-  return text + fmt::format("{}No gap is safe at {}{}.", text.empty() ? "" : " ",
-                            name_of(keys, result.study.cases[none.front()]), others);
-}
-
-std::string failures_text(const CriticalGapResult& result, const std::vector<ShownKey>& keys,
-                          std::size_t failed) {
-  if (failed == 0) return {};
-  return fmt::format("{} failed and {} indeterminate: {}.", counted(failed, "case"),
-                     failed == 1 ? "is" : "are", failures_list(keys, result.study, result.answers));
-}
-
 std::string uncertainty_text(const CriticalGapResult& result) {
-  std::string text = uncertainty_remark(result.study);
-  if (result.details.empty())
-    text +=
-        " Verdicts and critical gaps rest on the traces of the mechanical runs; no coupled runs confirm them "
-        "(those of a study with confirm = true do).";
-  return text + "\n";
+  return uncertainty_remark(result.study) +
+         (result.details.empty() ? " " + said_below("critical_gap.traces") : "\n");
 }
 
 /// The verdicts as a matrix, or where they are.
@@ -140,45 +57,52 @@ nlohmann::ordered_json counts_json(const SweepCounts& counts) {
           {"verdicts", std::move(verdicts)}};
 }
 
-std::string sentence_of(const CaseOutcome& outcome) {
-  const study::CriticalGap& gap = outcome.critical;
-  switch (gap.kind) {
-    case CriticalGapKind::value: {
-      const bool confirmed = !outcome.confirmations.empty();
-      return fmt::format(
-          "the critical gap is {}{}: {} does not ignite, {} does{}.", centimetres(gap.value),
-          std::isfinite(gap.bounds.at_least)
-              ? fmt::format(", and at least {}", centimetres(gap.bounds.at_least))
-              : std::string{},
-          centimetres(gap.lower), centimetres(gap.upper),
-          confirmed ? "; coupled runs on both sides agree" : "; not confirmed by coupled runs");
-    }
-    case CriticalGapKind::all_safe:
-      return fmt::format("the critical gap is more than {}: {}.", centimetres(gap.lower),
-                         study::to_string(gap.reason));
-    case CriticalGapKind::all_ignite:
-      return fmt::format("no gap is safe: {}.", study::to_string(gap.reason));
-    case CriticalGapKind::several_crossings:
-      return fmt::format("there is no one critical gap: ignition begins at {}, but is {}.",
-                         centimetres(gap.lower), study::to_string(gap.reason));
-    case CriticalGapKind::indeterminate:
-      break;
+/// What the answer about many cases is filled with.
+Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
+  const study::Study& study = result.study.study;
+  const auto keys = shown_axes(study);
+  Row facts = counts_json(counts);
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    facts["axes"].push_back(
+        fmt::format("{} ({})", keys[i].heading, values_text(keys[i], study.axes[i].values)));
+  facts["gaps"] = study.gaps.size();
+  if (!study.gaps.empty()) {
+    const auto [least, most] = std::ranges::minmax(study.gaps);
+    facts.update({{"least_cm", shown_gap(least)}, {"most_cm", shown_gap(most)}});
   }
-  return fmt::format("the critical gap is {}: {}.", reads_as(gap), study::to_string(gap.reason));
+  facts["end_of_search_cm"] = number(shown_gap(end_of_search(result)));
+  // The case with the smallest critical gap that is a value, and those that ignite at every gap: their
+  // critical gap is below every value.
+  double best = study::not_a_number;
+  std::size_t without_safe = 0;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const study::CriticalGap& gap = result.answers[i].critical;
+    if (std::isfinite(value_of(gap)) && !(gap.value >= best)) {
+      best = gap.value;
+      facts["smallest"] = measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
+    }
+    if (gap.kind == CriticalGapKind::all_ignite && without_safe++ == 0)
+      facts["without_safe"] = name_of(keys, result.study.cases[i]);
+  }
+  facts["other_without_safe"] = without_safe > 0 ? without_safe - 1 : 0;
+  facts["failures"] = failures_list(keys, result.study, result.answers);
+  return facts;
 }
 
 /// Of few cases, one after the other.
 std::string answer_in_detail(const CriticalGapResult& result) {
-  if (result.details.size() == 1) {
-    std::string text = sentence_of(result.details.front());
-    text.front() = 'T';
-    if (!text.starts_with("The")) text.front() = 'N';
-    return text;
+  std::vector<std::string> lines;
+  for (const CaseOutcome& outcome : result.details) {
+    Row row = json_of(bounded_gap_quantities(), outcome.critical);
+    row.update(
+        {{"why", study::to_string(outcome.critical.reason)}, {"confirmed", !outcome.confirmations.empty()}});
+    lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());
+    if (result.details.size() > 1)
+      lines.back() = outcome.input.label + ": " + lines.back();
+    else
+      lines.back().front() = static_cast<char>(std::toupper(lines.back().front()));
   }
-  std::string text;
-  for (const CaseOutcome& outcome : result.details)
-    text += (text.empty() ? "" : "\n") + outcome.input.label + ": " + sentence_of(outcome);
-  return text;
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 /// The row of the only case; null where there are several, each with its own critical gap.
@@ -209,14 +133,10 @@ TextFile table_file(const char* name, Table table, const StudyFile& study) {
 
 std::string answer(const CriticalGapResult& result) {
   if (!result.details.empty()) return answer_in_detail(result);
-  const auto keys = shown_axes(result.study.study);
   const SweepCounts counts = counts_of(result.answers);
-  return answer_of(
-      {extent_text(result, keys), kinds_text(result, counts), smallest_text(result, keys),
-       fmt::format("Verdicts: {} SAFE, {} UNSAFE, {} INDETERMINATE.", counts.verdicts.at(Verdict::safe),
-                   counts.verdicts.at(Verdict::unsafe), counts.verdicts.at(Verdict::indeterminate)),
-       failures_text(result, keys, counts.failed), limited_text(counts, "case")},
-      result.study);
+  std::vector<std::string> lines = said("critical_gap.answer", facts_of(result, counts));
+  lines.push_back(limited_text(counts, "case"));
+  return answer_of(std::move(lines), result.study);
 }
 
 Report report_of(const CriticalGapResult& result) {

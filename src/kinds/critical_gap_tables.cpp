@@ -2,6 +2,7 @@
 #include "critical_gap_tables.hpp"
 
 #include "answer_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -226,14 +227,9 @@ Table critical_gap_table(const CriticalGapResult& result) {
     rows.push_back({each, in_detail ? &result.details[each.index] : nullptr});
   Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
                          judged_case_quantities(result.study.study, in_detail), rows);
-  if (in_detail) return table;
-  table.notes.emplace_back(
-      "Only a critical gap of kind value is a number. T max of a gap that ignites is that of the burning "
-      "skin.");
-  table.notes.emplace_back(
-      "Assumed: what the bounds rest on and neither the study nor its records say of the case. What is said "
-      "of the uncertainty names why, the commonest reason first.");
-  table.notes.push_back(air_energy_note(result, shown_axes(result.study.study)));
+  if (!in_detail)
+    table.notes =
+        said("critical_gap.note.cases", {{"air", air_energy_note(result, shown_axes(result.study.study))}});
   return table;
 }
 
@@ -266,22 +262,11 @@ Table comparison_table(const CriticalGapResult& result) {
   }
   Table table =
       table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows);
-  table.notes.push_back(
-      "Fitted: the load or constants were fitted to it. Chosen by: it was seen when a form of the model was "
-      "picked, and is no prediction. Held out: a prediction.");
-  if (!(worst <= calibration_slack)) {
-    table.notes.push_back(fmt::format(
-        "The scene's constants do not meet the calibrated rows ({}): they belong to other settings, and no "
-        "row here counts as calibrated.",
-        std::isfinite(worst) ? "computed - published: " + in_words(worst, fixed(1, kelvin))
-                             : std::string("one of them ignites")));
-  }
-  if (ignited) {
-    table.notes.push_back(
-        "After ignition T max is that of the burning skin; it is not compared. Whether and when the largest "
-        "published gap that is safe and the smallest that ignites do so is calibrated: the ignition "
-        "temperature was set between them.");
-  }
+  Row facts{{"ignited", ignited}};
+  if (!(worst <= calibration_slack))
+    facts["not_met"] = std::isfinite(worst) ? "computed - published: " + in_words(worst, fixed(1, kelvin))
+                                            : std::string("one of them ignites");
+  table.notes = said("critical_gap.note.comparison", facts);
   return table;
 }
 

@@ -1,5 +1,6 @@
 // The answer, the page and the files of a sensitivity study.
 #include "answer_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
@@ -29,9 +30,16 @@ std::string text_of(math::Design design) {
   return names.at(static_cast<std::size_t>(design));
 }
 
-std::string interval_text(const SensitivitySettings& own) {
-  return fmt::format("{}% intervals from a bootstrap of {} resamples, seed {}",
-                     digits_of(own.confidence, keys::significant(6, percent)), own.resamples, own.seed);
+/// How indices are found.
+Row method_facts(const SensitivityResult& result) {
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  return {{"name", "sobol"},
+          {"text", ""},
+          {"N", own.samples},
+          {"evaluations", result.answers.size()},
+          {"seed", own.seed},
+          {"resamples", own.resamples},
+          {"confidence", own.confidence}};
 }
 
 }  // namespace
@@ -75,17 +83,12 @@ std::string estimate_text(const math::Estimate& estimate) {
 
 std::string method_text(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
-  std::string text = fmt::format(
-      "Sobol indices (first order: Saltelli 2010, total order: Jansen 1999) from N = {} rows, {} "
-      "evaluations, on {}; {}.",
-      own.samples, result.answers.size(), text_of(own.design), interval_text(own));
-  if (own.design == math::Design::scrambled_sobol && own.samples < 256)
-    text += " Of a Sobol sequence with fewer than 256 rows the intervals often miss weak inputs.";
-  if (own.correlated)
-    text +=
-        " The constants of the calibration vary together, by the covariance of their logarithms in its "
-        "record, and are one input.";
-  return text;
+  Row facts = method_facts(result);
+  facts.update({{"design", text_of(own.design)},
+                {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
+                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
+                {"correlated", own.correlated.has_value()}});
+  return said("sensitivity.method", facts).front();
 }
 
 namespace {
@@ -94,12 +97,6 @@ namespace {
 constexpr double negligible_share = 0.05;
 /// Evaluations on the page; the file has all.
 constexpr std::size_t most_evaluation_rows = 200;
-
-std::string joined(const std::vector<std::string>& names) {
-  if (names.size() < 2) return names.empty() ? std::string{} : names.front();
-  const std::vector<std::string> first(names.begin(), names.end() - 1);
-  return fmt::format("{} and {}", fmt::join(first, ", "), names.back());
-}
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
@@ -133,79 +130,39 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
   return groups;
 }
 
-/// What is said of one output.
-class OutputAnswer {
- public:
-  OutputAnswer(const SensitivityResult& result, const OutputSensitivity& output)
-      : result_(result), output_(output), inputs_(shown_inputs(result.study.study)) {}
-
-  std::string text() const {
-    std::string what = shown_output(output_.output).phrase;
-    if (what.starts_with('t')) what.front() = 'T';
-    if (!output_.reason.empty()) return fmt::format("{}: no indices, {}.", what, output_.reason);
-    const Groups groups = ranked(output_.sobol.inputs);
-    return fmt::format("{}: by total order, {}.{}{}", what, ranking(groups), untold(groups), negligible());
-  }
-
- private:
-  /// "A (0.6 [0.5, 0.7]), then B (...) and C (...)".
-  std::string ranking(const Groups& groups) const {
-    std::string text;
-    for (const auto& group : groups) {
-      std::vector<std::string> names;
-      for (const std::size_t input : group) names.push_back(named(input));
-      text += (text.empty() ? "" : ", then ") + joined(names);
+/// What is said of one output: inputs by their influence, what the intervals do not tell apart, and inputs
+/// whose whole interval is small.
+std::string output_text(const SensitivityResult& result, const OutputSensitivity& output) {
+  const std::vector<ShownInput> inputs = shown_inputs(result.study.study);
+  Row facts{{"reason", output.reason},
+            {"rows", sensitivity_settings(result.study.study).samples},
+            {"negligible_percent", shown_value(negligible_share, keys::significant(6, percent))}};
+  const Groups groups = output.reason.empty() ? ranked(output.sobol.inputs) : Groups{};
+  for (const auto& group : groups) {
+    Row names, named;
+    for (const std::size_t input : group) {
+      names.push_back(inputs[input].name);
+      named.push_back(
+          fmt::format("{} ({})", inputs[input].name, estimate_text(output.sobol.inputs[input].total)));
     }
-    return text;
+    facts["groups"].push_back({{"named", named}, {"first", facts["groups"].empty()}});
+    if (group.size() > 1) facts["open"].push_back({{"names", names}, {"first", facts["open"].empty()}});
   }
+  facts["alone"] = groups.size() == 1 && inputs.size() > 1;
+  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i)
+    if (output.sobol.inputs[i].total.upper < negligible_share) facts["negligible"].push_back(inputs[i].name);
+  std::string what = shown_output(output.output).phrase;
+  if (what.starts_with('t')) what.front() = 'T';
+  return what + ": " + said("sensitivity.answer", facts).front();
+}
 
-  std::string named(std::size_t input) const {
-    return fmt::format("{} ({})", inputs_[input].name, estimate_text(output_.sobol.inputs[input].total));
-  }
-
-  std::string size() const {
-    return fmt::format("N = {} rows", sensitivity_settings(result_.study.study).samples);
-  }
-
-  /// What the intervals do not tell apart.
-  std::string untold(const Groups& groups) const {
-    if (groups.size() == 1 && inputs_.size() > 1) {
-      return fmt::format(" {} are too few to tell which matters more: the intervals overlap.", size());
-    }
-    std::vector<std::string> open;
-    for (const auto& group : groups) {
-      if (group.size() < 2) continue;
-      std::vector<std::string> names;
-      for (const std::size_t input : group) names.push_back(inputs_[input].name);
-      open.push_back(joined(names));
-    }
-    if (open.empty()) return {};
-    return fmt::format(" {} do not tell {} apart.", size(), fmt::join(open, ", nor "));
-  }
-
-  /// Inputs whose whole interval is small.
-  std::string negligible() const {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      if (output_.sobol.inputs[i].total.upper < negligible_share) names.push_back(inputs_[i].name);
-    }
-    if (names.empty()) return {};
-    return fmt::format(" Below {}% of the variance, and so without influence here: {}.",
-                       digits_of(negligible_share, keys::significant(6, percent)), joined(names));
-  }
-
-  const SensitivityResult& result_;
-  const OutputSensitivity& output_;
-  std::vector<ShownInput> inputs_;
-};
-
-std::string share_failed(const SensitivityResult& result) {
+std::vector<std::string> failed_text(const SensitivityResult& result) {
   const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
-  if (failed == 0) return fmt::format("All {} evaluations completed.", all);
-  return fmt::format(
-      "Failed: {} of {} evaluations ({}%): {}.", failed, all,
-      digits_of(static_cast<double>(failed) / static_cast<double>(all), keys::fixed(1, percent)),
-      failures_list({}, result.study, result.answers));
+  const double share = static_cast<double>(failed) / static_cast<double>(all);
+  return said("sensitivity.failed", {{"all", all},
+                                     {"failed", failed},
+                                     {"percent", shown_value(share, keys::fixed(1, percent))},
+                                     {"failures", failures_list({}, result.study, result.answers)}});
 }
 
 std::string picture_name(const OutputSensitivity& output) {
@@ -213,24 +170,19 @@ std::string picture_name(const OutputSensitivity& output) {
 }
 
 nlohmann::ordered_json method_json(const SensitivityResult& result) {
-  const auto& settings = sensitivity_settings(result.study.study);
-  return {{"name", "sobol"},
-          {"text", method_text(result)},
-          {"N", settings.samples},
-          {"evaluations", result.answers.size()},
-          {"seed", settings.seed},
-          {"resamples", settings.resamples},
-          {"confidence", settings.confidence}};
+  Row method = method_facts(result);
+  method["text"] = method_text(result);
+  return method;
 }
 
 }  // namespace
 
 std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
-  for (const OutputSensitivity& output : result.outputs) lines.push_back(OutputAnswer(result, output).text());
+  for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
   lines.push_back(samples_text(result));
-  lines.push_back(share_failed(result));
+  for (std::string& line : failed_text(result)) lines.push_back(std::move(line));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
   return answer_of(std::move(lines), result.study);
 }
@@ -252,9 +204,7 @@ Report report_of(const SensitivityResult& result) {
         Picture{"histogram.svg", std::move(plot), "histograms of critical gap and T max over the draws"});
   report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
-  report.items.push_back(Statement{
-      "The indices are those of these distributions: another range of an input gives it another share. Bound "
-      "critical gaps have no number, and where there are any no indices are given.\n"});
+  report.items.push_back(Statement{said_below("sensitivity.rests")});
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
                                      most_evaluation_rows});

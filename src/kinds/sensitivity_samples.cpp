@@ -1,5 +1,6 @@
 #include "sensitivity_samples.hpp"
 
+#include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "sensitivity_text.hpp"
@@ -48,8 +49,6 @@ std::string quantile_text(const SensitivityResult& result, double gap) {
   if (std::isfinite(gap)) return in_words(gap, keys::significant(3, centimetre));
   return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
 }
-
-std::string in_percent(double share) { return in_words(share, keys::significant(3, percent)); }
 
 std::string title_of(const SensitivityResult& result, const OutputSensitivity& output) {
   return shown_output(output.output).column.heading + (output.inert ? " without reaction" : "") +
@@ -169,25 +168,6 @@ IgnitionShare ignition_share(const SensitivityResult& result) {
   return share;
 }
 
-std::string samples_text(const SensitivityResult& result) {
-  const IgnitionShare share = ignition_share(result);
-  if (share.completed + share.failed == 0) return {};
-  std::string text = fmt::format(
-      "Of {} launches drawn from these inputs {} at a gap of {}: a probability of {} to {} (95 %).",
-      share.completed, counted(static_cast<std::int64_t>(share.igniting), "ignition"),
-      centimetres(result.study.study.gaps.front()), in_percent(share.interval.lower),
-      in_percent(share.interval.upper));
-  if (share.failed > 0) text += fmt::format(" {} more failed, and may have done either.", share.failed);
-  if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
-    const OutputSample sample = sample_of(result, *gap);
-    text += fmt::format(" Quantiles of the critical gap: 2.5 % at {}, 5 % at {}, half at {}.",
-                        quantile_text(result, sample.quantile(0.025)),
-                        quantile_text(result, sample.quantile(0.05)),
-                        quantile_text(result, sample.quantile(0.5)));
-  }
-  return text;
-}
-
 nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
   const IgnitionShare share = ignition_share(result);
   return {{"igniting", share.igniting},
@@ -196,6 +176,18 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
           {"confidence", ignition_level},
           {"probability_from", number(share.interval.lower)},
           {"probability_to", number(share.interval.upper)}};
+}
+
+std::string samples_text(const SensitivityResult& result) {
+  Row facts = ignition_json(result);
+  if (facts["completed"] == 0 && facts["failed"] == 0) return {};
+  facts["gap"] = centimetres(result.study.study.gaps.front());
+  if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
+    const OutputSample sample = sample_of(result, *gap);
+    for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
+      facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
+  }
+  return said("sensitivity.samples", facts).front();
 }
 
 namespace {
@@ -254,10 +246,7 @@ Table quantile_table(const SensitivityResult& result) {
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
-  table.notes.emplace_back(
-      "Draws are the evaluations A and B of the design; the others are made for differences. A critical gap "
-      "that is no number has its rank and no value. The interval of the probability is that of Clopper and "
-      "Pearson, for independent draws; those of a design that is laid out evenly scatter less.");
+  table.notes.push_back(said("sensitivity.draws").front());
   return table;
 }
 

@@ -1,5 +1,6 @@
 // The tables and the pictures of a sensitivity study.
 #include "answer_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -131,61 +132,34 @@ Quantities<EvaluationRow> evaluation_quantities(const study::Study& study,
          &study::CaseAnswer::failure}}});
 }
 
-std::string inert_note() {
-  return "Some evaluations ignite. T max and margin are therefore those of a skin that air and friction heat "
-         "and that does not react: the burning skin's T max would jump. What matters to the reaction shows "
-         "in the critical gap.";
-}
-
-std::string missing_note(const OutputSensitivity& output) {
-  return fmt::format("{} of {} evaluations have no number here{}.", output.missing, output.values.size(),
-                     output.bounds > 0 ? fmt::format(", {} of them bounds", output.bounds) : std::string{});
-}
-
-std::string spread_note(const OutputSensitivity& output) {
-  const ShownOutput& shown = shown_output(output.output);
-  const auto words = [&](double value, int digits) {
-    Form form = shown.column.form;
-    form.digits = digits;
-    return in_words(value, form);
-  };
-  return fmt::format("Mean {}, standard deviation {} over the evaluations that sample the inputs.",
-                     words(output.mean, 4), words(output.deviation, 3));
-}
-
 /// Whether the estimates of an input contradict each other: no true total order is below the first.
 bool total_below_first(const math::InputIndices& indices) {
   return indices.total.value < indices.first.value;
 }
 
-/// Which inputs show sampling error by such estimates, with their intervals; empty where none does.
-std::string sampling_note(const SensitivityResult& result, const OutputSensitivity& output) {
-  const auto shown = shown_inputs(result.study.study);
-  std::string inputs;
-  bool apart = false;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
+std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  const ShownOutput& shown = shown_output(output.output);
+  const std::string& unit = shown.column.form.unit;
+  Row facts{{"reason", output.reason},
+            {"mean", number(shown.value(output.mean))},
+            {"deviation", shown.value(output.deviation)},
+            {"unit", unit.empty() ? "" : " " + unit},
+            {"missing", output.missing},
+            {"evaluations", output.values.size()},
+            {"bounds", output.bounds},
+            {"method", method_text(result)},
+            {"inert", output.inert},
+            {"apart", false}};
+  // Inputs that show sampling error by their estimates, with their intervals.
+  const auto inputs = shown_inputs(result.study.study);
+  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i) {
     const auto& [first, total] = output.sobol.inputs[i];
     if (!total_below_first(output.sobol.inputs[i])) continue;
-    inputs += fmt::format("{}{} (ST {}, S1 {})", inputs.empty() ? "" : ", ", shown[i].name,
-                          estimate_text(total), estimate_text(first));
-    apart = apart || total.upper < first.lower;
+    facts["contradictory"].push_back(
+        fmt::format("{} (ST {}, S1 {})", inputs[i].name, estimate_text(total), estimate_text(first)));
+    if (total.upper < first.lower) facts["apart"] = true;
   }
-  if (inputs.empty()) return {};
-  return fmt::format(
-      "ST below S1 is sampling error, as no true total order is below the first order: {}. {}", inputs,
-      apart ? "Where their intervals do not overlap, these are too narrow." : "Their intervals overlap.");
-}
-
-std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
-  std::vector<std::string> notes;
-  if (!output.reason.empty()) notes.push_back("No indices: " + output.reason + ".");
-  if (std::isfinite(output.mean)) notes.push_back(spread_note(output));
-  if (output.missing > 0) notes.push_back(missing_note(output));
-  notes.push_back(method_text(result));
-  if (output.reason.empty()) notes.push_back(sampling_note(result, output));
-  if (output.inert) notes.push_back(inert_note());
-  std::erase(notes, "");
-  return notes;
+  return said("sensitivity.note", facts);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // The answer, the tables, the picture and the page of a stability study.
 #include "answer_tables.hpp"
+#include "kind_texts.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -124,15 +125,6 @@ std::size_t count_missing(const StabilityResult& result) {
   return result.rows.size() - count(result, &StressCaseRow::computed);
 }
 
-/// Every case that is WRONG, not as expected or not computed, a line each.
-std::string unexpected_text(const StabilityResult& result) {
-  std::string text;
-  for (const StressCaseRow& row : result.rows)
-    if (!row.is_as_expected())
-      text += fmt::format("\n- {}: {}: {}", row.asked.label(), outcome_text(row), finding_text(row));
-  return text.empty() ? text : "Not as the study expects:" + text;
-}
-
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
 /// How many cases of every group came out how: a bar for every outcome, the first group on top.
@@ -165,15 +157,13 @@ Plot outcome_plot(const StabilityResult& result) {
 }
 
 std::string legend(const Study& study) {
-  std::string text = fmt::format(
-      "- **held**: what must hold held.\n"
-      "- **degraded**: it did not, a limiter acted or a validity warning holds, and the result says so.\n"
-      "- **caught**: the run was stopped, or the scene refused.\n"
-      "- **WRONG**: an invariant is violated, and yet a verdict says SAFE or UNSAFE.\n\n"
-      "Invariants, with an uncertainty of T max of {} unless the case states its own:\n\n",
-      in_words(study.numerical_uncertainty, keys::significant(3, kelvin)));
-  for (const Invariant& each : all_invariants()) text += fmt::format("- `{}`: {}.\n", each.name, each.words);
-  return text;
+  Row invariants = Row::array();
+  for (const Invariant& each : all_invariants())
+    invariants.push_back({{"name", each.name}, {"words", each.words}});
+  return fmt::format(
+      "{}\nInvariants, with an uncertainty of T max of {} unless the case states its own:\n\n{}",
+      said_below("stability.outcomes"), in_words(study.numerical_uncertainty, keys::significant(3, kelvin)),
+      said_below("stability.invariants", {{"invariants", invariants}}));
 }
 
 nlohmann::ordered_json counts_json(const StabilityResult& result) {
@@ -204,16 +194,14 @@ Table not_held_table(const StabilityResult& result) {
 }  // namespace
 
 std::string answer(const StabilityResult& result) {
-  const std::size_t wrong = result.count(Outcome::wrong);
-  std::vector<std::string> lines{
-      fmt::format("{}: {} held, {} degraded with a reason, {} caught, {} WRONG.",
-                  counted(result.rows.size(), "stress case"), result.count(Outcome::held),
-                  result.count(Outcome::degraded), result.count(Outcome::caught), wrong),
-      wrong + count_missing(result) == 0 ? "No broken computation passes for a sound one." : "",
-      unexpected_text(result),
-      result.interrupted ? "The study was interrupted: some cases were not computed." : ""};
-  std::erase(lines, "");
-  return fmt::format("{}", fmt::join(lines, "\n"));
+  Row facts = counts_json(result);
+  facts["sound"] = result.count(Outcome::wrong) + count_missing(result) == 0;
+  facts["interrupted"] = result.interrupted;
+  for (const StressCaseRow& row : result.rows)
+    if (!row.is_as_expected())
+      facts["unexpected"].push_back(
+          {{"case", row.asked.label()}, {"outcome", outcome_text(row)}, {"finding", finding_text(row)}});
+  return fmt::format("{}", fmt::join(said("stability.answer", facts), "\n"));
 }
 
 Report report_of(const StabilityResult& result) {

@@ -4,6 +4,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "notes.hpp"
 
 #include <fmt/format.h>
 
@@ -68,26 +69,6 @@ std::string kilojoules_per_area(double energy) { return in_words(energy, quantit
 std::string place_of_gap(const AuditedGap& gap) {
   const std::string place = "a gap of " + centimetres(gap.gap);
   return gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label);
-}
-
-/// Where the skin took most against what can be supplied; nullptr where nothing was computed or no gap is
-/// open.
-const AuditedGap* worst_of(const std::vector<AuditedGap>& gaps) {
-  const AuditedGap* worst = nullptr;
-  for (const AuditedGap& gap : gaps) {
-    if (!std::isfinite(gap.air.ratio())) continue;
-    if (worst == nullptr || gap.air.ratio() > worst->air.ratio()) worst = &gap;
-  }
-  return worst;
-}
-
-std::string excess_text(const AuditedGap& worst) {
-  return fmt::format(
-      "At {} the skin took {} times what compression can supply ({} against {}), so that energy is not "
-      "conserved. That is conservative as to the heat of the air. The critical gap is therefore calibrated, "
-      "and not derived from what the air can give.",
-      place_of_gap(worst), significant(worst.air.ratio(), 2), kilojoules_per_area(worst.air.taken),
-      kilojoules_per_area(worst.air.supplied));
 }
 
 Quantities<NamedRun> run_quantities() {
@@ -230,10 +211,7 @@ Table interface_table(const run::MechanicsResult& mechanics) {
       rows.push_back({&faces, static_cast<std::size_t>(hottest - faces.friction_heat.begin())});
   }
   Table table = table_of("Faces that slide on the charge", face_quantities(), rows);
-  if (!table.rows.empty())
-    table.notes.push_back(
-        "Heat of friction is per area of the face, over the whole launch, and heats no skin: that at the "
-        "charge's bottom counts as uncertainty of T max instead.");
+  table.notes = noted("faces");
   return table;
 }
 
@@ -243,14 +221,7 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
     if (gap.combustion) burnt.push_back(&gap);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities(), burnt);
   if (table.rows.empty()) return table;
-  table.notes = {
-      "At the end of the run; p max is the largest over it. Released and kept back: of the heat of reaction "
-      "of what had burnt. Brought: heat above the initial temperature that it had before, from air, friction "
-      "and slow reaction.",
-      flame_kinetics_note(scene),
-      "The flame lives on conduction alone. Friction heats by the closure and the localisation of the "
-      "launch, which are not calibrated for the motion that the gas causes: how fast burning spreads over "
-      "the bottom is a result of the model, and no prediction."};
+  table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
 }
 
@@ -263,21 +234,19 @@ Table combustion_history_table(const run::CombustionHistory& c, double gap, std:
 }
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
-  const std::string impact = " A gap that closes by impact is not modelled.";
-  if (model == scene::AirModel::film)
-    return "The air is a film that conducts into charge and base, and gives no more than compression "
-           "supplies. What the skin took is told as of a skin of one temperature, and says nothing of a "
-           "film." +
-           impact;
-  const std::string reservoir =
-      "The air is the published reservoir, which stays on its adiabat whatever the skin draws from it. ";
-  const AuditedGap* worst = worst_of(gaps);
-  if (worst == nullptr)
-    return reservoir + "No gap with air in it was computed, to see how much the skin took." + impact;
-  if (worst->air.ratio() > 1.0) return reservoir + excess_text(*worst) + impact;
-  return fmt::format(
-      "{}At no gap did the skin take more than compression can supply; the most was {} times that, at {}.{}",
-      reservoir, significant(worst->air.ratio(), 2), place_of_gap(*worst), impact);
+  Row facts{{"film", model == scene::AirModel::film}};
+  // Where the skin took most against what can be supplied.
+  double most = -HUGE_VAL;
+  for (const AuditedGap& gap : gaps) {
+    const double ratio = gap.air.ratio();
+    if (!std::isfinite(ratio) || ratio <= most) continue;
+    most = ratio;
+    facts["worst"] = {{"place", place_of_gap(gap)},
+                      {"ratio", ratio},
+                      {"taken", kilojoules_per_area(gap.air.taken)},
+                      {"supplied", kilojoules_per_area(gap.air.supplied)}};
+  }
+  return noted("air", facts).front();
 }
 
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
@@ -285,10 +254,7 @@ Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gap
   const bool labelled =
       std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
   Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
-  table.notes.push_back(
-      "Per area of the charge's bottom, until the end or ignition. Taken: the heat that the exchange brought "
-      "to the hottest station, net and at its most. Supplied: the upper bound for air that is compressed "
-      "before it gives up heat and cools down under pressure, the rise of its enthalpy on the adiabat.");
+  table.notes = noted("air_energy");
   table.notes.push_back(air_energy_statement(model, gaps));
   return table;
 }

@@ -19,20 +19,19 @@ scene::InputError fault_of(const char* key, std::string found, const char* allow
   return fault;
 }
 
-/// Of what a condition is, and by what; a distance is kept in cm.
+/// What a condition may be of, and in which unit; a distance is kept in cm.
 struct Measure {
-  GapCriterion::Of of;
   const char *word, *unit;
-  double factor = 1.0;
-  bool times_uncertainty = false;
+  GapCriterion::Condition one;
 };
-constexpr Measure measures[] = {{GapCriterion::Of::margin, "margin", "K"},
-                                {GapCriterion::Of::margin, "margin", "uncertainty", 1.0, true},
-                                {GapCriterion::Of::margin, "margin", "uncertainties", 1.0, true},
-                                {GapCriterion::Of::distance, "distance", "cm"},
-                                {GapCriterion::Of::distance, "distance", "mm", 0.1},
-                                {GapCriterion::Of::distance, "distance", "uncertainty", 1.0, true},
-                                {GapCriterion::Of::distance, "distance", "uncertainties", 1.0, true}};
+constexpr Measure measures[] = {
+    {"margin", "K", {&JudgedGap::margin}},
+    {"margin", "uncertainty", {&JudgedGap::margin, &JudgedGap::uncertainty}},
+    {"margin", "uncertainties", {&JudgedGap::margin, &JudgedGap::uncertainty}},
+    {"distance", "cm", {&JudgedGap::distance}},
+    {"distance", "mm", {&JudgedGap::distance, nullptr, 0.1}},
+    {"distance", "uncertainty", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}},
+    {"distance", "uncertainties", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}}};
 
 /// Four words: "margin", ">=", "2", "uncertainty". One uncertainty is part of SAFE already.
 std::optional<GapCriterion::Condition> condition_of(const std::vector<std::string>& words) {
@@ -43,8 +42,8 @@ std::optional<GapCriterion::Condition> condition_of(const std::vector<std::strin
   if (!(stream >> least) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
   for (const Measure& each : measures)
     if (words[0] == each.word && words[3] == each.unit && std::isfinite(least) &&
-        (each.times_uncertainty ? least >= 1.0 : least > 0.0))
-      return GapCriterion::Condition{each.of, each.factor * least, each.times_uncertainty};
+        (each.one.unit != nullptr ? least >= 1.0 : least > 0.0))
+      return GapCriterion::Condition{each.one.of, each.one.unit, each.one.least * least};
   return std::nullopt;
 }
 
@@ -59,12 +58,9 @@ std::string on_one_line(const std::string& text) {
 }  // namespace
 
 bool GapCriterion::met_by(const JudgedGap& row) const {
-  return row.safe && std::all_of(conditions.begin(), conditions.end(), [&](const Condition& each) {
-           const bool of_margin = each.of == Of::margin;
-           const double unit = !each.times_uncertainty ? 1.0
-                               : of_margin             ? row.uncertainty
-                                                       : row.distance_uncertainty;
-           return (of_margin ? row.margin : row.distance) >= each.least * unit;  // false for NaN
+  return row.safe && std::ranges::all_of(conditions, [&](const Condition& each) {
+           const double unit = each.unit != nullptr ? row.*each.unit : 1.0;
+           return row.*each.of >= each.least * unit;  // false for NaN
          });
 }
 

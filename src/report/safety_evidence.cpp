@@ -285,16 +285,6 @@ store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
 
 }  // namespace
 
-std::string text_of(const Row& row, const std::string& key) {
-  const auto found = row.find(key);
-  return found != row.end() && found->is_string() ? found->get<std::string>() : std::string{};
-}
-
-double number_of(const Row& row, const std::string& key) {
-  const auto found = row.find(key);
-  return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
-}
-
 double own_value(const StudyEvidence& study, const std::string& key) {
   return key == "load.peak" ? scene::PressureHistory(study.scene.scene.load).stated_peak()
                             : study::number_in(study.scene, key);

@@ -197,17 +197,25 @@ Row told_verdict(const CaseEvidence& judged, std::size_t place) {
   return row;
 }
 
+/// The case with the smallest critical gap; nullptr where none is a value.
+const CaseEvidence* smallest_of(const std::vector<CaseEvidence>& cases) {
+  const CaseEvidence* smallest = nullptr;
+  for (const CaseEvidence& each : cases)
+    if (is_value(*each.critical) &&
+        (smallest == nullptr ||
+         number_of(*each.critical, "critical_gap_cm") < number_of(*smallest->critical, "critical_gap_cm")))
+      smallest = &each;
+  return smallest;
+}
+
 /// What is smallest, and in how many cases there is none.
 Row summary_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
   std::size_t none_safe = 0, unknown = 0;
-  const CaseEvidence* smallest = nullptr;
+  const CaseEvidence* smallest = smallest_of(cases);
   for (const CaseEvidence& each : cases) {
     const std::string kind = text_of(*each.critical, "critical_gap_kind");
     none_safe += kind == "all-ignite";
     unknown += kind != "all-ignite" && kind != "all-safe" && kind != "value";
-    if (kind == "value" && (smallest == nullptr || number_of(*each.critical, "critical_gap_cm") <
-                                                       number_of(*smallest->critical, "critical_gap_cm")))
-      smallest = &each;
   }
   return {{"cases", cases.size()},
           {"sweeps", study.tells == Tells::sweep},
@@ -222,14 +230,13 @@ bool is_own(const StudyEvidence& study, const CaseEvidence& judged) {
   });
 }
 
-/// The case of the scene's own launch, or else the one with the smallest critical gap; nullptr without any.
+/// The case of the scene's own launch, or else the one with the smallest critical gap, or the first; nullptr
+/// without any.
 const CaseEvidence* own_case(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
   const auto own = std::ranges::find_if(cases, [&](const CaseEvidence& each) { return is_own(study, each); });
   if (own != cases.end()) return &*own;
-  const auto smallest = std::ranges::min_element(cases, {}, [](const CaseEvidence& each) {
-    return is_value(*each.critical) ? number_of(*each.critical, "critical_gap_cm") : HUGE_VAL;
-  });
-  return smallest == cases.end() ? nullptr : &*smallest;
+  const CaseEvidence* smallest = smallest_of(cases);
+  return smallest != nullptr || cases.empty() ? smallest : &cases.front();
 }
 
 Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
@@ -315,7 +322,7 @@ void add_limits(const StudyEvidence& main, const std::vector<CaseEvidence>& case
 }
 
 /// A study's own drawing of that name.
-Row drawing_of(const StudyEvidence* study, const std::string& file, SafetyFacts& all) {
+Row drawing_of(const StudyEvidence* study, const std::string& file, PageFacts& all) {
   if (study == nullptr || !study->drawings.contains(file)) return {};
   all.drawings[file] = study->drawings.at(file);
   return {{"file", file}};
@@ -323,7 +330,7 @@ Row drawing_of(const StudyEvidence* study, const std::string& file, SafetyFacts&
 
 /// The maps or curves that a sweep drew, lower bounds first: one for every place on the axes behind the first
 /// two, in the order of the cases.
-Row maps_of(const StudyEvidence& sweep, SafetyFacts& all) {
+Row maps_of(const StudyEvidence& sweep, PageFacts& all) {
   std::vector<std::pair<std::string, std::vector<CaseEvidence>>> places;
   for (CaseEvidence& each : cases_of(sweep)) {
     auto place = std::ranges::find(places, each.others, [](const auto& one) { return one.first; });
@@ -348,7 +355,7 @@ Row maps_of(const StudyEvidence& sweep, SafetyFacts& all) {
 }
 
 /// The case that the report is about in detail.
-void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, SafetyFacts& all) {
+void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts& all) {
   const StudyEvidence& main = evidence.main();
   Row& facts = all.facts["own"];
   facts = told_case(main, own);
@@ -369,12 +376,12 @@ void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, SafetyFact
 
 }  // namespace
 
-SafetyFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
+PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
   const StudyEvidence& main = evidence.main();
   const bool of_launch = main.tells == Tells::launch, of_sweep = main.tells == Tells::sweep;
   const std::vector<CaseEvidence> cases =
       of_launch || of_sweep ? cases_of(main) : std::vector<CaseEvidence>{};
-  SafetyFacts all;
+  PageFacts all;
   Row& facts = all.facts;
   facts["main"] = tables_of(main, main);
   for (const StudyEvidence& study : evidence.studies) facts["studies"].push_back(about(study, main));
@@ -440,3 +447,26 @@ SafetyFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCrit
 }
 
 }  // namespace launchsafe::report::safety
+
+namespace launchsafe::report {
+
+PageTemplates built_in_templates() {
+  PageTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};
+  const auto built_in = texts_in(safety::built_in_texts, "texts");
+  for (const PageText& each : *built_in) templates.texts[each.id] = each.words;
+  return templates;
+}
+
+store::Result<RenderedPage> make_safety_report(const SafetyEvidence& evidence,
+                                               const std::optional<GapCriterion>& criterion,
+                                               const PageTemplates& templates, const DrawingLimits& limits) {
+  const PageFacts facts = safety::facts_of(evidence, criterion);
+  return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
+                     {{"format", "launchsafe safety report 2"},
+                      {"title", evidence.main().title},
+                      {"subject", evidence.main().scene.scene.title},
+                      {"answer", facts.facts["answer"]}},
+                     limits);
+}
+
+}  // namespace launchsafe::report

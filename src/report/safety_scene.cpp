@@ -86,7 +86,7 @@ std::vector<const Row*> shown_gaps(const CaseEvidence& judged) {
 
 }  // namespace
 
-Row scene_facts(const StudyEvidence& study, SafetyFacts& all) {
+Row scene_facts(const StudyEvidence& study, PageFacts& all) {
   const scene::Scene& scene = study.scene.scene;
   const auto& strength = scene.charge().strength;
   Row facts{{"title", scene.title},
@@ -129,7 +129,7 @@ Row scene_facts(const StudyEvidence& study, SafetyFacts& all) {
 }
 
 Row picture_facts(const StudyEvidence& study, const CaseEvidence& judged, const run::MechanicsResult& stored,
-                  SafetyFacts& all) {
+                  PageFacts& all) {
   const auto scene = scene_of(study, judged);
   if (!scene || stored.trace.samples() < 2) return {};
   Row facts = Row::object();

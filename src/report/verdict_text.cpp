@@ -9,6 +9,7 @@
 #include "launchsafe/study/cited_limits.hpp"
 #include "launchsafe/study/statement_text.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
+#include "notes.hpp"
 
 #include <fmt/format.h>
 
@@ -45,48 +46,32 @@ std::string of_input(const study::Evidence& evidence) {
 }
 std::string ring_text(const study::CaseStatements& input) { return input.ring; }
 
-/// Uncertainties that somebody stated by hand, with their sources; empty without any.
-std::string stated_note(const study::Study& study) {
-  std::string text;
-  for (const study::StatedUncertainty& each : study.stated)
-    text += fmt::format("{}{} {} K, because {}", text.empty() ? "Stated by hand: " : "; ", each.key,
-                        significant(each.value, 3), each.because);
-  return text.empty() ? text : text + ".";
+/// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
+/// bodies of their own.
+void add_off_grid(const study::StudyFile& study, Row& facts) {
+  std::size_t count = 0;
+  const auto add = [&](const std::string& label, const scene::Scene& scene) {
+    const std::string edges = scene::charge_edges_off_grid(scene);
+    if (!edges.empty() && count++ == 0) facts["edges"] = label.empty() ? edges : label + ": " + edges;
+  };
+  if (study.study.axes.empty()) {
+    add("", study.scene.scene);
+  } else {
+    for (const study::StudyCase& each : study.cases) add(each.label, each.scene.scene);
+    facts["of_cases"] = study.cases.size();
+  }
+  facts["count"] = count;
 }
 
 /// What nobody accepts, as a file would say it; the first where many cases have values of their own.
-std::string acceptance_note(const study::StudyFile& study) {
+void add_not_accepted(const study::StudyFile& study, Row& facts) {
   constexpr std::size_t most_entries = 12;
   std::vector<scene::Implausible> missing = study::acceptances_of(study).missing;
-  const std::size_t count = missing.size();
-  missing.resize(std::min(count, most_entries));
-  if (missing.empty()) return {};
-  return fmt::format(
-      "No verdict but UNSAFE rests on what nobody accepts{}. Who takes responsibility writes, with reasons "
-      "in "
-      "words:\n{}",
-      count > most_entries ? fmt::format(" ({} values, the first of which are)", count) : "",
-      scene::acceptances_to_write(missing));
-}
-
-/// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
-/// bodies of their own.
-std::string off_grid_note(const study::StudyFile& study) {
-  constexpr const char* meaning = "calibrated constants do not carry over from a grid that fits.";
-  if (study.study.axes.empty()) {
-    const std::string edges = scene::charge_edges_off_grid(study.scene.scene);
-    return edges.empty() ? "" : fmt::format("The charge lies off the grid lines ({}): {}", edges, meaning);
-  }
-  std::size_t count = 0;
-  std::string first;
-  for (const study::StudyCase& each : study.cases) {
-    const std::string edges = scene::charge_edges_off_grid(each.scene.scene);
-    if (edges.empty()) continue;
-    if (count++ == 0) first = each.label.empty() ? edges : each.label + ": " + edges;
-  }
-  if (count == 0) return {};
-  return fmt::format("The charge lies off the grid lines in {} of {} cases ({}{}): {}", count,
-                     study.cases.size(), count > 1 ? "the first is " : "", first, meaning);
+  if (missing.empty()) return;
+  facts["missing_count"] = missing.size();
+  facts["missing_more"] = missing.size() > most_entries;
+  missing.resize(std::min(missing.size(), most_entries));
+  facts["missing"] = "\n" + scene::acceptances_to_write(missing);
 }
 
 /// A cited limit beside the case that stands nearest to it, if there is one.
@@ -244,24 +229,27 @@ Quantities<study::CriticalGap> bounded_gap_quantities() {
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
-  std::vector<std::string> notes;
-  if (const auto numerical = study::numerical_uncertainty_of(study); numerical.assumed)
-    notes.push_back(fmt::format("The uncertainty includes up to {} K for mesh, step and scaling, {}.",
-                                significant(numerical.largest, 3), numerical.source));
-  if (std::string note = stated_note(study.study); !note.empty()) notes.push_back(std::move(note));
-  if (std::string note = off_grid_note(study); !note.empty()) notes.push_back(std::move(note));
-  if (std::string note = acceptance_note(study); !note.empty()) notes.push_back(std::move(note));
-  return notes;
+  const auto numerical = study::numerical_uncertainty_of(study);
+  Row facts{{"assumed", numerical.assumed}, {"largest_K", numerical.largest}, {"source", numerical.source}};
+  for (const study::StatedUncertainty& each : study.study.stated)
+    facts["stated"].push_back({{"first", facts["stated"].empty()},
+                               {"key", each.key},
+                               {"K", each.value},
+                               {"because", each.because}});
+  add_off_grid(study, facts);
+  add_not_accepted(study, facts);
+  return noted("mesh", facts);
 }
 
 std::string station_note(const study::StudyFile& study) {
   const scene::Surface& surface = study.scene.scene.surface;
-  const std::size_t count = scene::stations_of(study.scene.scene).size();
-  return fmt::format(
-      "Temperatures are those of the hottest of {} stations that tile the charge's bottom, S1 at the wall, "
-      "each {} deep; station.width {}.",
-      count, in_words(surface.station_depth, keys::significant(4, millimetre)),
-      in_words(surface.station_width, keys::significant(4, millimetre)));
+  const auto millimetres = [](double length) {
+    return shown_value(length, keys::significant(4, millimetre));
+  };
+  return noted("stations", {{"stations", scene::stations_of(study.scene.scene).size()},
+                            {"depth_mm", millimetres(surface.station_depth)},
+                            {"width_mm", millimetres(surface.station_width)}})
+      .front();
 }
 
 double value_of(const study::CriticalGap& gap) {
@@ -302,40 +290,21 @@ Table cited_limit_table(const study::StudyFile& study,
     if (nearest) rows.back() = {rows.back().comparison, study.cases[*nearest], critical[*nearest]};
   }
   Table table = table_of("Cited limits of the gap", limit_quantities(), rows);
-  table.notes.push_back(fmt::format(
-      "Beside each limit stands the case with the nearest peak pressure; for one without a pressure, that of "
-      "the study's scene. The difference is given where the pressures agree within {}.",
-      in_words(study::pressure_slack, keys::significant(6, percent))));
-  table.notes.emplace_back(
-      "Whether the pressure of a cited limit is that at the breech, at the base or under the charge is not "
-      "known.");
-  if (chosen)
-    table.notes.emplace_back(
-        "Of several cases at that pressure it is the one with the smallest critical gap.");
+  table.notes = noted("cited_limits",
+                      {{"slack_percent", shown_value(study::pressure_slack, keys::significant(6, percent))},
+                       {"chosen", chosen}});
   return table;
 }
 
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
-  std::string text = fmt::format(
-      "The friction closure is \"{}\" with a localisation of {}, and the exchange time is {}. These two "
-      "and the ignition temperature ({}) are calibrated on published rows, as are the shape of the load "
-      "and the choice of the model (see `studies/calibrate_table8.toml` and "
-      "`studies/model_form/README.md`), so the critical gap of the calibration's own load and defect is a "
-      "fit, not a prediction. What it is computed for is how it moves with pressure, defect, load shape and "
-      "design. That closed crack faces rub is no part of the published text: without it the charge of the "
-      "155 mm shell ignites without a gap from cracks of 30 or 100 um, at a coefficient of 0.02 from those "
-      "of 100 um, and from none at 0.05 and above, where defects change T max by some kelvin "
-      "(`studies/defects.toml`).\n",
-      study::to_string(scene.surface.friction), significant(scene.surface.localisation, 6),
-      milliseconds(scene.surface.exchange_time),
-      in_words(scene.charge().kinetics.ignition_temperature, keys::significant(6, kelvin)));
-  std::string varied;
-  for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"}) {
-    if (varies(study.study, key)) varied += fmt::format("{}`{}`", varied.empty() ? "" : ", ", key);
-  }
-  if (!varied.empty()) text += fmt::format("The study varies {} around these.\n", varied);
-  return text;
+  Row facts{{"closure", study::to_string(scene.surface.friction)},
+            {"localisation", scene.surface.localisation},
+            {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time().form)},
+            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature}};
+  for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
+    if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
+  return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
 }
 
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
@@ -354,30 +323,18 @@ Table gap_share_table(const std::vector<NamedGap>& cases) {
   for (const NamedGap& each : cases)
     for (const study::GapShare& share : each.gap->shares) rows.push_back({&each, &share});
   Table table = table_of("What makes the critical gap uncertain", share_quantities(), rows);
-  if (!table.rows.empty())
-    table.notes.push_back(fmt::format(
-        "Every cause is put to the ends of its range by itself, and the critical gap is searched anew. "
-        "Random "
-        "causes, raised by {:g} standard deviations, are combined as the root of the sum of squares; what is "
-        "not known better stands at its worst end, and is added. The bounds follow.",
-        study::coverage_factor));
+  table.notes = noted("gap_shares", {{"coverage", study::coverage_factor}});
   return table;
 }
 
 std::string uncertainty_remark(const study::StudyFile& study) {
   const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(study);
-  return fmt::format(
-      "A verdict is judged in gap: SAFE is a gap below the lower bound of the critical gap. Kelvins are told "
-      "besides, and decide where nothing ignites up to the end of the search; one that is infinite says that "
-      "the gap ignites at that end of the range. They are the sum of four shares. Of the computation: the "
-      "sum "
-      "of the trace's sampling error, the "
-      "integration error, where confirmed the largest difference between traced temperatures and coupled "
-      "runs, where the charge slides on the base what the temperatures leave out of that (the heat of "
-      "friction, and the gap's growth where the base opens), and {} K for mesh, step and scaling, {}. Of the "
-      "fit: {} Of the inputs: {} Of the model form: {}",
-      significant(numerical.largest, 3), numerical.source, study::fit_uncertainty_text(study.study),
-      study::input_uncertainty_text(study.study), study::model_form_uncertainty_text(study));
+  return noted("uncertainty", {{"largest_K", numerical.largest},
+                               {"source", numerical.source},
+                               {"fit", study::fit_uncertainty_text(study.study)},
+                               {"inputs", study::input_uncertainty_text(study.study)},
+                               {"model_form", study::model_form_uncertainty_text(study)}})
+      .front();
 }
 
 std::string used_for(const study::Reference& published) {

@@ -380,7 +380,7 @@ TEST_F(SafetyReport, AStudyThatIsNotFinishedHasNoAnswer) {
 
 TEST_F(SafetyReport, TemplatesOfALabReplaceWhatTheyHave) {
   write(folder() / "texts.mustache", "@@ a remark\n@section.answer\nDie Antwort\n@column.verdict\nUrteil\n");
-  const auto templates = read_templates(folder());
+  const auto templates = read_templates(folder(), built_in_templates());
   ASSERT_TRUE(templates);
   const auto evidence = read_safety_evidence({shipped("critical_gap_155mm")});
   ASSERT_TRUE(evidence);
@@ -393,12 +393,12 @@ TEST_F(SafetyReport, TemplatesOfALabReplaceWhatTheyHave) {
 }
 
 TEST_F(SafetyReport, TemplatesThatAreNoneAreRefused) {
-  EXPECT_FALSE(read_templates(folder()));
+  EXPECT_FALSE(read_templates(folder(), built_in_templates()));
   write(folder() / "report.html.mustache", "{{#open}} never closed");
-  EXPECT_FALSE(read_templates(folder()));
+  EXPECT_FALSE(read_templates(folder(), built_in_templates()));
   std::filesystem::remove(folder() / "report.html.mustache");
   write(folder() / "texts.mustache", "no name\n");
-  const auto nameless = read_templates(folder());
+  const auto nameless = read_templates(folder(), built_in_templates());
   ASSERT_FALSE(nameless);
   EXPECT_TRUE(has(nameless.error().message, "before the first name")) << nameless.error().message;
 }

@@ -21,11 +21,10 @@ struct JudgedGap {
 
 /// Conditions that a gap must meet besides the verdict SAFE.
 struct GapCriterion {
-  enum class Of { margin, distance };
   struct Condition {
-    Of of = Of::margin;
-    double least = 0;  ///< times the uncertainty; or K, cm
-    bool times_uncertainty = false;
+    double JudgedGap::*of;
+    double JudgedGap::*unit = nullptr;  ///< an uncertainty; null: K, cm
+    double least = 1.0;                 ///< in that unit
   };
   std::string text;    ///< as the user wrote it, on one line
   std::string source;  ///< who asks for it, likewise

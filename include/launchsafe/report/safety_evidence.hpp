@@ -1,13 +1,12 @@
 // What a safety report rests on: the folders that studies left, read and checked.
 #pragma once
 
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/record_domain.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <map>
@@ -16,13 +15,6 @@
 #include <vector>
 
 namespace launchsafe::report {
-
-/// A row of a table of study.json, or another object of it.
-using Row = nlohmann::ordered_json;
-
-/// A member of a row that is a text, or a number; "", NaN where it is none.
-std::string text_of(const Row& row, const std::string& key);
-double number_of(const Row& row, const std::string& key);
 
 /// What a finished study tells, by the tables that it has: verdicts of one launch or of a few cases, verdicts
 /// over axes with several values, ...

@@ -1,7 +1,6 @@
-#include "safety_texts.hpp"
+#include "launchsafe/report/page_texts.hpp"
 
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +17,6 @@
 #include <utility>
 
 namespace launchsafe::report {
-namespace safety {
 namespace {
 
 namespace mustache = kainjow::mustache;
@@ -37,7 +35,7 @@ std::vector<std::string> split_at(std::string_view line, std::string_view separa
 }
 
 /// "item of main.accepted from {{main.label}} / accepted"
-void read_place(const std::string& line, Text& text) {
+void read_place(const std::string& line, PageText& text) {
   const std::vector<std::string> parts = split_at(line, " from ");
   if (parts.size() > 1) text.from = split_at(parts[1], " / ");
   const std::vector<std::string> words = split_at(parts.front(), " of ");
@@ -59,19 +57,20 @@ TextColumn column_in(const std::string& line) {
 /// the safe side by so many decimals, "uncertain" up to two digits; "percent 3" of a share; "short" two
 /// digits, or all before the point.
 std::string digits_of(double value, const std::string& form, int digits) {
-  if (form == "fixed") return fixed(value, digits);
-  if (form == "sci") return scientific(value, digits);
+  if (form == "fixed") return report::fixed(value, digits);
+  if (form == "sci") return report::scientific(value, digits);
   if (form == "down") return allowed_text(value, digits);
-  if (form == "up") return fixed(rounded_up(value, digits), digits);
+  if (form == "up") return report::fixed(rounded_up(value, digits), digits);
   if (form == "uncertain") return uncertain_text(value);
-  if (form == "percent") return significant(100.0 * value, digits) + " %";
-  if (form == "short") return value < 10.0 ? significant(value, 2) : fixed(value, 0);
-  return significant(value, digits);
+  if (form == "percent") return report::significant(100.0 * value, digits) + " %";
+  if (form == "short") return value < 10.0 ? report::significant(value, 2) : report::fixed(value, 0);
+  return report::significant(value, digits);
 }
 
 /// Facts by name, those that were pushed last first; behind a bar in a form: "margin_K|down 1", where the
-/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger; of a text
-/// "words" has blanks between them and "first 12" is its beginning; of a list "list 4" are its first texts,
+/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger, "is 1"
+/// where a number or a word is that one, and "counted case" is "2 cases"; of a text "words" has blanks
+/// between them and "first 12" is its beginning; of a list "list 4" are its first texts, "and" all of them,
 /// "some" is there where it has any, and "count verdict SAFE" is how many rows have that there.
 class Facts : public mustache::basic_context<std::string> {
  public:
@@ -108,18 +107,27 @@ class Facts : public mustache::basic_context<std::string> {
     if (form == "count") {
       made = std::ranges::count_if(fact,
                                    [&](const Row& row) { return fact_text(found_in(row, digits)) == value; });
-    } else if (form == "list") {
+    } else if (form == "list" || form == "and") {
       std::vector<std::string> texts;
       for (const Row& each : fact) texts.push_back(fact_text(each));
       if (number > 0 && texts.size() > static_cast<std::size_t>(number)) {
         texts.resize(static_cast<std::size_t>(number));
         texts.push_back(fmt::format("and {} more", fact.size() - texts.size()));
       }
+      if (form == "and" && texts.size() > 1) {
+        const std::string last = texts.back();
+        texts.pop_back();
+        texts.back() += " and " + last;
+      }
       made = fmt::format("{}", fmt::join(texts, ", "));
     } else if (form == "words") {
       std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
     } else if (form == "first") {
       made = made.get<std::string>().substr(0, static_cast<std::size_t>(number));
+    } else if (form == "counted") {
+      made = counted(fact.get<std::int64_t>(), digits + (value.empty() ? "" : " " + value));
+    } else if (form == "is") {
+      made = fact_text(fact) == digits;
     } else if (form == "some") {
       made = !fact.empty();
     } else if (form == "over") {
@@ -158,8 +166,8 @@ class Facts : public mustache::basic_context<std::string> {
 
 }  // namespace
 
-store::Result<std::vector<Text>> texts_in(const std::string& file, const std::string& name) {
-  std::vector<Text> texts;
+store::Result<std::vector<PageText>> texts_in(const std::string& file, const std::string& name) {
+  std::vector<PageText> texts;
   std::istringstream lines(file);
   for (std::string line; std::getline(lines, line);) {
     if (line.ends_with('\r')) line.pop_back();
@@ -178,11 +186,21 @@ store::Result<std::vector<Text>> texts_in(const std::string& file, const std::st
     else
       texts.back().words += (texts.back().words.empty() ? "" : " ") + line;
   }
-  for (const Text& text : texts)
+  for (const PageText& text : texts)
     if (const mustache::mustache parsed(text.words); !parsed.is_valid())
       return no_template(
           fmt::format("{}: the text {} is no template: {}", name, text.id, parsed.error_message()));
   return texts;
+}
+
+std::string text_of(const Row& row, const std::string& key) {
+  const auto found = row.find(key);
+  return found != row.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+double number_of(const Row& row, const std::string& key) {
+  const auto found = row.find(key);
+  return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
 }
 
 std::string fact_text(const Row& fact) {
@@ -215,17 +233,47 @@ std::string filled(const std::string& text, std::vector<const Row*> facts) {
   return made ? *made : std::string{};
 }
 
-}  // namespace safety
-
-SafetyTemplates built_in_templates() {
-  SafetyTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};
-  const auto built_in = safety::texts_in(safety::built_in_texts, "texts");
-  for (const safety::Text& each : *built_in) templates.texts[each.id] = each.words;
-  return templates;
+std::vector<const Row*> selected(const PageText& text, const Row& facts) {
+  if (text.of.empty()) return {&facts};
+  std::istringstream words(text.of);
+  std::string name, rule, key, value;
+  words >> name;
+  const Row& found = found_in(facts, name);
+  std::vector<const Row*> rows;
+  if (found.is_array())
+    for (const Row& each : found) rows.push_back(&each);
+  else if (!found.empty() && found != false && found != "")
+    rows.push_back(&found);
+  while (words >> rule >> key) {
+    const auto number = [&key](const Row* row) { return number_of(*row, key); };
+    if (rule == "first") {
+      rows.resize(std::min<std::size_t>(rows.size(), std::stoul(key)));
+    } else if (rule == "largest" || rule == "smallest") {
+      std::erase_if(rows, [&](const Row* row) { return std::isnan(number(row)); });
+      if (rows.empty()) return rows;
+      rows = {rule == "largest" ? *std::ranges::max_element(rows, {}, number)
+                                : *std::ranges::min_element(rows, {}, number)};
+    } else if (words >> value) {  // where, except
+      const std::string wanted = filled(value, {&facts});
+      std::erase_if(rows, [&](const Row* row) {
+        return (fact_text(found_in(*row, key)) == wanted) != (rule == "where");
+      });
+    }
+  }
+  return rows;
 }
 
-store::Result<SafetyTemplates> read_templates(const std::filesystem::path& folder) {
-  SafetyTemplates templates = built_in_templates();
+std::vector<std::string> said(const std::vector<PageText>& texts, const std::string& name, const Row& facts) {
+  std::vector<std::string> all;
+  for (const PageText& text : texts) {
+    if (text.id != name && !text.id.starts_with(name + ".")) continue;
+    for (const Row* each : selected(text, facts)) all.push_back(filled(text.words, {&facts, each}));
+  }
+  std::erase(all, "");
+  return all;
+}
+
+store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates templates) {
   const std::pair<const char*, std::string*> pages[] = {{"report.html.mustache", &templates.html},
                                                         {"report.md.mustache", &templates.markdown},
                                                         {"texts.mustache", nullptr}};
@@ -240,14 +288,13 @@ store::Result<SafetyTemplates> read_templates(const std::filesystem::path& folde
     ++found;
     if (page != nullptr) {
       if (const kainjow::mustache::mustache parsed(*file); !parsed.is_valid())
-        return safety::no_template(
-            fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
+        return no_template(fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
       *page = std::move(*file);
       continue;
     }
-    auto texts = safety::texts_in(*file, path.string());
+    auto texts = texts_in(*file, path.string());
     if (!texts) return texts.error();
-    for (safety::Text& each : *texts) templates.texts[each.id] = std::move(each.words);
+    for (PageText& each : *texts) templates.texts[each.id] = std::move(each.words);
   }
   if (found > 0) return templates;
   return store::Error{store::Error::Kind::missing,

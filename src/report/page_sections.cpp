@@ -1,6 +1,4 @@
-#include "launchsafe/report/safety_report.hpp"
-#include "safety_facts.hpp"
-#include "safety_texts.hpp"
+#include "launchsafe/report/page_sections.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +14,6 @@ namespace launchsafe::report {
 namespace {
 
 using kainjow::mustache::html_escape;
-using safety::found_in, safety::Text;
 
 std::string base64(const std::string& bytes) {
   std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
@@ -42,7 +39,7 @@ std::string with_alternative(std::string svg, const std::string& title, const st
   return svg.insert(end, " role=\"img\"");
 }
 
-store::Result<std::string> drawn(const safety::Drawing& drawing, const DrawingLimits& limits) {
+store::Result<std::string> drawn(const Drawing& drawing, const DrawingLimits& limits) {
   if (const auto* plot = std::get_if<Plot>(&drawing)) return to_svg(*plot, "gnuplot", limits);
   if (const auto* cells = std::get_if<CellPlot>(&drawing)) return to_svg(*cells, "gnuplot", limits);
   return std::get<std::string>(drawing);
@@ -51,20 +48,19 @@ store::Result<std::string> drawn(const safety::Drawing& drawing, const DrawingLi
 /// The sections with their blocks, as programs read them and templates of pages do.
 class Sections {
  public:
-  Sections(const safety::SafetyFacts& all, const std::map<std::string, std::string>& texts,
-           const DrawingLimits& limits)
+  Sections(const std::vector<PageText>& order, const PageFacts& all,
+           const std::map<std::string, std::string>& texts, const DrawingLimits& limits)
       : all_(all), texts_(texts), limits_(limits) {
-    const auto built_in = safety::texts_in(safety::built_in_texts, "texts");
-    for (const Text& text : *built_in)
+    for (const PageText& text : order)
       if (text.look == "section")
         sections.push_back({{"id", text.id.substr(text.id.find('.') + 1)},
                             {"number", sections.size() + 1},
                             {"heading", words(text.id)},
                             {"blocks", Row::array()}});
       else if (text.look == "table")
-        add_table(text, selected(text));
+        add_table(text, selected(text, all_.facts));
       else if (!text.look.empty())
-        for (const Row* each : selected(text)) add(text, *each);
+        for (const Row* each : selected(text, all_.facts)) add(text, *each);
   }
 
   Row sections = Row::array();
@@ -81,47 +77,15 @@ class Sections {
 
  private:
   std::string fill(const std::string& text, const Row& facts) const {
-    return safety::filled(text, {&all_.facts, &facts});
+    return filled(text, {&all_.facts, &facts});
   }
   /// The text of that name, or the word itself.
   std::string word(const std::string& id, const std::string& otherwise) const {
     return texts_.contains(id) ? words(id) : otherwise;
   }
 
-  /// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
-  /// nothing; facts that are false or empty have nothing to say.
-  std::vector<const Row*> selected(const Text& text) const {
-    if (text.of.empty()) return {&all_.facts};
-    std::istringstream words(text.of);
-    std::string name, rule, key, value;
-    words >> name;
-    const Row& facts = found_in(all_.facts, name);
-    std::vector<const Row*> rows;
-    if (facts.is_array())
-      for (const Row& each : facts) rows.push_back(&each);
-    else if (!facts.empty() && facts != false && facts != "")
-      rows.push_back(&facts);
-    while (words >> rule >> key) {
-      const auto number = [&key](const Row* row) { return number_of(*row, key); };
-      if (rule == "first") {
-        rows.resize(std::min<std::size_t>(rows.size(), std::stoul(key)));
-      } else if (rule == "largest" || rule == "smallest") {
-        std::erase_if(rows, [&](const Row* row) { return std::isnan(number(row)); });
-        if (rows.empty()) return rows;
-        rows = {rule == "largest" ? *std::ranges::max_element(rows, {}, number)
-                                  : *std::ranges::min_element(rows, {}, number)};
-      } else if (words >> value) {  // where, except
-        const std::string wanted = fill(value, {});
-        std::erase_if(rows, [&](const Row* row) {
-          return (safety::fact_text(found_in(*row, key)) == wanted) != (rule == "where");
-        });
-      }
-    }
-    return rows;
-  }
-
   /// A block with where it comes from, for people one text.
-  void put(const Text& text, const char* kind, const Row& facts, Row block) {
+  void put(const PageText& text, const char* kind, const Row& facts, Row block) {
     std::vector<std::string> parts;
     for (const std::string& each : text.from) parts.push_back(fill(each, facts));
     parts.resize(3);
@@ -141,7 +105,7 @@ class Sections {
     sections.back()["blocks"].push_back(std::move(block));
   }
 
-  void add(const Text& text, const Row& facts) {
+  void add(const PageText& text, const Row& facts) {
     if (text.look == "figure") return add_figure(text, facts);
     std::string said = words(text.id, facts);
     // A line break would end the block of code.
@@ -150,16 +114,16 @@ class Sections {
   }
 
   /// Of a table without columns all that its rows have. Pages leave a column out that is empty.
-  void add_table(const Text& text, const std::vector<const Row*>& rows) {
+  void add_table(const PageText& text, const std::vector<const Row*>& rows) {
     if (rows.empty()) return;
-    std::vector<safety::TextColumn> columns = text.columns;
+    std::vector<TextColumn> columns = text.columns;
     if (columns.empty())
       for (const auto& [key, value] : rows.front()->items())
         columns.push_back({key, fill("{{key|words}}", {{"key", key}}), "{{" + key + "|sig 5}}"});
     Row block{{"heading", words(text.id)},
               {"columns", Row::array()},
               {"rows", Row(rows.size(), {{"cells", Row::array()}})}};
-    for (const safety::TextColumn& column : columns) {
+    for (const TextColumn& column : columns) {
       const std::string heading = word("column." + column.key, column.heading);
       std::vector<std::string> cells;
       bool is_number = false;
@@ -185,10 +149,10 @@ class Sections {
   }
 
   /// After the first figure that gnuplot does not draw none is tried.
-  void add_figure(const Text& text, const Row& facts) {
+  void add_figure(const PageText& text, const Row& facts) {
     const std::string file = text_of(facts, "file"), caption = words(text.id, facts),
                       alternative = words("alternative." + text.id.substr(text.id.find('.') + 1), facts);
-    const safety::Drawing& drawing = all_.drawings.at(file);
+    const Drawing& drawing = all_.drawings.at(file);
     std::string svg;
     if (remarks.empty() || std::holds_alternative<std::string>(drawing)) {
       auto made = drawn(drawing, limits_);
@@ -205,7 +169,7 @@ class Sections {
     if (!svg.empty()) figures.push_back({file, std::move(svg)});
   }
 
-  const safety::SafetyFacts& all_;
+  const PageFacts& all_;
   const std::map<std::string, std::string>& texts_;
   const DrawingLimits& limits_;
   std::set<std::string> studies_;  ///< labels of those that something comes from
@@ -236,26 +200,20 @@ std::vector<std::string> figures_of(const std::string& report_json) {
   return files;
 }
 
-store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
-                                                 const std::optional<GapCriterion>& criterion,
-                                                 const SafetyTemplates& templates,
-                                                 const DrawingLimits& limits) {
-  const safety::SafetyFacts facts = safety::facts_of(evidence, criterion);
-  Sections made(facts, templates.texts, limits);
-  Row page{{"format", "launchsafe safety report 2"},
-           {"language", made.words("language")},
-           {"report", made.words("report")},
-           {"title", evidence.main().title},
-           {"subject", evidence.main().scene.scene.title},
-           {"made_of", made.made_of()},
-           {"answer", facts.facts["answer"]},
-           {"sections", std::move(made.sections)}};
-  RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
-                        std::move(made.remarks)};
+store::Result<RenderedPage> render_page(const std::vector<PageText>& order, const PageFacts& all,
+                                        const PageTemplates& templates, const Row& head,
+                                        const DrawingLimits& limits) {
+  Sections made(order, all, templates.texts, limits);
+  Row page{{"format", head["format"]},       {"language", made.words("language")},
+           {"report", made.words("report")}, {"title", head["title"]},
+           {"subject", head["subject"]},     {"made_of", made.made_of()},
+           {"answer", head["answer"]},       {"sections", std::move(made.sections)}};
+  RenderedPage report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
+                      std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);
-  auto html = safety::filled(templates.html, {&page}, html_escape<std::string>);
+  auto html = filled(templates.html, {&page}, html_escape<std::string>);
   if (!html) return html.error();
-  auto markdown = safety::filled(templates.markdown, {&page}, markdown_escaped);
+  auto markdown = filled(templates.markdown, {&page}, markdown_escaped);
   if (!markdown) return markdown.error();
   // What a template leaves of its tags are empty lines.
   for (std::size_t at = 0; (at = markdown->find("\n\n\n", at)) != std::string::npos;) markdown->erase(at, 1);

@@ -1,0 +1,72 @@
+// The texts of a page under their names, and how they are filled with facts: rows as JSON, and what was
+// selected from them. What is said, where and in which digits stands in templates, not in C++.
+#pragma once
+
+#include "launchsafe/store/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace launchsafe::report {
+
+/// A row of a table of study.json, or another object of it.
+using Row = nlohmann::ordered_json;
+
+/// A member of a row that is a text, or a number; "", NaN where it is none.
+std::string text_of(const Row& row, const std::string& key);
+double number_of(const Row& row, const std::string& key);
+
+/// What stands under a dotted name; null where nothing does.
+const Row& found_in(const Row& facts, const std::string& name);
+
+/// A text, a number as its shortest text, or "true"; empty for anything else.
+std::string fact_text(const Row& fact);
+
+/// A column of a table: a text over the row.
+struct TextColumn {
+  std::string key, heading, cell;
+};
+
+/// A text with its name and, of what a page says by itself, its place in the page.
+struct PageText {
+  std::string id;
+  std::string look = {};               ///< "lead", "plain", "item", "code", "section", "table", "figure"
+  std::string of = {};                 ///< the facts that fill it, once for each of a list
+  std::vector<std::string> from = {};  ///< study, table, setting: where its facts come from, texts themselves
+  std::vector<TextColumn> columns = {};
+  std::string words = {};
+};
+
+/// The texts of a file in their order. Errors: corrupt (words before the first name, or tags that do not fit
+/// together).
+store::Result<std::vector<PageText>> texts_in(const std::string& file, const std::string& name);
+
+/// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
+/// nothing; facts that are false or empty have nothing to say.
+std::vector<const Row*> selected(const PageText& text, const Row& facts);
+
+/// A template filled with facts, the inner ones last. Errors: corrupt.
+store::Result<std::string> filled(const std::string& text, std::vector<const Row*> facts,
+                                  std::string (*escape)(const std::string&));
+/// Of a text that was read: nothing is escaped.
+std::string filled(const std::string& text, std::vector<const Row*> facts);
+
+/// What the texts under a name say, "answer" those of "answer.value" too: in their order, each once for
+/// everything that it is said of; empty ones are left out.
+std::vector<std::string> said(const std::vector<PageText>& texts, const std::string& name, const Row& facts);
+
+/// Mustache templates of the pages, and the texts by their names, each a template too.
+struct PageTemplates {
+  std::string html, markdown;
+  std::map<std::string, std::string> texts;
+};
+
+/// Those in a folder; what is not there, files or single texts, stays as it is built in. Errors: missing
+/// (none of the files is there), corrupt (no template: tags that do not fit together, a text without a name).
+store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates built_in);
+
+}  // namespace launchsafe::report
