@@ -109,8 +109,10 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   text += line("particles", fmt::format("{}", mechanics.particles));
   text += line("steps", fmt::format("{}", mechanics.steps));
   text += line("wall time", report::duration(mechanics.wall_time));
-  text += line("update rate",
-               fmt::format("{:.2f} million particle updates per second", mechanics.update_rate() / 1e6));
+  if (!(mechanics.processor_time > 0)) return text;
+  text += line("processor time", report::duration(mechanics.processor_time));
+  text += line("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
+                                          mechanics.particle_updates() / mechanics.processor_time / 1e6));
   return text;
 }
 
@@ -275,6 +277,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
   object["timing"] = {{"particles", mechanics.particles},
                       {"steps", mechanics.steps},
                       {"wall_time_s", mechanics.wall_time},
+                      {"processor_time_s", mechanics.processor_time},
                       {"updates_per_second", mechanics.update_rate()}};
   return object;
 }

@@ -1,6 +1,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
 #include "launchsafe/study/answer_cases.hpp"
+#include "sensitivity_chaos.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,8 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
 }
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return evaluation % (inputs_of(study).size() + 2) < 2;
+  return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos ||
+         evaluation % (inputs_of(study).size() + 2) < 2;
 }
 
 namespace {
@@ -67,6 +69,7 @@ void summarise(const Study& study, OutputSensitivity& output) {
 
 void estimate(const Study& study, OutputSensitivity& output) {
   const SensitivitySettings& own = sensitivity_settings(study);
+  if (own.method == SensitivityMethod::polynomial_chaos) return estimate_by_chaos(study, output);
   math::SobolOptions options;
   options.level = own.confidence;
   options.resamples = static_cast<std::size_t>(own.resamples);

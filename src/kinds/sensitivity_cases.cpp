@@ -2,6 +2,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/study_cases.hpp"
+#include "sensitivity_chaos.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
 #include "vary.hpp"
@@ -31,10 +32,12 @@ scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension d
 
 std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   return {
-      // There is one method; study files may name it.
-      {{.name = "method", .kind = scene::KeyKind::word, .words = {"sobol"}, .sentence = "Indices of Sobol."},
-       [](SensitivitySettings&, const scene::Value&) {},
-       [](const SensitivitySettings&) { return scene::Value(std::string("sobol")); }},
+      scene::word_key<SensitivitySettings, SensitivityMethod>(
+          "method", scene::Standing::assumed,
+          "Sobol's indices by differences, or of a polynomial that is fitted to fewer runs and held against "
+          "others.",
+          {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
+          &SensitivitySettings::method),
       sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
                          "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
       sensitivity_number("resamples", Dimension::count, scene::between(100, 1e6),
@@ -48,9 +51,13 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
            {"latin-hypercube", math::Design::latin_hypercube},
            {"monte-carlo", math::Design::monte_carlo}},
           &SensitivitySettings::design),
-      sensitivity_number("samples", Dimension::count, scene::between(2, 1e6),
-                         "Samples N of the inputs, each (inputs + 2) mechanical runs.",
-                         &SensitivitySettings::samples),
+      sensitivity_number(
+          "samples", Dimension::count, scene::between(2, 1e6),
+          "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
+          &SensitivitySettings::samples),
+      sensitivity_number("held_out", Dimension::count, scene::between(10, 1e6),
+                         "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
+                         &SensitivitySettings::held_out),
   };
 }
 
@@ -130,6 +137,28 @@ Fault make_saltelli(StudyFile& study) {
       });
 }
 
+/// The samples that a polynomial is fitted to, and those that it is held against.
+Fault make_chaos_samples(StudyFile& study) {
+  const Study& s = study.study;
+  const SensitivitySettings& own = sensitivity_settings(s);
+  const auto fitted = static_cast<std::size_t>(own.samples),
+             all = fitted + static_cast<std::size_t>(own.held_out);
+  if (Fault fault = check_count(study, "samples", static_cast<double>(all),
+                                fmt::format("{} samples and {} held out", own.samples, own.held_out)))
+    return fault;
+  const std::vector<double> points = chaos_points(s);
+  const auto coordinates = [&](std::size_t evaluation) {
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(evaluation * s.axes.size());
+    return coordinates_of(s, {begin, begin + static_cast<std::ptrdiff_t>(s.axes.size())});
+  };
+  for (std::size_t evaluation = 0; evaluation < all; ++evaluation)
+    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
+  return add_varied_cases(study, all, coordinates, [&](std::size_t evaluation, const StudyCase&) {
+    return evaluation < fitted ? fmt::format("sample {}", evaluation + 1)
+                               : fmt::format("held out {}", evaluation - fitted + 1);
+  });
+}
+
 Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
   const std::vector<double>& gaps = study.study.gaps;
   if (gaps.size() != 1) {
@@ -137,7 +166,8 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
     return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
                     fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
-  return make_saltelli(study);
+  return sensitivity_settings(study.study).method == SensitivityMethod::sobol ? make_saltelli(study)
+                                                                              : make_chaos_samples(study);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::string text_of(math::Design design) {
 /// How indices are found.
 Row method_facts(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
-  return {{"name", "sobol"},
+  return {{"name", own.method == SensitivityMethod::sobol ? "sobol" : "polynomial-chaos"},
           {"text", ""},
           {"N", own.samples},
           {"evaluations", result.answers.size()},
@@ -84,7 +84,9 @@ std::string estimate_text(const math::Estimate& estimate) {
 std::string method_text(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
   Row facts = method_facts(result);
-  facts.update({{"design", text_of(own.design)},
+  facts.update({{"is_fit", own.method == SensitivityMethod::polynomial_chaos},
+                {"held_out", own.held_out},
+                {"design", text_of(own.design)},
                 {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
                 {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
                 {"correlated", own.correlated.has_value()}});
@@ -165,6 +167,10 @@ std::vector<std::string> failed_text(const SensitivityResult& result) {
                                      {"failures", failures_list({}, result.study, result.answers)}});
 }
 
+bool has_fit(const SensitivityResult& result) {
+  return sensitivity_settings(result.study.study).method == SensitivityMethod::polynomial_chaos;
+}
+
 std::string picture_name(const OutputSensitivity& output) {
   return "sensitivity_" + shown_output(output.output).column.name + ".svg";
 }
@@ -191,7 +197,8 @@ Report report_of(const SensitivityResult& result) {
   Report report{result.study.study.title, answer(result), remaking_command(result.study)};
   report.items.push_back(
       ReportTable{sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
-  report.items.push_back(ReportTable{output_table(result), "", "outputs", Shown::file});
+  report.items.push_back(ReportTable{output_table(result), "", "outputs",
+                                     has_fit(result) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     if (output.reason.empty())

@@ -3,6 +3,7 @@
 #include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "sensitivity_chaos.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
@@ -184,6 +185,11 @@ std::string samples_text(const SensitivityResult& result) {
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
+    if (gap->fit && gap->reason.empty()) {
+      const PredictedIgnitions of =
+          predicted_ignitions(result.study.study, *gap->fit, result.study.study.gaps.front());
+      facts["fit"] = {{"draws", of.draws}, {"predicted", of.predicted}, {"at_most", of.at_most}};
+    }
     for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
       facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
   }
@@ -246,7 +252,7 @@ Table quantile_table(const SensitivityResult& result) {
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
-  table.notes.push_back(said("sensitivity.draws").front());
+  table.notes.push_back(said("sensitivity.draws", {{"is_fit", gap->fit.has_value()}}).front());
   return table;
 }
 

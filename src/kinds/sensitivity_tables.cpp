@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 namespace launchsafe::kinds {
 
@@ -90,6 +92,14 @@ Quantities<OutputRow> output_quantities() {
   const auto shown = [](double OutputSensitivity::*member) {
     return [member](OutputRow row) { return shown_output(row->output).value(row->*member); };
   };
+  const auto of_fit = [](auto get) {
+    return [get](OutputRow row) { return row->fit ? std::invoke(get, *row->fit) : std::nullopt; };
+  };
+  const auto error_of = [](auto get) {
+    return [get](OutputRow row) {
+      return row->fit ? shown_output(row->output).value(std::invoke(get, *row->fit)) : not_a_number;
+    };
+  };
   return {
       {quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
       {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
@@ -100,6 +110,18 @@ Quantities<OutputRow> output_quantities() {
       {{"missing", "without a number", count(), "Evaluations without a number."},
        &OutputSensitivity::missing},
       {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."}, &OutputSensitivity::bounds},
+      {{"fitted", "fitted", count(), "Evaluations that a polynomial was fitted to."},
+       of_fit([](const SurrogateFit& fit) { return std::optional(fit.chaos.points); })},
+      {{"terms", "terms", count(), "Terms of the polynomial."},
+       of_fit([](const SurrogateFit& fit) { return std::optional(fit.chaos.terms.size()); })},
+      {{"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the fit."},
+       error_of([](const SurrogateFit& fit) { return fit.chaos.leave_one_out; })},
+      {{"held_out", "held out", count(), "Evaluations that were not fitted."},
+       of_fit([](const SurrogateFit& fit) { return std::optional(fit.held_out); })},
+      {{"held_out_error", "error there", significant(2), "Root mean square of the fit's error there."},
+       error_of(&SurrogateFit::error)},
+      {{"held_out_largest", "largest there", significant(2), "Largest error of the fit there."},
+       error_of(&SurrogateFit::largest_error)},
       {quantity::reason(), &OutputSensitivity::reason}};
 }
 

@@ -1,7 +1,6 @@
 #include "launchsafe/math/sensitivity.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
+#include "bootstrap.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -14,41 +13,7 @@ namespace launchsafe::math {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-constexpr Estimate no_estimate{not_a_number, not_a_number, not_a_number};
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-
-// --- bootstrap ---
-
-/// How often each of `size` members is drawn when `size` are drawn with replacement.
-std::vector<double> resampling_counts(std::size_t size, SplitMix64& random) {
-  std::vector<double> counts(size, 0.0);
-  for (std::size_t k = 0; k < size; ++k) counts[random.below(static_cast<std::uint32_t>(size))] += 1.0;
-  return counts;
-}
-
-/// Quantile of sorted values, linear between them; the first and last belong to 0 and 1.
-double sorted_quantile(const std::vector<double>& sorted, double share) {
-  const double position = share * static_cast<double>(sorted.size() - 1);
-  const std::size_t below = std::min(static_cast<std::size_t>(position), sorted.size() - 1);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  const double rest = position - static_cast<double>(below);
-  return (1.0 - rest) * sorted[below] + rest * sorted[above];
-}
-
-/// Percentile interval from the replicates of a statistic of `size` independent members, with the percentiles
-/// moved out by what Student's t of size - 1 degrees exceeds the normal (Hesterberg, "What teachers should
-/// know about the bootstrap", Am. Stat. 69, 2015): plain percentiles are too narrow for small samples. Bias
-/// correction, with acceleration or without, was measured to cover less often than this.
-Estimate with_interval(double value, std::vector<double> replicates, std::size_t size, double level) {
-  if (replicates.empty() || size < 2) return {value, not_a_number, not_a_number};
-  const double members = static_cast<double>(size);
-  const double student = boost::math::quantile(boost::math::students_t(members - 1.0), 0.5 * (1.0 - level));
-  const double tail = boost::math::cdf(boost::math::normal(), student * std::sqrt(members / (members - 1.0)));
-  std::sort(replicates.begin(), replicates.end());
-  return {value, sorted_quantile(replicates, tail), sorted_quantile(replicates, 1.0 - tail)};
-}
-
-// --- Sobol indices ---
 
 /// The outputs of those rows that are all finite.
 std::vector<double> finite_rows(std::size_t blocks, const std::vector<double>& outputs) {

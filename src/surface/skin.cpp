@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace launchsafe::surface {
 
@@ -22,10 +23,21 @@ detail::SkinEquation equation_of(const SkinModel& model, const detail::Intervals
   return equation;
 }
 
+/// The skins of stations after an interval, each by itself.
+void advance_stations(const SkinModel& model, const detail::Intervals& intervals, std::size_t interval,
+                      const std::vector<std::size_t>& stations, std::vector<SkinPoint>& points) {
+  std::vector<double> heating;
+  for (const std::size_t station : stations) heating.push_back(intervals.friction_heating(interval, station));
+  detail::advance(model, equation_of(model, intervals, interval), heating, points,
+                  intervals.length(interval));
+}
+
 /// Every station by itself under the given air (AirModel::reservoir).
 SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
   const detail::Intervals intervals(model, trace, gap);
   const std::size_t stations = trace.stations.size();
+  std::vector<std::size_t> all_stations(stations);
+  std::iota(all_stations.begin(), all_stations.end(), std::size_t{0});
   SkinHistory history;
   history.temperature.assign(trace.samples() * stations, model.initial_temperature);
   for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
@@ -33,18 +45,16 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
         materials::adiabatic_temperature(model.surface.air, intervals.pressure_at(sample)));
   }
   std::vector<SkinPoint> points(stations, SkinPoint{model.initial_temperature});
+  std::vector<bool> was_ignited(stations, false);
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    detail::SkinEquation equation = equation_of(model, intervals, interval);
+    advance_stations(model, intervals, interval, all_stations, points);
     for (std::size_t station = 0; station < stations; ++station) {
-      SkinPoint& point = points[station];
-      const bool was_ignited = point.ignited;
-      equation.heating = intervals.friction_heating(interval, station);
-      point = detail::advance(model, equation, point, intervals.length(interval));
+      const SkinPoint& point = points[station];
       history.temperature[(interval + 1) * stations + station] = point.temperature;
-      if (point.ignited && !was_ignited) {
+      if (point.ignited && !was_ignited[station])
         detail::note_ignition(history, trace, station, trace.time[interval] + point.ignition_time,
                               point.chemical_share);
-      }
+      was_ignited[station] = point.ignited;
     }
   }
   return history;
@@ -113,16 +123,15 @@ std::optional<bool> ignites(const SkinModel& model, const trace::BottomTrace& tr
   }
   if (trace.samples() == 0 || trace.stations.empty()) return std::nullopt;
   const detail::Intervals intervals(model, trace, gap);
-  std::vector<SkinPoint> points(trace.stations.size(), SkinPoint{model.initial_temperature});
+  std::vector<std::size_t> tiles;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station)
+    if (!trace.stations[station].observation) tiles.push_back(station);
+  std::vector<SkinPoint> points(tiles.size(), SkinPoint{model.initial_temperature});
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    detail::SkinEquation equation = equation_of(model, intervals, interval);
-    for (std::size_t station = 0; station < points.size(); ++station) {
-      if (trace.stations[station].observation) continue;
-      equation.heating = intervals.friction_heating(interval, station);
-      points[station] = detail::advance(model, equation, points[station], intervals.length(interval));
-      if (!std::isfinite(points[station].temperature)) return std::nullopt;
-      if (points[station].ignited) return true;
-    }
+    advance_stations(model, intervals, interval, tiles, points);
+    const auto is_finite = [](const SkinPoint& point) { return std::isfinite(point.temperature); };
+    if (!std::ranges::all_of(points, is_finite)) return std::nullopt;
+    if (std::ranges::any_of(points, &SkinPoint::ignited)) return true;
   }
   return false;
 }

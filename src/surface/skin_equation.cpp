@@ -15,52 +15,68 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 enum class Phase { solid, reacting, burnt };
 
 /// The reaction term and its slope.
+template <class Real>
 struct Reaction {
-  double rate = 0;   ///< K/s
-  double slope = 0;  ///< 1/s
+  Real rate = 0.0;   ///< K/s
+  Real slope = 0.0;  ///< 1/s
 };
+
+template <class Real>
+struct Step {
+  Real temperature;  ///< K, fourth order
+  Real error;        ///< K, its difference from the embedded third order
+};
+
+/// One step of the exponential Rosenbrock method exprb43 (Hochbruck, Ostermann & Schweitzer, SIAM J. Numer.
+/// Anal. 47, 2009) from T at time t over h. The linear part, here the exchange with an air temperature that
+/// goes linearly, is exact at any stiffness; the stages see only what is left of the reaction after its
+/// tangent is taken off. All heating but that of the reaction counts `scale` times.
+template <class Real, class ReactionAt>
+Step<Real> exprb43(const SkinEquation& equation, Real heating, double scale, const ReactionAt& reaction_at,
+                   double t, Real temperature, double h) {
+  const Reaction<Real> here = reaction_at(temperature);
+  const double rate = scale * equation.exchange_rate;
+  const Real jacobian = here.slope - rate;
+  const double drift = rate * equation.air_slope;
+  const Real slope =
+      rate * (equation.air + equation.air_slope * t - temperature) + scale * heating + here.rate;
+  // What the reaction at another temperature has beyond its tangent here.
+  const auto remainder = [&](Real other) {
+    return reaction_at(other).rate - here.rate - here.slope * (other - temperature);
+  };
+  const auto half = math::phi_functions(0.5 * h * jacobian);
+  const auto full = math::phi_functions(h * jacobian);
+  const Real linear = temperature + h * (full[1] * slope + h * full[2] * drift);
+  const Real middle = temperature + 0.5 * h * (half[1] * slope + 0.5 * h * half[2] * drift);
+  const Real rest2 = remainder(middle);
+  const Real rest3 = remainder(linear + h * full[1] * rest2);
+  const Real third = 16.0 * full[3] * rest2 - 2.0 * full[3] * rest3;
+  const Real correction = full[4] * (12.0 * rest3 - 48.0 * rest2);
+  return {linear + h * (third + correction), h * math::abs(correction)};
+}
+
+/// K/s, of what burns at the rate 1.
+double prefactor_of(const SkinModel& model) {
+  return model.kinetics.heat_of_reaction * model.kinetics.frequency / model.specific_heat;
+}
 
 /// One equation in one phase, with the method that follows it.
 class PhaseEquation {
  public:
   PhaseEquation(const SkinModel& model, const SkinEquation& equation, const Trigger& trigger, Phase phase)
       : kinetics_(model.kinetics),
-        prefactor_(phase == Phase::burnt
-                       ? 0.0
-                       : model.kinetics.heat_of_reaction * model.kinetics.frequency / model.specific_heat),
+        prefactor_(phase == Phase::burnt ? 0.0 : prefactor_of(model)),
         equation_(equation),
         scale_(phase == Phase::reacting ? trigger.amplification : 1.0),
         phase_(phase) {}
 
-  struct Step {
-    double temperature;  ///< K, fourth order
-    double error;        ///< K, its difference from the embedded third order
-  };
-
-  /// One step of the exponential Rosenbrock method exprb43 (Hochbruck, Ostermann & Schweitzer, SIAM J. Numer.
-  /// Anal. 47, 2009) from T at time t over h. The linear part, here the exchange with an air temperature that
-  /// goes linearly, is exact at any stiffness; the stages see only what is left of the reaction after its
-  /// tangent is taken off.
-  Step step(double t, double temperature, double h) const {
-    const Reaction here = reaction(temperature);
-    const double rate = scale_ * equation_.exchange_rate;
-    const double jacobian = here.slope - rate;
-    const double drift = rate * equation_.air_slope;
-    const double slope = rate * (equation_.air + equation_.air_slope * t - temperature) +
-                         scale_ * equation_.heating + here.rate;
-    const auto half = math::phi_functions(0.5 * h * jacobian);
-    const auto full = math::phi_functions(h * jacobian);
-    const double linear = temperature + h * (full[1] * slope + h * full[2] * drift);
-    const double middle = temperature + 0.5 * h * (half[1] * slope + 0.5 * h * half[2] * drift);
-    const double rest2 = remainder(temperature, here, middle);
-    const double rest3 = remainder(temperature, here, linear + h * full[1] * rest2);
-    const double third = 16.0 * full[3] * rest2 - 2.0 * full[3] * rest3;
-    const double correction = full[4] * (12.0 * rest3 - 48.0 * rest2);
-    return {linear + h * (third + correction), h * std::abs(correction)};
+  Step<double> step(double t, double temperature, double h) const {
+    return exprb43(
+        equation_, equation_.heating, scale_, [this](double at) { return reaction(at); }, t, temperature, h);
   }
 
  private:
-  Reaction reaction(double temperature) const {
+  Reaction<double> reaction(double temperature) const {
     if (!(prefactor_ > 0.0) || !(temperature > 0.0))
       return {temperature - temperature, 0.0};  // 0, or NaN for NaN
     const double inverse = 1.0 / temperature;
@@ -71,11 +87,6 @@ class PhaseEquation {
     const double span = kinetics_.burnt_temperature - kinetics_.ignition_temperature;
     const double left = std::clamp((kinetics_.burnt_temperature - temperature) / span, 0.0, 1.0);
     return {left * rate, left * slope - rate / span};
-  }
-
-  /// What the reaction at `other` has beyond its tangent at `temperature`.
-  double remainder(double temperature, const Reaction& here, double other) const {
-    return reaction(other).rate - here.rate - here.slope * (other - temperature);
   }
 
   const materials::KineticsParameters& kinetics_;
@@ -135,6 +146,23 @@ bool is_finite(const SkinEquation& equation, const SkinPoint& point, double dt) 
   return std::isfinite(equation.exchange_rate) && std::isfinite(equation.air) &&
          std::isfinite(equation.air_slope) && std::isfinite(equation.heating) &&
          std::isfinite(point.temperature) && std::isfinite(dt);
+}
+
+/// Solids of as many points as a register holds, after one step over dt.
+Step<math::Pack> step_of_solids(const SkinModel& model, const SkinEquation& equation, math::Pack heating,
+                                math::Pack temperature, double dt) {
+  using math::Pack;
+  const double prefactor = prefactor_of(model), activation = model.kinetics.activation_temperature;
+  if (!(prefactor > 0.0)) {
+    const auto inert = [](Pack) { return Reaction<Pack>{}; };
+    return exprb43(equation, heating, 1.0, inert, 0.0, temperature, dt);
+  }
+  const auto arrhenius = [&](Pack at) {
+    const Pack inverse = 1.0 / at;
+    const Pack rate = prefactor * math::exp(-activation * inverse);
+    return Reaction<Pack>{rate, rate * activation * inverse * inverse};
+  };
+  return exprb43(equation, heating, 1.0, arrhenius, 0.0, temperature, dt);
 }
 
 }  // namespace
@@ -209,6 +237,35 @@ SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoin
   }
   point.temperature = at.temperature;
   return point;
+}
+
+void advance(const SkinModel& model, const SkinEquation& equation, const std::vector<double>& heating,
+             std::vector<SkinPoint>& points, double dt) {
+  constexpr double coldest = 10.0;  // K, below which 1/T^2 may be too large
+  const double trigger = trigger_of(model).temperature;
+  for (std::size_t first = 0; first < points.size(); first += math::pack_width) {
+    const std::size_t count = std::min(math::pack_width, points.size() - first);
+    math::Pack temperature = 0.0, heat = 0.0;
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      temperature.set(lane, points[first + lane].temperature);
+      heat.set(lane, heating[first + lane]);
+    }
+    const Step<math::Pack> step = step_of_solids(model, equation, heat, temperature, dt);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      SkinPoint& point = points[first + lane];
+      const double before = point.temperature, after = step.temperature[lane];
+      const bool one_step_is_enough = !point.ignited && before > coldest && before < trigger &&
+                                      after > coldest && after < trigger &&
+                                      step.error[lane] <= model.relative_tolerance * before;
+      if (one_step_is_enough) {
+        point.temperature = after;
+        continue;
+      }
+      SkinEquation own = equation;
+      own.heating = heating[first + lane];
+      point = advance(model, own, point, dt);
+    }
+  }
 }
 
 }  // namespace launchsafe::surface::detail

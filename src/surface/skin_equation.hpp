@@ -3,6 +3,8 @@
 
 #include "launchsafe/surface/skin.hpp"
 
+#include <vector>
+
 namespace launchsafe::surface::detail {
 
 /// dT/dt = exchange_rate (air + air_slope t - T) + heating + (Q Z/c)(1 - lambda) exp(-(E/R)/T), t from the
@@ -33,5 +35,10 @@ void release(const SkinModel& model, const Trigger& trigger, SkinPoint& point, d
 
 /// The point after dt >= 0 (s). A point or an equation that is not finite gives NaN and no ignition.
 SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt);
+
+/// Likewise of many points, which `heating` (K/s) heats each: as many at once as a register holds, where one
+/// step follows a solid; the others one by one.
+void advance(const SkinModel& model, const SkinEquation& equation, const std::vector<double>& heating,
+             std::vector<SkinPoint>& points, double dt);
 
 }  // namespace launchsafe::surface::detail

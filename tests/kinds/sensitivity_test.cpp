@@ -69,6 +69,45 @@ void expect_holds(const math::Estimate& estimate, double expected, const std::st
   EXPECT_LT(estimate.upper - estimate.lower, 0.3) << what;
 }
 
+// The same margin as below, from 30 launches instead of 1 280: a polynomial of the first degree is exact.
+TEST(Sensitivity, APolynomialFittedToFewLaunchesHasTheIndicesOfALinearMargin) {
+  const StudyFile study = study_of(
+      linear_text(no_search + "method = \"polynomial-chaos\"\nsamples = 20\nheld_out = 10\nseed = 7\n"));
+  ASSERT_EQ(study.cases.size(), 30u);
+  const SensitivityResult result = run_sensitivity(study, Counted().options);
+  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
+  ASSERT_EQ(margin.reason, "");
+  ASSERT_TRUE(margin.fit);
+  EXPECT_EQ(margin.fit->held_out, 10u);
+  EXPECT_LT(margin.fit->largest_error, 1e-3);
+  const double friction = 54.6353 * 54.6353, trigger = 20.0 * 20.0, sum = friction + trigger;
+  EXPECT_NEAR(margin.sobol.inputs[0].total.value, friction / sum, 1e-3);
+  EXPECT_NEAR(margin.sobol.inputs[1].first.value, trigger / sum, 1e-3);
+  EXPECT_NEAR(margin.sobol.inputs[2].total.value, 0.0, 1e-6);
+  EXPECT_TRUE(samples_inputs(study.study, 29));
+  // Critical gaps that are bounds are fitted by nothing.
+  const OutputSensitivity& gap = output_of(result, SensitivityOutput::critical_gap);
+  EXPECT_NE(gap.reason.find("are bounds"), std::string::npos);
+  EXPECT_FALSE(gap.fit);
+}
+
+TEST(Sensitivity, APolynomialThatMissesWhatItHasNotSeenGivesNoIndices) {
+  const StudyFile study = study_of(
+      linear_text(no_search + "method = \"polynomial-chaos\"\nsamples = 20\nheld_out = 10\nseed = 7\n"));
+  Counted counted;
+  // T max jumps from launch to launch, as nothing that is smooth in the inputs does.
+  counted.options.runners.mechanics = [](const scene::Scene& scene, const run::RunOptions&) {
+    auto result = synthetic_mechanics(scene);
+    const double jump = std::fmod(1e6 * scene.load.peak / 496e6, 1.0);
+    for (auto& closure : result.trace.friction)
+      for (double& energy : closure) energy *= 0.2 + jump;
+    return result;
+  };
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  const OutputSensitivity& hottest = output_of(result, SensitivityOutput::maximum_temperature);
+  EXPECT_NE(hottest.reason.find("it has not seen"), std::string::npos) << hottest.reason;
+}
+
 // 116.1 K at localisation 1700: slope 0.0682941 K; ranges of 800 and of 20 K: variances (54.6353^2 and
 // 20^2)/12.
 TEST(Sensitivity, IndicesOfALinearMarginAreItsSharesOfTheVariance) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/math/polynomial_chaos.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
@@ -22,11 +23,18 @@ struct CorrelatedAxes {
   std::vector<double> factor;        ///< of the covariance of the logarithms (math::covariance_factor)
 };
 
-/// What a study file of this kind says besides; its inputs are Study::axes, with distributions. The indices
-/// are of first and total order (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations.
+/// How indices of first and total order follow from evaluations.
+enum class SensitivityMethod {
+  sobol,            ///< differences (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
+  polynomial_chaos  ///< a polynomial fitted to the samples, whose error is that at as many more as held out
+};
+
+/// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
 struct SensitivitySettings {
+  SensitivityMethod method = SensitivityMethod::sobol;
   math::Design design = math::Design::latin_hypercube;
-  int samples = 64;        ///< N: rows of the matrices A and B
+  int samples = 64;        ///< N: rows of the matrices A and B, or evaluations that are fitted
+  int held_out = 32;       ///< evaluations that are not
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
@@ -44,8 +52,18 @@ struct SensitivityInput {
 std::vector<SensitivityInput> inputs_of(const study::Study& study);
 
 /// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
-/// differences: the blocks A and B of a Saltelli design.
+/// differences: the blocks A and B of a Saltelli design, and all that a polynomial is fitted to or held
+/// against.
 bool samples_inputs(const study::Study& study, std::size_t evaluation);
+
+/// A polynomial in the place of the computation, and how far it is off evaluations that it has not seen.
+struct SurrogateFit {
+  math::PolynomialChaos chaos;
+  std::size_t held_out = 0;  ///< evaluations with a number
+  /// Root mean square and largest of the differences there, the output's unit.
+  double error = study::not_a_number, largest_error = study::not_a_number;
+  double unexplained = study::not_a_number;  ///< its mean square as a share of the fit's variance
+};
 
 /// One output of a case as a number.
 enum class SensitivityOutput {
@@ -67,6 +85,7 @@ struct OutputSensitivity {
   double mean = study::not_a_number,
          deviation = study::not_a_number;  ///< over the evaluations that sample the inputs
   math::SobolIndices sobol;                ///< where there are indices, of every input
+  std::optional<SurrogateFit> fit = {};    ///< of polynomial chaos
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;

@@ -1,0 +1,291 @@
+#include "launchsafe/math/polynomial_chaos.hpp"
+
+#include "bootstrap.hpp"
+
+#include <Eigen/Dense>
+#include <boost/math/distributions/normal.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+namespace launchsafe::math {
+namespace {
+
+constexpr int highest_degree = 6;
+/// Candidates of a degree; one with more is not tried.
+constexpr std::size_t most_candidates = 3000;
+constexpr std::size_t fewest_points = 8;
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// Orthonormal polynomials of degree 0 to `degree` of one input at u.
+std::vector<double> polynomials(ChaosBasis basis, int degree, double u) {
+  std::vector<double> values{1.0};
+  const double x =
+      basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(boost::math::normal(), u);
+  double before = 0.0, here = 1.0;
+  for (int n = 0; n < degree; ++n) {
+    const double next = basis == ChaosBasis::legendre ? ((2 * n + 1) * x * here - n * before) / (n + 1)
+                                                      : x * here - n * before;
+    before = here;
+    here = next;
+    const double norm = basis == ChaosBasis::legendre ? 1.0 / std::sqrt(2.0 * (n + 1) + 1.0)
+                                                      : std::sqrt(std::tgamma(n + 2.0));
+    values.push_back(here / norm);
+  }
+  return values;
+}
+
+double product(const std::vector<int>& degrees, const std::vector<std::vector<double>>& of_inputs) {
+  double value = 1.0;
+  for (std::size_t i = 0; i < degrees.size(); ++i)
+    value *= of_inputs[i][static_cast<std::size_t>(degrees[i])];
+  return value;
+}
+
+std::vector<std::vector<double>> polynomials_at(const std::vector<ChaosBasis>& inputs, int degree,
+                                                const double* point) {
+  std::vector<std::vector<double>> values;
+  for (std::size_t i = 0; i < inputs.size(); ++i) values.push_back(polynomials(inputs[i], degree, point[i]));
+  return values;
+}
+
+/// All products whose degrees add up to no more than `degree`, the constant first, low degrees before high.
+std::vector<std::vector<int>> candidates_of(std::size_t inputs, int degree) {
+  std::vector<std::vector<int>> all;
+  std::vector<int> degrees(inputs, 0);
+  const std::function<void(std::size_t, int)> add = [&](std::size_t input, int left) {
+    if (input + 1 == inputs) {
+      degrees[input] = left;
+      all.push_back(degrees);
+      return;
+    }
+    for (int own = left; own >= 0; --own) {
+      degrees[input] = own;
+      add(input + 1, left - own);
+    }
+  };
+  for (int sum = 0; sum <= degree; ++sum) add(0, sum);
+  return all;
+}
+
+Matrix matrix_of(const std::vector<ChaosBasis>& inputs, const std::vector<std::vector<int>>& candidates,
+                 int degree, const std::vector<double>& points) {
+  const std::size_t rows = points.size() / inputs.size();
+  Matrix matrix(index(rows), index(candidates.size()));
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto of_inputs = polynomials_at(inputs, degree, &points[row * inputs.size()]);
+    for (std::size_t column = 0; column < candidates.size(); ++column)
+      matrix(index(row), index(column)) = product(candidates[column], of_inputs);
+  }
+  return matrix;
+}
+
+struct Fit {
+  Vector coefficients;
+  double leave_one_out = std::numeric_limits<double>::infinity();
+};
+
+/// Least squares with the leave-one-out error, whose square counts N/(N - P) (1 + tr(C^-1)/N) times, C the
+/// mean of the products of the terms (Chapelle, Vapnik & Bengio, Mach. Learn. 48 (2002) 9).
+Fit least_squares(const Matrix& terms, const Vector& values) {
+  const auto rows = static_cast<double>(terms.rows()), columns = static_cast<double>(terms.cols());
+  Fit fit;
+  if (columns >= rows) return fit;
+  const Eigen::LDLT<Matrix> normal((terms.transpose() * terms).eval());
+  if (normal.info() != Eigen::Success || !(normal.rcond() > 1e-12)) return fit;
+  fit.coefficients = normal.solve(terms.transpose() * values);
+  const Vector residual = values - terms * fit.coefficients;
+  const Matrix inverse = normal.solve(Matrix::Identity(terms.cols(), terms.cols()));
+  double squares = 0.0;
+  for (Eigen::Index row = 0; row < terms.rows(); ++row) {
+    const double leverage = terms.row(row) * inverse * terms.row(row).transpose();
+    if (!(leverage < 1.0 - 1e-9)) return fit;
+    squares += std::pow(residual(row) / (1.0 - leverage), 2);
+  }
+  const double correction = rows / (rows - columns) * (1.0 + inverse.trace());
+  fit.leave_one_out = std::sqrt(squares / rows * correction);
+  return fit;
+}
+
+/// The terms that are picked one after the other, each the one nearest in direction to what is still
+/// missing, up to the number with the least leave-one-out error.
+struct Pursuit {
+  std::vector<std::size_t> picked;
+  Fit fit;
+};
+
+Matrix columns_of(const Matrix& all, const std::vector<std::size_t>& picked) {
+  Matrix some(all.rows(), index(picked.size()));
+  for (std::size_t i = 0; i < picked.size(); ++i) some.col(index(i)) = all.col(index(picked[i]));
+  return some;
+}
+
+Pursuit pursue(const Matrix& all, const Vector& values) {
+  constexpr std::size_t patience = 8;  // terms that make it worse before it is given up
+  Pursuit best;
+  std::vector<std::size_t> picked{0};
+  const std::size_t most = static_cast<std::size_t>(std::min(all.cols(), all.rows() / 2));
+  for (std::size_t worse = 0; worse < patience; ++worse) {
+    const Matrix terms = columns_of(all, picked);
+    const Fit fit = least_squares(terms, values);
+    if (fit.coefficients.size() == 0) break;
+    if (fit.leave_one_out < best.fit.leave_one_out) {
+      best = {picked, fit};
+      worse = 0;
+    }
+    const Vector residual = values - terms * fit.coefficients;
+    if (picked.size() >= most || residual.norm() <= 1e-12 * values.norm()) break;
+    Vector nearness = (all.transpose() * residual).cwiseAbs();
+    for (Eigen::Index column = 0; column < all.cols(); ++column) nearness(column) /= all.col(column).norm();
+    for (const std::size_t column : picked) nearness(index(column)) = -1.0;
+    Eigen::Index next = 0;
+    nearness.maxCoeff(&next);
+    picked.push_back(static_cast<std::size_t>(next));
+  }
+  return best;
+}
+
+/// Points and values of the rows whose value is finite.
+struct Rows {
+  std::vector<double> points;
+  Vector values;
+};
+Rows finite_rows(std::size_t inputs, const std::vector<double>& points, const std::vector<double>& values) {
+  Rows rows;
+  std::vector<double> finite;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) continue;
+    finite.push_back(values[row]);
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
+    rows.points.insert(rows.points.end(), begin, begin + static_cast<std::ptrdiff_t>(inputs));
+  }
+  rows.values = Eigen::Map<const Vector>(finite.data(), index(finite.size()));
+  return rows;
+}
+
+/// Shares of the variance by the groups that a term has.
+struct Shares {
+  std::vector<double> first, total;
+};
+Shares shares_of(const std::vector<ChaosTerm>& terms, const Vector& coefficients,
+                 const std::vector<std::size_t>& begins) {
+  const std::size_t groups = begins.size() - 1;
+  Shares shares{std::vector<double>(groups, 0.0), std::vector<double>(groups, 0.0)};
+  double variance = 0.0;
+  for (std::size_t term = 1; term < terms.size(); ++term) {
+    const double part = coefficients(index(term)) * coefficients(index(term));
+    variance += part;
+    std::vector<std::size_t> involved;
+    for (std::size_t group = 0; group < groups; ++group) {
+      const auto begin = terms[term].degrees.begin();
+      if (std::any_of(begin + static_cast<std::ptrdiff_t>(begins[group]),
+                      begin + static_cast<std::ptrdiff_t>(begins[group + 1]), [](int n) { return n > 0; }))
+        involved.push_back(group);
+    }
+    for (const std::size_t group : involved) shares.total[group] += part;
+    if (involved.size() == 1) shares.first[involved.front()] += part;
+  }
+  if (variance > 0.0)
+    for (auto* each : {&shares.first, &shares.total})
+      for (double& share : *each) share /= variance;
+  return shares;
+}
+
+Vector coefficients_of(const PolynomialChaos& chaos) {
+  Vector coefficients(index(chaos.terms.size()));
+  for (std::size_t i = 0; i < chaos.terms.size(); ++i) coefficients(index(i)) = chaos.terms[i].coefficient;
+  return coefficients;
+}
+
+}  // namespace
+
+double PolynomialChaos::at(const std::vector<double>& point) const {
+  assert(point.size() == inputs.size());
+  const auto of_inputs = polynomials_at(inputs, degree, point.data());
+  double value = 0.0;
+  for (const ChaosTerm& term : terms) value += term.coefficient * product(term.degrees, of_inputs);
+  return value;
+}
+
+double PolynomialChaos::variance() const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < terms.size(); ++i) sum += terms[i].coefficient * terms[i].coefficient;
+  return sum;
+}
+
+PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
+                          const std::vector<double>& values) {
+  assert(!inputs.empty() && points.size() == inputs.size() * values.size());
+  PolynomialChaos chaos;
+  chaos.inputs = inputs;
+  const Rows rows = finite_rows(inputs.size(), points, values);
+  chaos.points = static_cast<std::size_t>(rows.values.size());
+  if (chaos.points < std::max(fewest_points, 2 * inputs.size())) {
+    chaos.reason = "too few evaluations have a number for a fit";
+    return chaos;
+  }
+  chaos.leave_one_out = std::numeric_limits<double>::infinity();
+  for (int degree = 1; degree <= highest_degree; ++degree) {
+    const auto candidates = candidates_of(inputs.size(), degree);
+    if (candidates.size() > most_candidates) break;
+    const Pursuit found = pursue(matrix_of(inputs, candidates, degree, rows.points), rows.values);
+    if (!(found.fit.leave_one_out < chaos.leave_one_out)) continue;
+    chaos.leave_one_out = found.fit.leave_one_out;
+    chaos.degree = degree;
+    chaos.terms.clear();
+    for (std::size_t i = 0; i < found.picked.size(); ++i)
+      chaos.terms.push_back({candidates[found.picked[i]], found.fit.coefficients(index(i))});
+  }
+  if (chaos.terms.empty()) chaos.reason = "no polynomial can be fitted to the evaluations";
+  return chaos;
+}
+
+SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<double>& points,
+                           const std::vector<double>& values, const std::vector<std::size_t>& begins,
+                           const SobolOptions& options) {
+  SobolIndices indices;
+  indices.reason = chaos.reason;
+  indices.inputs.assign(begins.size() - 1, {no_estimate, no_estimate});
+  if (!indices.reason.empty()) return indices;
+  const Rows rows = finite_rows(chaos.inputs.size(), points, values);
+  indices.rows_used = chaos.points;
+  indices.rows_left_out = values.size() - chaos.points;
+  indices.mean = chaos.mean();
+  indices.variance = chaos.variance();
+  if (!(indices.variance > 0.0)) {
+    indices.reason = "the output does not vary";
+    return indices;
+  }
+  std::vector<std::vector<int>> degrees;
+  for (const ChaosTerm& term : chaos.terms) degrees.push_back(term.degrees);
+  const Matrix matrix = matrix_of(chaos.inputs, degrees, chaos.degree, rows.points);
+  const Shares own = shares_of(chaos.terms, coefficients_of(chaos), begins);
+  std::vector<std::vector<double>> first(own.first.size()), total(own.first.size());
+  SplitMix64 random(options.seed);
+  for (std::size_t resample = 0; resample < options.resamples; ++resample) {
+    const std::vector<double> counts = resampling_counts(chaos.points, random);
+    const Vector weights = Eigen::Map<const Vector>(counts.data(), matrix.rows());
+    const Eigen::LDLT<Matrix> normal((matrix.transpose() * weights.asDiagonal() * matrix).eval());
+    if (normal.info() != Eigen::Success || !(normal.rcond() > 1e-12)) continue;
+    const Vector coefficients = normal.solve(matrix.transpose() * weights.cwiseProduct(rows.values));
+    const Shares shares = shares_of(chaos.terms, coefficients, begins);
+    for (std::size_t group = 0; group < first.size(); ++group) {
+      first[group].push_back(shares.first[group]);
+      total[group].push_back(shares.total[group]);
+    }
+  }
+  for (std::size_t group = 0; group < first.size(); ++group)
+    indices.inputs[group] = {
+        with_interval(own.first[group], std::move(first[group]), chaos.points, options.level),
+        with_interval(own.total[group], std::move(total[group]), chaos.points, options.level)};
+  return indices;
+}
+
+}  // namespace launchsafe::math
