@@ -146,6 +146,10 @@ Fault make_chaos_samples(StudyFile& study) {
   if (Fault fault = check_count(study, "samples", static_cast<double>(all),
                                 fmt::format("{} samples and {} held out", own.samples, own.held_out)))
     return fault;
+  const std::size_t fewest = math::fewest_chaos_points(s.axes.size());
+  if (fitted < fewest)
+    return fault_at(study, "samples", fmt::format("{} samples for a fit", fitted),
+                    fmt::format("at least {}: two an input, and 8", fewest));
   const std::vector<double> points = chaos_points(s);
   const auto coordinates = [&](std::size_t evaluation) {
     const auto begin = points.begin() + static_cast<std::ptrdiff_t>(evaluation * s.axes.size());

@@ -18,7 +18,6 @@ namespace {
 constexpr int highest_degree = 6;
 /// Candidates of a degree; one with more is not tried.
 constexpr std::size_t most_candidates = 3000;
-constexpr std::size_t fewest_points = 8;
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -220,6 +219,8 @@ double PolynomialChaos::variance() const {
   return sum;
 }
 
+std::size_t fewest_chaos_points(std::size_t inputs) { return std::max<std::size_t>(8, 2 * inputs); }
+
 PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                           const std::vector<double>& values) {
   assert(!inputs.empty() && points.size() == inputs.size() * values.size());
@@ -227,7 +228,7 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
   chaos.inputs = inputs;
   const Rows rows = finite_rows(inputs.size(), points, values);
   chaos.points = static_cast<std::size_t>(rows.values.size());
-  if (chaos.points < std::max(fewest_points, 2 * inputs.size())) {
+  if (chaos.points < fewest_chaos_points(inputs.size())) {
     chaos.reason = "too few evaluations have a number for a fit";
     return chaos;
   }

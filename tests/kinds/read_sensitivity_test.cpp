@@ -316,4 +316,10 @@ TEST(ReadSensitivity, AnotherShapeOfTheLoadHasNotTheConstantsOfTheBell) {
                   {5, "vary.calibration", "a measured curve", "load.shape = \"bell\""});
 }
 
+TEST(ReadSensitivity, AFitNeedsEightSamplesOrTwoAnInput) {
+  const std::string fit = "method = \"polynomial-chaos\"\n";
+  expect_error_in(sensitivity_start + fit + "samples = 7\n" + crack,
+                  {5, "samples", "7 samples for a fit", "at least 8: two an input, and 8"});
+}
+
 }  // namespace
