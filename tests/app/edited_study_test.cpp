@@ -40,6 +40,7 @@ std::vector<std::string> whole_scene() {
   scene.numerics.cell_size = 2.5e-3;
   scene.numerics.growth_x = 1.5;
   scene.numerics.inertial_scaling = 16;
+  scene.numerics.selective_inertia = 1;
   scene.output.trace_interval = 1e-4;
   scene.output.observation_points.clear();
   std::vector<std::string> lines;

@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "one metre\" }, { key = "
                   "\"load.exit_pressure\", value = \"0.9 to 1\", because = \"a barrel of one metre\" "
                   "}]\ntitle ="},
-                 {"shell.toml", "inertial_scaling = 16", "inertial_scaling = 1"},
+                 {"shell.toml", "inertial_scaling = 16", "selective_inertia = 1"},
                  {"shell.toml", "\"18 ms\"", "\"12 ms\""}},
                 "calibres of travel shows nothing"},
         Mistake{"LeavesAtHalfThePeak", in_scene("\"18 ms\"", "\"14 ms\""), "load.exit_pressure"}),

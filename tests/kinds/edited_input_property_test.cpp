@@ -144,7 +144,7 @@ TEST(EditedInput, IsIndeterminateBefore) {
   const GapVerdict row = row_of(*scene);
   EXPECT_EQ(row.judgement.verdict, Verdict::indeterminate) << reason_text(row);
   // So that little makes it safe.
-  EXPECT_NE(reason_text(row).find("as small as 0.0196 cm"), std::string::npos) << reason_text(row);
+  EXPECT_NE(reason_text(row).find("as small as 0.0193 cm"), std::string::npos) << reason_text(row);
 }
 
 std::string edited_a_few_times(std::string text) {

@@ -40,7 +40,7 @@ TEST_F(SafetyReport, MarkupInAStudyIsShownAndNotObeyed) {
   const std::string evil =
       "<script>alert(1)</script> <img src=x onerror=alert(2)> [a](javascript:b) {{title}} & \\\"q\\\"";
   restate(study, "Critical bottom gap of the 155 mm shell", evil);
-  restate(study, "below 0.0276 cm, the least that the critical gap can be", "below <b onclick=x>| a </td>");
+  restate(study, "below 0.0273 cm, the least that the critical gap can be", "below <b onclick=x>| a </td>");
   const std::string html = file_of({study}, "report.html"), page = file_of({study}, "report.md");
   EXPECT_FALSE(has(html, "<script"));
   EXPECT_FALSE(has(html, "<img src=x"));
@@ -363,8 +363,8 @@ TEST_F(SafetyReport, AFolderWithoutAStudyIsRefused) {
 
 TEST_F(SafetyReport, AnotherModelVersionIsRefused) {
   const path study = copy_of("critical_gap_155mm");
-  replace_in(study / "manifest.json", "\"model_version\": 6", "\"model_version\": 5");
-  EXPECT_TRUE(has(fault_of({study}), "of model version 5, this program is of 6")) << fault_of({study});
+  replace_in(study / "manifest.json", "\"model_version\": 7", "\"model_version\": 6");
+  EXPECT_TRUE(has(fault_of({study}), "of model version 6, this program is of 7")) << fault_of({study});
 }
 TEST_F(SafetyReport, AStudyThatIsNotFinishedHasNoAnswer) {
   const path study = copy_of("critical_gap_155mm");
