@@ -203,8 +203,8 @@ std::vector<Key<Numerics>> numerics_keys() {
                                "get the inertia for it (selective mass scaling). 1 is true inertia.",
                                &Numerics::selective_inertia),
                     between(1, 8), "larger ones were never compared with a reference", setting_exact_at(1.0)),
-          "4, or 1 where that was not measured: two-way coupling, rises below 0.5 ms, other scaled "
-          "inertia, no charge, the lab frame, updated-Lagrangian"),
+          "4, or 1 where that was not measured: two-way coupling, measured curves, rises below 0.5 ms, "
+          "other scaled inertia, no charge, the lab frame, updated-Lagrangian"),
       zero_or_plausibly(number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
                                    "Decay time of the relative velocity; \"0 ms\" for no damping.",
                                    &Numerics::damping_time),
