@@ -6,6 +6,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
@@ -278,7 +279,11 @@ Table coupled_run_table(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.details)
     for (const Confirmation& each : outcome.confirmations) {
       rows.push_back({&outcome, &each});
-      if (each.combustion && notes.empty()) notes = {flame_kinetics_note(outcome.input.scene.scene)};
+      if (!each.combustion || !notes.empty()) continue;
+      const scene::Scene& scene = outcome.input.scene.scene;
+      notes = {flame_kinetics_note(scene)};
+      for (const std::string& warning : run::combustion_validity_warnings(scene, *each.combustion))
+        notes.push_back(fmt::format("What follows ignition is indicative: {}.", warning));
     }
   Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
   table.notes = std::move(notes);

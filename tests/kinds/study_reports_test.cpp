@@ -93,6 +93,18 @@ TEST(CriticalGapReport, ThePageNamesHeldOutRowsAndNoPathOfThisMachine) {
     EXPECT_EQ(text.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
 }
 
+TEST(CriticalGapReport, WhatFollowsIgnitionUnderScaledInertiaIsIndicative) {
+  CriticalGapResult result = one_case();
+  CaseOutcome& outcome = result.details.at(0);
+  outcome.confirmations.at(1).combustion.emplace();
+  for (const double selective : {1.0, 4.0}) {
+    outcome.input.scene.scene.numerics.selective_inertia = selective;
+    const std::string page = report::to_markdown(kinds::report_of(result));
+    EXPECT_EQ(page.find("What follows ignition is indicative: inertia is scaled by up to 16") != page.npos,
+              selective > 1.0);
+  }
+}
+
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   const CriticalGapResult result = one_case();
   const report::Plot plot = kinds::temperature_plot(result);
