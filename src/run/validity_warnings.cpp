@@ -34,14 +34,9 @@ constexpr double largest_scaled_share = 0.03;
 
 /// What scaled inertia does to a charge that slides is known to some kelvin up to here, one at a time. On the
 /// 155 mm shell (reports/accuracy, other interfaces too) T max changes by up to 3.7 K with a
-/// scaling of 16, by up to 25 K with 100, and with steel four times as heavy by up to 0.5 K. With steps
-/// lengthened by selective inertia four times it changes by 0.18 K without friction, 0.44 K with 0.05 and
-/// 1.1 K with 0.1; eight times by 2.4 and 9 K.
+/// scaling of 16 and by up to 25 K with 100. With steps lengthened by selective inertia four times it changes
+/// by 0.18 K without friction, 0.44 K with 0.05 and 1.1 K with 0.1; eight times by 2.4 and 9 K.
 constexpr double largest_scaling_when_sliding = 16.0, largest_selective_inertia_when_sliding = 4.0;
-
-/// A load that rises faster rings a shell whose inertia is selective. On the 155 mm shell with steps four
-/// times as long T max changes by 1.1 K or less with pulses of a half, a quarter and an eighth of the
-/// published width (from 10 to 90 % of the peak in 0.6 ms), and with a thirtieth it ignites or does not.
 
 /// The sampling error is the difference to a trace with half the samples. On the 155 mm shell (0.03 cm) a
 /// single interval errs by 19 K and finds no difference at all; two err by 5 K, four by 0.6 K, eight by less

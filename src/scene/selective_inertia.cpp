@@ -29,6 +29,9 @@ double transit_time(const Scene& scene) {
          longitudinal_speed(materials::Law(scene.charge()));
 }
 
+/// A load that rises faster rings a shell whose inertia is selective. On the 155 mm shell with steps four
+/// times as long T max changes by 1.1 K or less with pulses of a half, a quarter and an eighth of the
+/// published width (from 10 to 90 % of the peak in 0.6 ms), and with a thirtieth it ignites or does not.
 bool changes_too_fast_for_selective_inertia(const Scene& scene) {
   constexpr double shortest = 0.5e-3, transits = 2.5, share = 0.8;
   const double window = std::max(shortest, transits * transit_time(scene));

@@ -1,56 +1,18 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
-#include "launchsafe/run/run_case.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/read_scene.hpp"
-
-#include <gtest/gtest.h>
+#include "run/sound_run.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace launchsafe::run {
 namespace {
 
-/// With true inertia.
-scene::Scene shipped_scene() {
-  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
-  scene.numerics.selective_inertia = 1.0;
-  return scene;
-}
-
-/// The shipped load in a barrel without end.
-void take_exit(scene::Load& load) { load = scene::without_exit(load); }
-
-/// A sound run of the shipped scene, made by hand; energies as measured on cells of 2.5 mm.
-MechanicsResult sound_run() {
-  MechanicsResult run;
-  run.end_time = 18e-3;
-  run.trace.stations = {{"S1", 0.678, 0.0625, 0.01, false}};
-  for (int i = 0; i <= 900; ++i) {
-    run.trace.time.push_back(2e-5 * i);
-    run.trace.chamber_pressure.push_back(496e6 * i / 900.0);
-    run.trace.bottom_pressure.push_back(0.99 * 140.843e6 * i / 900.0);
-    for (auto& friction : run.trace.friction) friction.push_back(180.0 * i);
-  }
-  run.monitor.resize(3);
-  for (MonitorSample& sample : run.monitor) sample.largest_crack_radius = 30e-6;
-  run.monitor[1].energy.internal = 7470.0;
-  run.monitor[1].energy.kinetic = 18.7;
-  run.monitor[2].largest_plastic_strain = 5e-3;
-  return run;
-}
-
-/// That there is one validity warning, and that it says `part`.
-void expect_one(const std::vector<std::string>& warnings, const std::string& part) {
-  ASSERT_EQ(warnings.size(), 1u) << (warnings.empty() ? "no validity warning" : warnings[1]);
-  EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
-}
+using test_support::expect_one, test_support::shipped_scene, test_support::sound_run, test_support::take_exit;
 
 TEST(ValidityWarnings, ASoundRunHasNone) {
   scene::Scene scene = shipped_scene();
@@ -63,59 +25,6 @@ TEST(ValidityWarnings, ASoundRunHasNone) {
   MechanicsResult cracked = sound_run();
   cracked.monitor[2].largest_crack_radius = 3e-3;
   EXPECT_TRUE(validity_warnings(scene, cracked).empty());
-}
-
-TEST(ValidityWarnings, CombustionNeedsTrueInertiaAndAKnownLoad) {
-  scene::Scene scene = shipped_scene();
-  CombustionHistory combustion;
-  combustion.time = {17.7e-3, 18.7e-3};
-  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
-  scene.numerics.inertial_scaling = 1.5;
-  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 1.5");
-  scene.numerics.inertial_scaling = 1.0;
-  scene.numerics.selective_inertia = 4.0;
-  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 16");
-  scene.numerics.selective_inertia = 1.0;
-  // A decay behind an exit goes on; the last point of a record does not.
-  scene.load.curve_time = {0.0, 18e-3};
-  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
-  take_exit(scene.load);
-  expect_one(combustion_validity_warnings(scene, combustion), "0.7 ms before the run");
-  scene.load.curve_time = {0.0, 19e-3};
-  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
-  combustion.end = CombustionEnd::broke_off;
-  combustion.reason = "cells distorted";
-  expect_one(combustion_validity_warnings(scene, combustion), "broke off after ignition: cells distorted");
-}
-
-/// Kinetic and internal energy as measured at these factors: see validity_warnings.cpp for what they do to T
-/// max.
-TEST(ValidityWarnings, InertiaScaledUntilItMatters) {
-  struct Measured {
-    double scaling, internal, kinetic;
-    bool warned;
-  };
-  for (const Measured& each : {Measured{16, 7470, 18.7, false},
-                               {100, 7950, 157, false},
-                               {200, 9649, 459, true},
-                               {1e4, 6340, 3460, true}}) {
-    scene::Scene scene = shipped_scene();
-    scene.interfaces.clear();
-    scene.numerics.inertial_scaling = each.scaling;
-    MechanicsResult run = sound_run();
-    run.monitor[1].energy.internal = each.internal;
-    run.monitor[2].energy.kinetic = each.kinetic;
-    EXPECT_EQ(!validity_warnings(scene, run).empty(), each.warned) << each.scaling;
-  }
-}
-
-TEST(ValidityWarnings, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
-  MechanicsResult run = sound_run();
-  run.monitor[1].energy.kinetic = 5000.0;
-  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
-  scene::Scene scaled = shipped_scene();
-  scaled.numerics.inertial_scaling = 4.0;
-  expect_one(validity_warnings(scaled, run), "inertia scaled by 4 matters");
 }
 
 TEST(ValidityWarnings, AFlightThroughAGridAtRest) {
@@ -369,61 +278,6 @@ TEST(ValidityWarnings, CracksThatNoContinuumLawHolds) {
   thin.bodies[1].x_begin = thin.bodies[1].x_end - 2e-3;
   for (double& pressure : run.trace.bottom_pressure) pressure *= 2.0 / 560.0;  // of so little charge
   expect_one(validity_warnings(thin, run), "more than the charge measures");
-}
-
-TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
-  scene::Scene scene = shipped_scene();
-  scene.interfaces.clear();
-  const auto warnings_with = [&scene](double all, double selective) {
-    scene.numerics.inertial_scaling = all;
-    scene.numerics.selective_inertia = selective;
-    MechanicsResult run = sound_run();
-    run.monitor[1].energy.kinetic = 1.0;  // far from what any charge is warned of
-    return validity_warnings(scene, run);
-  };
-  EXPECT_TRUE(warnings_with(200.0, 1.0).empty());
-  scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
-  EXPECT_TRUE(warnings_with(16.0, 1.0).empty());
-  EXPECT_TRUE(warnings_with(1.0, 4.0).empty());
-  expect_one(warnings_with(17.0, 1.0), "measured up to 16");
-  expect_one(warnings_with(1.0, 4.1), "measured up to 16");
-  expect_one(warnings_with(16.0, 2.0), "measured up to 16");
-}
-
-TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
-  scene::Scene scene = shipped_scene();
-  scene.interfaces.clear();
-  scene.load.width = 0.37e-3;  // from 10 to 90 % in 0.6 ms
-  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
-  scene.numerics.selective_inertia = 4.0;
-  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
-  scene.load.width = 0.75 * scene.load.width;
-  expect_one(validity_warnings(scene, sound_run()), "numerics.selective_inertia = 1 for this one");
-  scene.numerics.selective_inertia = 1.0;
-  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
-}
-
-TEST(ValidityWarnings, ScaledInertiaUnderAMeasuredCurveThatRings) {
-  const auto warnings_with = [](double ring, double all, double selective) {
-    scene::Scene scene = shipped_scene();
-    scene.interfaces.clear();
-    for (int k = 0; k <= 2300; ++k) {
-      const double time = 1e-5 * k, bell = std::exp(-std::pow((time - 11.4e-3) / 3.3e-3, 2));
-      scene.load.curve_time.push_back(time);
-      scene.load.curve_pressure.push_back(496e6 * bell *
-                                          (1.0 + ring * std::sin(2.0 * std::numbers::pi * 2400.0 * time)));
-    }
-    scene.numerics.inertial_scaling = all;
-    scene.numerics.selective_inertia = selective;
-    return validity_warnings(scene, sound_run());
-  };
-  EXPECT_TRUE(warnings_with(0.0, 1.0, 1.0).empty());
-  EXPECT_TRUE(warnings_with(0.015, 1.0, 1.0).empty());
-  EXPECT_TRUE(warnings_with(0.0, 4.0, 1.0).empty());
-  expect_one(warnings_with(0.015, 4.0, 1.0), "numerics.inertial_scaling = 1 for this one");
-  // Which keeps no ring apart from the pressure: of any curve.
-  expect_one(warnings_with(0.0, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
-  expect_one(warnings_with(0.015, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
 }
 
 TEST(ValidityWarnings, FacesThatPassIntoEachOther) {

@@ -1,0 +1,159 @@
+// Which runs the cases of a study need, and which they share.
+#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/run_cases.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace launchsafe::study {
+namespace {
+
+/// The gaps of a case that are run through ignition; none with one-way coupling, or where the kind does not
+/// ask for them.
+std::vector<double> burning_gaps(const StudyFile& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  if (!study.study.kind.goes_through_ignition || scene.coupling == scene::Coupling::one_way) return {};
+  return scene.surface.gaps;
+}
+
+/// Of so many cases at the most the runs are planned before they are begun.
+constexpr std::size_t most_planned_before = 512;
+
+/// The axes that reach the mechanics.
+std::vector<std::size_t> mechanical_axes(const std::vector<Axis>& axes) {
+  std::vector<std::size_t> reaching;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (keys::reaches_mechanics(axes[i].key.role().acts_on)) reaching.push_back(i);
+  return reaching;
+}
+
+/// Whether the mechanics of a case has its values of these axes: not where a launch decides whether the
+/// mechanics knows a key, as its role says, or as its value is not there.
+bool keeps_values(const StudyFile& study, std::size_t index, const std::vector<std::size_t>& axes) {
+  const scene::Scene part = scene::mechanical_part(study.cases[index].scene.scene);
+  return std::ranges::all_of(axes, [&](std::size_t i) {
+    const Axis& axis = study.study.axes[i];
+    const keys::ActsOn acts_on = axis.key.role().acts_on;
+    const auto* key = scene::find_key(scene::scene_keys(), axis.key.name);
+    return (acts_on == keys::ActsOn::mechanics || acts_on == keys::ActsOn::numerics) && key != nullptr &&
+           same_value(key->get(part), scene::Value(study.cases.coordinates(index)[i]));
+  });
+}
+
+/// Whether cases that differ in these axes surely differ in their runs. The first and the last case have
+/// other values of each, of which one is not the default.
+bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axes) {
+  if (study.cases.empty() || study.study.kind.goes_through_ignition) return false;
+  const std::size_t last = study.cases.size() - 1;
+  return !study.cases.has_own_scene(0) && !study.cases.has_own_scene(last) && keeps_values(study, 0, axes) &&
+         keeps_values(study, last, axes);
+}
+
+std::string key_by_values(const std::vector<double>& coordinates, const std::vector<std::size_t>& axes) {
+  std::string key;
+  for (const std::size_t i : axes) key += fmt::format("{} ", coordinates[i]);
+  return key;
+}
+
+std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
+  std::string key = mechanics_run(input.scene.scene, {}).hash;
+  // A case that burns shares its launch alone with no other.
+  for (const double gap : burning_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
+  return key;
+}
+
+/// The cases that share runs, in the order of their first ones.
+std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
+  std::vector<std::string> keys(study.cases.size());
+  const std::vector<std::size_t> axes = mechanical_axes(study.study.axes);
+  const bool by_values = tell_runs_apart(study, axes);
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
+    const bool varied = by_values && !study.cases.has_own_scene(i);
+    keys[i] = varied ? key_by_values(study.cases.coordinates(i), axes) : key_by_runs(study, study.cases[i]);
+  });
+  std::vector<CaseRuns> cases;
+  std::unordered_map<std::string, std::size_t> known;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const auto [found, is_new] = known.try_emplace(std::move(keys[i]), cases.size());
+    if (is_new) cases.emplace_back();
+    cases[found->second].members.push_back(i);
+  }
+  return cases;
+}
+
+/// The run of the mechanics of a case, of its longer launch if there is one.
+CaseRun longer_run(const StudyCase& input) {
+  return mechanics_run(*with_longer_launch(input.scene.scene),
+                       fmt::format("{}, {}", input.label,
+                                   scene::is_cut_short(input.scene.scene.load) ? "until the launch is over"
+                                                                               : "without muzzle exit"));
+}
+
+/// The runs of the first of the cases that share them.
+void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
+  const std::size_t first = cases.members.front();
+  const StudyFile* of = &study;
+  cases.runs.push_back({[of, first, checkpoints] {
+    const StudyCase input = of->cases[first];
+    CaseRun run = mechanics_run(input.scene.scene, input.label);
+    run.checkpoints = checkpoints;
+    return run;
+  }});
+  if (study.study.kind.goes_through_ignition)
+    for (const double gap : burning_gaps(study, study.cases[first]))
+      cases.runs.push_back({[of, first, gap] {
+        const StudyCase input = of->cases[first];
+        return skin_run(input.scene.scene, gap,
+                        fmt::format("{}, through ignition at {:.6g} cm", input.label, 100.0 * gap));
+      }});
+  if (propagates_spread(study.study))
+    cases.runs.push_back({[of, first] {
+      const StudyCase input = of->cases[first];
+      return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
+    }});
+  if (study.in_detail && with_longer_launch(study.cases[first].scene.scene))
+    cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
+}
+
+void predict_costs(std::vector<CaseRuns>& cases) {
+  const std::size_t every = (cases.size() + most_planned_before - 1) / most_planned_before;
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    if (i % every != 0) return;
+    for (PlannedRun& run : cases[i].runs) run.cost = cost_of(run.make());
+  });
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {
+      const std::vector<PlannedRun>& alike = cases[i - i % every].runs;
+      cases[i].runs[j].cost = alike[std::min(j, alike.size() - 1)].cost;
+    }
+}
+
+}  // namespace
+
+std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
+  std::optional<scene::Load> longer = scene::longer_launch(scene.load);
+  if (!longer) return std::nullopt;
+  scene::Scene other = scene;
+  other.load = std::move(*longer);
+  return other;
+}
+
+std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints) {
+  std::vector<CaseRuns> cases = cases_by_runs(study);
+  for (CaseRuns& each : cases) plan_runs(study, checkpoints, each);
+  predict_costs(cases);
+  std::vector<double> costs;
+  for (const CaseRuns& each : cases) costs.push_back(each.runs.front().cost);
+  const std::vector<int> shard = shards_of(costs, shards);
+  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].shard = shard[i];
+  return cases;
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,121 @@
+#include "launchsafe/run/validity_warnings.hpp"
+#include "run/sound_run.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace launchsafe::run {
+namespace {
+
+using test_support::expect_one, test_support::shipped_scene, test_support::sound_run, test_support::take_exit;
+
+TEST(ValidityWarnings, CombustionNeedsTrueInertiaAndAKnownLoad) {
+  scene::Scene scene = shipped_scene();
+  CombustionHistory combustion;
+  combustion.time = {17.7e-3, 18.7e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  scene.numerics.inertial_scaling = 1.5;
+  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 1.5");
+  scene.numerics.inertial_scaling = 1.0;
+  scene.numerics.selective_inertia = 4.0;
+  expect_one(combustion_validity_warnings(scene, combustion), "inertia is scaled by up to 16");
+  scene.numerics.selective_inertia = 1.0;
+  // A decay behind an exit goes on; the last point of a record does not.
+  scene.load.curve_time = {0.0, 18e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  take_exit(scene.load);
+  expect_one(combustion_validity_warnings(scene, combustion), "0.7 ms before the run");
+  scene.load.curve_time = {0.0, 19e-3};
+  EXPECT_TRUE(combustion_validity_warnings(scene, combustion).empty());
+  combustion.end = CombustionEnd::broke_off;
+  combustion.reason = "cells distorted";
+  expect_one(combustion_validity_warnings(scene, combustion), "broke off after ignition: cells distorted");
+}
+
+/// Kinetic and internal energy as measured at these factors: see validity_warnings.cpp for what they do to T
+/// max.
+TEST(ValidityWarnings, InertiaScaledUntilItMatters) {
+  struct Measured {
+    double scaling, internal, kinetic;
+    bool warned;
+  };
+  for (const Measured& each : {Measured{16, 7470, 18.7, false},
+                               {100, 7950, 157, false},
+                               {200, 9649, 459, true},
+                               {1e4, 6340, 3460, true}}) {
+    scene::Scene scene = shipped_scene();
+    scene.interfaces.clear();
+    scene.numerics.inertial_scaling = each.scaling;
+    MechanicsResult run = sound_run();
+    run.monitor[1].energy.internal = each.internal;
+    run.monitor[2].energy.kinetic = each.kinetic;
+    EXPECT_EQ(!validity_warnings(scene, run).empty(), each.warned) << each.scaling;
+  }
+}
+
+TEST(ValidityWarnings, TheInertiaThatAStepLoadMovesIsTrueWhereNothingScalesIt) {
+  MechanicsResult run = sound_run();
+  run.monitor[1].energy.kinetic = 5000.0;
+  EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
+  scene::Scene scaled = shipped_scene();
+  scaled.numerics.inertial_scaling = 4.0;
+  expect_one(validity_warnings(scaled, run), "inertia scaled by 4 matters");
+}
+
+TEST(ValidityWarnings, ScaledInertiaOfAChargeThatSlidesBeyondWhatWasMeasured) {
+  scene::Scene scene = shipped_scene();
+  scene.interfaces.clear();
+  const auto warnings_with = [&scene](double all, double selective) {
+    scene.numerics.inertial_scaling = all;
+    scene.numerics.selective_inertia = selective;
+    MechanicsResult run = sound_run();
+    run.monitor[1].energy.kinetic = 1.0;  // far from what any charge is warned of
+    return validity_warnings(scene, run);
+  };
+  EXPECT_TRUE(warnings_with(200.0, 1.0).empty());
+  scene.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
+  EXPECT_TRUE(warnings_with(16.0, 1.0).empty());
+  EXPECT_TRUE(warnings_with(1.0, 4.0).empty());
+  expect_one(warnings_with(17.0, 1.0), "measured up to 16");
+  expect_one(warnings_with(1.0, 4.1), "measured up to 16");
+  expect_one(warnings_with(16.0, 2.0), "measured up to 16");
+}
+
+TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
+  scene::Scene scene = shipped_scene();
+  scene.interfaces.clear();
+  scene.load.width = 0.37e-3;  // from 10 to 90 % in 0.6 ms
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.numerics.selective_inertia = 4.0;
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.load.width = 0.75 * scene.load.width;
+  expect_one(validity_warnings(scene, sound_run()), "numerics.selective_inertia = 1 for this one");
+  scene.numerics.selective_inertia = 1.0;
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+}
+
+TEST(ValidityWarnings, ScaledInertiaUnderAMeasuredCurveThatRings) {
+  const auto warnings_with = [](double ring, double all, double selective) {
+    scene::Scene scene = shipped_scene();
+    scene.interfaces.clear();
+    for (int k = 0; k <= 2300; ++k) {
+      const double time = 1e-5 * k, bell = std::exp(-std::pow((time - 11.4e-3) / 3.3e-3, 2));
+      scene.load.curve_time.push_back(time);
+      scene.load.curve_pressure.push_back(496e6 * bell *
+                                          (1.0 + ring * std::sin(2.0 * std::numbers::pi * 2400.0 * time)));
+    }
+    scene.numerics.inertial_scaling = all;
+    scene.numerics.selective_inertia = selective;
+    return validity_warnings(scene, sound_run());
+  };
+  EXPECT_TRUE(warnings_with(0.0, 1.0, 1.0).empty());
+  EXPECT_TRUE(warnings_with(0.015, 1.0, 1.0).empty());
+  EXPECT_TRUE(warnings_with(0.0, 4.0, 1.0).empty());
+  expect_one(warnings_with(0.015, 4.0, 1.0), "numerics.inertial_scaling = 1 for this one");
+  // Of any curve: nothing was measured of those that do not ring.
+  expect_one(warnings_with(0.0, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
+  expect_one(warnings_with(0.015, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
+}
+
+}  // namespace
+}  // namespace launchsafe::run
