@@ -13,6 +13,7 @@ Examples:
   launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2
   launchsafe merge sweep.toml -o results shard-1 shard-2
   launchsafe emit slurm sweep.toml -o results --shards 20
+  launchsafe ask results --set load.peak="510 MPa"
   launchsafe verify
   launchsafe explain studies/scene_155mm.toml
   launchsafe plot results/scene_155mm.h5
@@ -64,6 +65,15 @@ Examples:
   sh results/slurm/submit.sh                                 submits an array job, and a merge that waits for it
 
 The scripts are written to results/slurm. --memory is what each shard asks Slurm for.)";
+
+inline constexpr const char* ask_footer = R"(
+Examples:
+  launchsafe ask results                                                 the launch of the study's scene
+  launchsafe ask results --set load.peak="510 MPa" --set initial_temperature="305 K" --gap "0.25 mm"
+  launchsafe ask results --set load.peak="510 MPa" --json --quiet
+
+Nothing is computed: the answer is a prediction, with the error of the fit found at launches that it has not seen. A
+launch beyond those that were computed is refused. A prediction is never SAFE.)";
 
 inline constexpr const char* verify_footer = R"(
 Examples:

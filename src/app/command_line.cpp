@@ -97,6 +97,22 @@ void add_emit(CLI::App& app, CommandLine& line) {
       ->allow_extra_args(false);
 }
 
+void add_ask(CLI::App& app, CommandLine& line) {
+  auto [command, ask] = add_command<AskArguments>(
+      app, line, "ask", "Ask the fit of a sensitivity study about a launch, in no time", ask_footer);
+  add_required(command, "study", ask.study, "STUDY_DIR",
+               "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
+  add_optional(command, "--set", ask.settings, "KEY=VALUE",
+               "An input of the launch; those that are not set are as in the study's scene")
+      ->allow_extra_args(false);
+  const auto read_gap = [](std::string_view text) {
+    const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
+    return gap && *gap >= 0.0 ? gap : std::nullopt;
+  };
+  add_amount(command, "--gap", ask.gap, read_gap, "a length such as \"0.3 mm\"", "LENGTH",
+             "Gap to be told of; the study's unless given");
+}
+
 void add_verify(CLI::App& app, CommandLine& line) {
   auto [command, verify] = add_command<VerifyArguments>(
       app, line, "verify", "Test an installed program against known numbers", verify_footer);
@@ -252,8 +268,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  for (const auto add : {add_run, add_study, add_merge, add_emit, add_verify, add_explain, add_plot, add_init,
-                         add_import_curve, add_report})
+  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
+                         add_init, add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");

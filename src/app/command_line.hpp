@@ -20,7 +20,7 @@ struct UsageError {
 
 using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
                              EmitArguments, VerifyArguments, ExplainArguments, PlotArguments, InitArguments,
-                             ImportCurveArguments, ReportArguments>;
+                             ImportCurveArguments, ReportArguments, AskArguments>;
 
 struct CommandLine {
   Request request;

@@ -57,6 +57,13 @@ struct EmitArguments {
 };
 ExitCode perform(const EmitArguments& arguments, Console& console);
 
+struct AskArguments {
+  std::filesystem::path study;        ///< folder of a finished study, or its surrogate.json
+  std::vector<std::string> settings;  ///< "KEY=VALUE"
+  std::optional<double> gap;          ///< m; none: the study's
+};
+ExitCode perform(const AskArguments& arguments, Console& console);
+
 struct VerifyArguments {
   std::string filter;  ///< part of a check's group or name, case ignored
 };

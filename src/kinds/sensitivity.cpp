@@ -26,6 +26,12 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
   return inputs;
 }
 
+UncertainInputs uncertain_inputs(const Study& study) {
+  UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
+  for (const Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
+  return inputs;
+}
+
 bool samples_inputs(const Study& study, std::size_t evaluation) {
   return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos ||
          evaluation % (inputs_of(study).size() + 2) < 2;

@@ -61,30 +61,6 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   };
 }
 
-/// The values of axes that vary together, from the standard normals that belong to a point of the unit cube.
-void set_correlated(const CorrelatedAxes& correlated, const std::vector<Axis>& axes,
-                    const std::vector<double>& unit_point, std::vector<double>& coordinates) {
-  const auto standard = math::Distribution::normal(0.0, 1.0);
-  for (std::size_t i = 0; i < correlated.count; ++i) {
-    double logarithm = 0.0;
-    for (std::size_t j = 0; j <= i; ++j)
-      logarithm += correlated.factor[i * correlated.count + j] *
-                   math::quantile(standard, unit_point[correlated.first + j]);
-    const std::size_t axis = correlated.first + i;
-    coordinates[axis] = axes[axis].distribution->centre * std::exp(logarithm);
-  }
-}
-
-/// Values (SI) of the axes at a point of the unit cube, in their order.
-std::vector<double> coordinates_of(const Study& study, const std::vector<double>& unit_point) {
-  std::vector<double> coordinates;
-  for (std::size_t i = 0; i < study.axes.size(); ++i)
-    coordinates.push_back(math::quantile(*study.axes[i].distribution, unit_point[i]));
-  if (const auto& correlated = sensitivity_settings(study).correlated)
-    set_correlated(*correlated, study.axes, unit_point, coordinates);
-  return coordinates;
-}
-
 bool is_correlated(const Axis& axis) {
   return axis.distribution->kind == math::Distribution::Kind::log_normal;
 }
@@ -121,9 +97,8 @@ Fault make_saltelli(StudyFile& study) {
   std::vector<std::size_t> columns;
   for (const SensitivityInput& input : each_input) columns.push_back(input.count);
   const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
-  const auto coordinates = [&](std::size_t evaluation) {
-    return coordinates_of(s, design.point(evaluation));
-  };
+  const UncertainInputs drawn = uncertain_inputs(s);
+  const auto coordinates = [&](std::size_t evaluation) { return drawn.values_at(design.point(evaluation)); };
   for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
     if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
   return add_varied_cases(
@@ -150,10 +125,11 @@ Fault make_chaos_samples(StudyFile& study) {
   if (fitted < fewest)
     return fault_at(study, "samples", fmt::format("{} samples for a fit", fitted),
                     fmt::format("at least {}: two an input, and 8", fewest));
+  const UncertainInputs drawn = uncertain_inputs(s);
   const std::vector<double> points = chaos_points(s);
   const auto coordinates = [&](std::size_t evaluation) {
     const auto begin = points.begin() + static_cast<std::ptrdiff_t>(evaluation * s.axes.size());
-    return coordinates_of(s, {begin, begin + static_cast<std::ptrdiff_t>(s.axes.size())});
+    return drawn.values_at({begin, begin + static_cast<std::ptrdiff_t>(s.axes.size())});
   };
   for (std::size_t evaluation = 0; evaluation < all; ++evaluation)
     if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
@@ -193,6 +169,7 @@ Kind sensitivity_kind() {
                 {"quantiles.csv"},
                 {"histogram.csv"},
                 {"histogram.svg"},
+                {"surrogate.json"},
                 {"sensitivity_", ".svg"}},
       .results = sensitivity_results,
   };

@@ -1,5 +1,8 @@
 #include "sensitivity_chaos.hpp"
 
+#include "launchsafe/run/model_version.hpp"
+#include "sensitivity_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +12,7 @@ namespace launchsafe::kinds {
 
 namespace {
 
-using study::Study;
+using study::Study, study::Axis, study::SurrogateRecord, study::UncertainInputs;
 
 constexpr std::size_t fewest_held_out = 10;
 constexpr double most_unexplained = 0.1;
@@ -17,18 +20,6 @@ constexpr double most_unexplained = 0.1;
 std::vector<double> point_of(const std::vector<double>& points, std::size_t row, std::size_t inputs) {
   const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
   return {begin, begin + static_cast<std::ptrdiff_t>(inputs)};
-}
-
-/// Constants that vary together stand for the normals that they are made of.
-std::vector<math::ChaosBasis> bases_of(const Study& study) {
-  std::vector<math::ChaosBasis> bases;
-  for (const study::Axis& axis : study.axes) {
-    const auto kind = axis.distribution->kind;
-    const bool is_normal =
-        kind == math::Distribution::Kind::normal || kind == math::Distribution::Kind::log_normal;
-    bases.push_back(is_normal ? math::ChaosBasis::hermite : math::ChaosBasis::legendre);
-  }
-  return bases;
 }
 
 /// How far a fit is off the evaluations from `fitted` on.
@@ -88,7 +79,7 @@ void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
   for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
   begins.push_back(study.axes.size());
   SurrogateFit& fit = output.fit.emplace();
-  fit.chaos = math::fit_chaos(bases_of(study), fitted_points, values);
+  fit.chaos = math::fit_chaos(uncertain_inputs(study).bases(), fitted_points, values);
   output.sobol = math::chaos_indices(
       fit.chaos, fitted_points, values, begins,
       {.level = own.confidence, .resamples = static_cast<std::size_t>(own.resamples), .seed = own.seed});
@@ -100,17 +91,25 @@ void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
     for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.unexplained);
 }
 
-PredictedIgnitions predicted_ignitions(const Study& study, const SurrogateFit& fit, double gap) {
-  PredictedIgnitions ignitions{.draws = 16384};
-  const std::size_t inputs = study.axes.size();
-  const std::vector<double> points = math::unit_points(math::Design::scrambled_sobol, ignitions.draws, inputs,
-                                                       math::hashed(sensitivity_settings(study).seed, 2));
-  for (std::size_t row = 0; row < ignitions.draws; ++row) {
-    const double predicted = fit.chaos.at(point_of(points, row, inputs));
-    ignitions.predicted += predicted <= gap;
-    ignitions.at_most += predicted - fit.largest_error <= gap;
+SurrogateRecord surrogate_record(const SensitivityResult& result) {
+  const Study& study = result.study.study;
+  SurrogateRecord record{.model_version = run::model_version,
+                         .scene = result.study.scene.scene,
+                         .gap = study.gaps.front(),
+                         .inputs = uncertain_inputs(study),
+                         .fitted = static_cast<std::size_t>(sensitivity_settings(study).samples),
+                         .points = chaos_points(study)};
+  scene::clear_remarks(record.scene);
+  for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
+  for (const OutputSensitivity& output : result.outputs) {
+    if (output.output == SensitivityOutput::margin) continue;  // of T max and the ignition temperature
+    record.outputs.push_back({.name = shown_output(output.output).column.name,
+                              .inert = output.inert,
+                              .values = output.values,
+                              .reason = output.reason});
+    if (output.fit) record.outputs.back().fit = output.fit->chaos;
   }
-  return ignitions;
+  return record;
 }
 
 }  // namespace launchsafe::kinds

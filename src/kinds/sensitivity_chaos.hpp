@@ -16,11 +16,7 @@ std::vector<double> chaos_points(const study::Study& study);
 /// tenth, or not known from 10 evaluations at least.
 void estimate_by_chaos(const study::Study& study, OutputSensitivity& output);
 
-/// Of launches drawn from the inputs, those whose critical gap a fit predicts to be no larger than a gap (m):
-/// as predicted, and with predictions lowered by the largest error that was found.
-struct PredictedIgnitions {
-  std::size_t draws = 0, predicted = 0, at_most = 0;
-};
-PredictedIgnitions predicted_ignitions(const study::Study& study, const SurrogateFit& fit, double gap);
+/// What was fitted, for `launchsafe ask`. Of a study that has its outputs.
+study::SurrogateRecord surrogate_record(const SensitivityResult& result);
 
 }  // namespace launchsafe::kinds

@@ -6,6 +6,7 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
+#include "sensitivity_chaos.hpp"
 #include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
 
@@ -215,6 +216,8 @@ Report report_of(const SensitivityResult& result) {
   report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
   report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
                                      most_evaluation_rows});
+  if (has_fit(result) && !result.outputs.empty())
+    report.files.push_back({"surrogate.json", to_json_text(surrogate_record(result))});
   report.json = study_json(result.study, report,
                            {{"method", method_json(result)},
                             {"gap_cm", number(shown_gap(result.study.study.gaps.front()))},

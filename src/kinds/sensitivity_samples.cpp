@@ -186,9 +186,13 @@ std::string samples_text(const SensitivityResult& result) {
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
     if (gap->fit && gap->reason.empty()) {
+      const SurrogateRecord record = surrogate_record(result);
       const PredictedIgnitions of =
-          predicted_ignitions(result.study.study, *gap->fit, result.study.study.gaps.front());
-      facts["fit"] = {{"draws", of.draws}, {"predicted", of.predicted}, {"at_most", of.at_most}};
+          predicted_ignitions(record, record.gap, std::vector<std::optional<double>>(record.keys.size()));
+      facts["fit"] = {{"draws", of.draws},
+                      {"predicted", of.predicted},
+                      {"at_most", of.at_most},
+                      {"uncovered", of.uncovered}};
     }
     for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
       facts["quantiles"][name] = quantile_text(result, sample.quantile(share));

@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace launchsafe::math {
 namespace {
@@ -197,6 +198,12 @@ Shares shares_of(const std::vector<ChaosTerm>& terms, const Vector& coefficients
   return shares;
 }
 
+std::vector<std::vector<int>> degrees_of(const PolynomialChaos& chaos) {
+  std::vector<std::vector<int>> degrees;
+  for (const ChaosTerm& term : chaos.terms) degrees.push_back(term.degrees);
+  return degrees;
+}
+
 Vector coefficients_of(const PolynomialChaos& chaos) {
   Vector coefficients(index(chaos.terms.size()));
   for (std::size_t i = 0; i < chaos.terms.size(); ++i) coefficients(index(i)) = chaos.terms[i].coefficient;
@@ -248,6 +255,27 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
   return chaos;
 }
 
+FittedChaos::FittedChaos(PolynomialChaos chaos, const std::vector<double>& points)
+    : chaos_(std::move(chaos)) {
+  const Matrix terms = matrix_of(chaos_.inputs, degrees_of(chaos_), chaos_.degree, points);
+  const Matrix inverse =
+      (terms.transpose() * terms).ldlt().solve(Matrix::Identity(terms.cols(), terms.cols()));
+  inverse_.assign(inverse.data(), inverse.data() + inverse.size());
+}
+
+FittedChaos::Value FittedChaos::at(const std::vector<double>& point) const {
+  assert(point.size() == chaos_.inputs.size());
+  const auto of_inputs = polynomials_at(chaos_.inputs, chaos_.degree, point.data());
+  Vector terms(index(chaos_.terms.size()));
+  double value = 0.0;
+  for (std::size_t i = 0; i < chaos_.terms.size(); ++i) {
+    terms(index(i)) = product(chaos_.terms[i].degrees, of_inputs);
+    value += chaos_.terms[i].coefficient * terms(index(i));
+  }
+  const Eigen::Map<const Matrix> inverse(inverse_.data(), terms.size(), terms.size());
+  return {value, terms.dot(inverse * terms)};
+}
+
 SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<double>& points,
                            const std::vector<double>& values, const std::vector<std::size_t>& begins,
                            const SobolOptions& options) {
@@ -264,9 +292,7 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
     indices.reason = "the output does not vary";
     return indices;
   }
-  std::vector<std::vector<int>> degrees;
-  for (const ChaosTerm& term : chaos.terms) degrees.push_back(term.degrees);
-  const Matrix matrix = matrix_of(chaos.inputs, degrees, chaos.degree, rows.points);
+  const Matrix matrix = matrix_of(chaos.inputs, degrees_of(chaos), chaos.degree, rows.points);
   const Shares own = shares_of(chaos.terms, coefficients_of(chaos), begins);
   std::vector<std::vector<double>> first(own.first.size()), total(own.first.size());
   SplitMix64 random(options.seed);

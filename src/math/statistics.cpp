@@ -1,5 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -180,6 +181,14 @@ double one_sided_tolerance_factor(int n, double coverage, double confidence) {
   const double root = std::sqrt(static_cast<double>(n));
   const double shift = boost::math::quantile(boost::math::normal(), coverage) * root;
   return boost::math::quantile(boost::math::non_central_t(n - 1, shift), confidence) / root;
+}
+
+double exponential_tolerance_factor(int n, double coverage, double confidence) {
+  // Twice the sum of magnitudes over their scale is chi-squared; of the scale, half of 1 - coverage is beyond
+  // -ln(2 (1 - coverage)) on one side.
+  const boost::math::chi_squared magnitudes(2.0 * n);
+  const double largest_scale = 2.0 * n / boost::math::quantile(magnitudes, 1.0 - confidence);
+  return -std::log(2.0 * (1.0 - coverage)) * largest_scale;
 }
 
 double one_sided_student_factor(int n, double level) {

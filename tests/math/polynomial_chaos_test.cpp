@@ -100,5 +100,22 @@ TEST(PolynomialChaos, LeavesOutWhatHasNoNumberAndRefusesTooFew) {
             "the output does not vary");
 }
 
+// The leverages of all fitted points add up to the number of terms, as the trace of a projection is its rank.
+TEST(FittedChaos, HasTheValueOfItsPolynomialAndTheLeverageOfItsPoints) {
+  const std::vector<double> points = unit_points(Design::scrambled_sobol, 64, 3, 1);
+  const PolynomialChaos chaos = fit_chaos({ChaosBasis::legendre, ChaosBasis::legendre, ChaosBasis::legendre},
+                                          points, values_at(ishigami, points, 3));
+  const FittedChaos fitted(chaos, points);
+  double sum = 0.0;
+  for (std::size_t row = 0; row < 64; ++row) {
+    const std::vector<double> point{points[3 * row], points[3 * row + 1], points[3 * row + 2]};
+    EXPECT_NEAR(fitted.at(point).value, chaos.at(point), 1e-12);
+    EXPECT_LT(fitted.at(point).leverage, 1.0);
+    sum += fitted.at(point).leverage;
+  }
+  EXPECT_NEAR(sum, static_cast<double>(chaos.terms.size()), 1e-9);
+  EXPECT_GT(fitted.at({0.999, 0.999, 0.999}).leverage, fitted.at({0.5, 0.5, 0.5}).leverage);
+}
+
 }  // namespace
 }  // namespace launchsafe::math

@@ -8,6 +8,7 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
+#include "launchsafe/study/surrogate.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +17,6 @@
 #include <vector>
 
 namespace launchsafe::kinds {
-
-/// Constants that vary together, as the calibration that fitted them found: their logarithms are normal.
-struct CorrelatedAxes {
-  std::size_t first = 0, count = 0;  ///< among Study::axes, which say the median of each and its deviation
-  std::vector<double> factor;        ///< of the covariance of the logarithms (math::covariance_factor)
-};
 
 /// How indices of first and total order follow from evaluations.
 enum class SensitivityMethod {
@@ -38,7 +33,7 @@ struct SensitivitySettings {
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
-  std::optional<CorrelatedAxes> correlated = {};
+  std::optional<study::CorrelatedInputs> correlated = {};  ///< of Study::axes
 };
 
 inline const SensitivitySettings& sensitivity_settings(const study::Study& study) {
@@ -50,6 +45,9 @@ struct SensitivityInput {
   std::size_t first = 0, count = 1;  ///< among Study::axes
 };
 std::vector<SensitivityInput> inputs_of(const study::Study& study);
+
+/// What the study draws from, in the order of Study::axes.
+study::UncertainInputs uncertain_inputs(const study::Study& study);
 
 /// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
 /// differences: the blocks A and B of a Saltelli design, and all that a polynomial is fitted to or held

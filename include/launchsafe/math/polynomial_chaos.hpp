@@ -50,6 +50,26 @@ std::size_t fewest_chaos_points(std::size_t inputs);
 PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                           const std::vector<double>& values);
 
+/// A polynomial with the points that it was fitted to, which say how far it reaches.
+class FittedChaos {
+ public:
+  /// Of the points, row by row. Their values do not matter.
+  FittedChaos(PolynomialChaos chaos, const std::vector<double>& points);
+
+  struct Value {
+    double value = 0;  ///< the output's unit
+    /// How far the point lies from those that were fitted, as the fit weighs them: where fitted values err
+    /// independently by s the fit errs by s sqrt(leverage). Each fitted point has less than 1, all together
+    /// have the number of terms.
+    double leverage = 0;
+  };
+  Value at(const std::vector<double>& point) const;
+
+ private:
+  PolynomialChaos chaos_;
+  std::vector<double> inverse_;  ///< of the sums of products of the terms, symmetric
+};
+
 /// Sobol indices of groups of inputs, `begins` holding the first input of each and behind them their number:
 /// the shares of the variance of the terms that have no other input, and of all that have one of them. The
 /// intervals come from a bootstrap: the same terms fitted to points drawn with replacement.

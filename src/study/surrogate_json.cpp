@@ -1,0 +1,166 @@
+// The record of a surrogate as JSON, read with distrust.
+#include "launchsafe/study/record_reader.hpp"
+#include "launchsafe/study/surrogate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace launchsafe::study {
+namespace {
+
+constexpr RecordFormat surrogate_format{"launchsafe surrogate 1",
+                                        "surrogate.json",
+                                        "a study of kind sensitivity with method = \"polynomial-chaos\"",
+                                        {"digest", "format"}};
+constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
+constexpr int highest_degree = 20;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+const scene::Limits any_number = scene::between(-1e30, 1e30);
+const std::vector<std::string> kinds{"uniform", "log-uniform", "normal", "log-normal"};
+
+/// Infinite ends are null.
+void describe_end(RecordObject& object, const char* key, double& end, double without) {
+  double number = std::isfinite(end) ? end : std::numeric_limits<double>::quiet_NaN();
+  object.value(key, number, OrNone{any_number});
+  end = std::isnan(number) ? without : number;
+}
+
+/// One input: its key and its distribution.
+struct Input {
+  std::string key;
+  math::Distribution distribution;
+};
+
+void describe_input(RecordObject& object, Input& input) {
+  math::Distribution& distribution = input.distribution;
+  object.value("key", input.key);
+  std::string kind = kinds[static_cast<std::size_t>(distribution.kind)];
+  object.value("distribution", kind);
+  const auto found = std::ranges::find(kinds, kind);
+  if (found != kinds.end()) distribution.kind = static_cast<math::Distribution::Kind>(found - kinds.begin());
+  describe_end(object, "lower", distribution.lower, -infinite);
+  describe_end(object, "upper", distribution.upper, infinite);
+  object.value("centre", distribution.centre, OrNone{any_number});
+  object.value("deviation", distribution.deviation, OrNone{any_number});
+  if (!object.reading() || object.reader().fault()) return;
+  if (found == kinds.end())
+    object.reader().refuse(object.path_of("distribution"), study::quoted(kind), scene::quoted_list(kinds));
+  else if (!math::is_valid(distribution))
+    object.reader().refuse(object.path_of("distribution"), "numbers that make no " + kind + " distribution",
+                           "those of the study");
+}
+
+void describe_inputs(RecordObject& object, SurrogateRecord& record) {
+  std::vector<Input> inputs;
+  for (std::size_t i = 0; i < record.keys.size(); ++i)
+    inputs.push_back({record.keys[i], record.inputs.distributions[i]});
+  object.list("inputs", inputs, 1, most_inputs, "an array of 1 to 100 inputs", describe_input);
+  record.keys.clear();
+  record.inputs.distributions.clear();
+  for (Input& each : inputs) {
+    record.keys.push_back(std::move(each.key));
+    record.inputs.distributions.push_back(each.distribution);
+  }
+}
+
+/// Those that vary together; none of them is a count of 0.
+void describe_correlated(RecordObject& object, SurrogateRecord& record) {
+  CorrelatedInputs together = record.inputs.correlated.value_or(CorrelatedInputs{});
+  int first = static_cast<int>(together.first), count = static_cast<int>(together.count);
+  const int inputs = static_cast<int>(record.keys.size());
+  object.value("first", first, 0, inputs);
+  object.value("count", count, 0, inputs - first);
+  const std::size_t entries = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
+  object.value("covariance_factor", together.factor, any_number, entries, entries);
+  if (!object.reading() || object.reader().fault() || count == 0) return;
+  together.first = static_cast<std::size_t>(first);
+  together.count = static_cast<std::size_t>(count);
+  for (std::size_t i = 0; i < together.count; ++i)
+    if (!(together.factor[i * together.count + i] > 0.0) ||
+        record.inputs.distributions[together.first + i].kind != math::Distribution::Kind::log_normal)
+      object.reader().refuse(object.path_of("covariance_factor"), "no factor of log-normal inputs",
+                             "that of the study");
+  record.inputs.correlated = std::move(together);
+}
+
+void describe_term(RecordObject& object, math::ChaosTerm& term, std::size_t inputs, int degree) {
+  std::vector<double> degrees(term.degrees.begin(), term.degrees.end());
+  object.value("degrees", degrees, scene::between(0, degree), inputs, inputs);
+  term.degrees.assign(degrees.begin(), degrees.end());
+  object.value("coefficient", term.coefficient, any_number);
+}
+
+/// Launches without a number are null.
+void describe_values(RecordObject& object, std::vector<double>& values, std::size_t launches) {
+  nlohmann::ordered_json& list = object["values"];
+  if (!object.reading()) {
+    list = values;
+    return;
+  }
+  if (!list.is_array() || list.size() != launches)
+    return object.reader().refuse(object.path_of("values"), found_in(list), "a value for every launch");
+  for (const nlohmann::ordered_json& each : list)
+    object.reader().read(each, object.path_of("values"), values.emplace_back(), OrNone{any_number});
+}
+
+void describe_output(RecordObject& object, SurrogateOutput& output, const SurrogateRecord& record) {
+  const std::size_t inputs = record.keys.size();
+  object.value("name", output.name);
+  object.value("inert", output.inert);
+  object.value("reason", output.reason);
+  describe_values(object, output.values, record.points.size() / inputs);
+  output.fit.inputs = record.inputs.bases();
+  object.value("degree", output.fit.degree, 0, highest_degree);
+  object.value("leave_one_out", output.fit.leave_one_out, OrNone{any_number});
+  object.list(
+      "terms", output.fit.terms, output.reason.empty() ? 1 : 0, most_terms, "terms of a polynomial",
+      [&](RecordObject& own, math::ChaosTerm& term) { describe_term(own, term, inputs, output.fit.degree); });
+  if (!object.reading() || object.reader().fault() || !output.reason.empty()) return;
+  const auto middle = output.values.begin() + static_cast<std::ptrdiff_t>(record.fitted);
+  const auto has_number = [](double value) { return std::isfinite(value); };
+  if (std::count_if(output.values.begin(), middle, has_number) <=
+          static_cast<std::ptrdiff_t>(output.fit.terms.size()) ||
+      std::none_of(middle, output.values.end(), has_number))
+    object.reader().refuse(object.path_of("values"),
+                           "too few numbers for its polynomial and the error of that", "those of the study");
+}
+
+void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
+  object.model_version(record.model_version, "run the study anew");
+  object.scene(record.scene, "the scene of the study");
+  object.value("gap_m", record.gap, scene::between(0, 0.01));
+  describe_inputs(object, record);
+  if (object.reading() && object.reader().fault()) return;
+  const auto correlated = [&](RecordObject& own, SurrogateRecord& whole) { describe_correlated(own, whole); };
+  if (object.reading()) {
+    RecordObject own(object["correlated"], "correlated", object.reader());
+    if (object.reader().has_keys(own.json(), "correlated", {"first", "count", "covariance_factor"}))
+      correlated(own, record);
+  } else {
+    object["correlated"] = json_by(correlated, record);
+  }
+  int fitted = static_cast<int>(record.fitted);
+  object.value("fitted", fitted, 1, static_cast<int>(most_launches));
+  record.fitted = static_cast<std::size_t>(fitted);
+  const std::size_t inputs = record.keys.size();
+  object.value("points", record.points, scene::between(1e-300, 1.0), inputs, inputs * most_launches);
+  if (object.reading() &&
+      (record.points.size() % inputs != 0 || record.points.size() < inputs * record.fitted))
+    object.reader().refuse("points", "too few coordinates", "one for every input of every launch");
+  object.list("outputs", record.outputs, 0, 10, "an array of at most 10 outputs",
+              [&](RecordObject& own, SurrogateOutput& output) { describe_output(own, output, record); });
+}
+
+}  // namespace
+
+std::string to_json_text(const SurrogateRecord& record) {
+  return record_text(content_by(surrogate_format, describe_surrogate, record));
+}
+
+scene::Expected<SurrogateRecord> parse_surrogate(const std::string& text, const std::string& file) {
+  return parse_record<SurrogateRecord>(text, file, surrogate_format, describe_surrogate);
+}
+
+}  // namespace launchsafe::study

@@ -1,0 +1,108 @@
+// launchsafe ask: predictions from the fit of a study, which are no verdicts.
+#include "stored_study.hpp"
+
+namespace launchsafe::app {
+namespace {
+
+/// 18 launches of milliseconds.
+const std::string fitted_study = R"(kind = "sensitivity"
+scene = "shell.toml"
+early_time = "0.03 ms"
+gaps = "0.01 cm"
+method = "polynomial-chaos"
+design = "scrambled-sobol"
+samples = 16
+held_out = 10
+resamples = 100
+
+[[vary]]
+key = "peak_pressure"
+distribution = "uniform"
+range = "250 to 280 MPa"
+
+[[vary]]
+key = "initial_temperature"
+distribution = "uniform"
+range = "290 to 310 K"
+)";
+
+class Ask : public StoredStudy {
+ protected:
+  void SetUp() override {
+    StoredStudy::SetUp();
+    write("fitted.toml", fitted_study);
+    const Outcome outcome = run({"study", "fitted.toml", "-o", "fit", "-q"});
+    ASSERT_NE(outcome.code, 2) << outcome.err;
+    ASSERT_TRUE(exists("fit/surrogate.json")) << outcome.err;
+  }
+};
+
+/// T max, SI, as predicted.
+double temperature_in(const std::string& text) {
+  const auto answer = nlohmann::json::parse(text);
+  for (const auto& output : answer["outputs"])
+    if (output["output"] == "temperature_max") return output["value_si"];
+  ADD_FAILURE() << text;
+  return 0;
+}
+
+// The computation of the same launch is the judge.
+TEST_F(Ask, PredictsTheLaunchThatAStudyComputes) {
+  const Outcome outcome =
+      run({"ask", "fit", "--set", "peak_pressure=262 MPa", "--set", "initial_temperature=304 K", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto answer = nlohmann::json::parse(outcome.out);
+  write("same.toml",
+        "initial_temperature = \"304 K\"\n" + with(read("shell.toml"), "\"250 MPa\"", "\"262 MPa\""));
+  const Outcome computed = run({"run", "same.toml", "--json", "-q"});
+  ASSERT_EQ(computed.code, 0) << computed.err;
+  const auto gaps = nlohmann::json::parse(computed.out)["gaps"];
+  double error = 0;
+  for (const auto& output : answer["outputs"])
+    if (output["output"] == "temperature_max") error = output["error_si"];
+  EXPECT_GT(error, 0.0);
+  EXPECT_NEAR(temperature_in(outcome.out), gaps[1]["maximum"]["temperature_max_K"].get<double>(), error);
+}
+
+TEST_F(Ask, NeverSaysSafeAndSaysThatNothingWasComputed) {
+  const Outcome outcome = run({"ask", "fit", "--gap", "0"});
+  const Outcome with_unit = run({"ask", "fit", "--gap", "0 mm"});
+  EXPECT_EQ(outcome.code, 2);
+  ASSERT_EQ(with_unit.code, 0) << with_unit.err;
+  EXPECT_EQ(with_unit.out.find("SAFE\n"), std::string::npos);
+  EXPECT_EQ(with_unit.out.find(": SAFE"), std::string::npos);
+  EXPECT_NE(with_unit.out.find("this one was not computed"), std::string::npos) << with_unit.out;
+  EXPECT_NE(with_unit.out.find("Only a launch that was computed can be SAFE"), std::string::npos);
+}
+
+TEST_F(Ask, RefusesWhatWasNotComputed) {
+  const auto fault_of = [&](const std::string& given) {
+    const Outcome outcome = run({"ask", "fit", "--set", given});
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  };
+  EXPECT_NE(fault_of("load.peak=281 MPa").find("250 MPa to 280 MPa, where launches were computed"),
+            std::string::npos);
+  EXPECT_NE(fault_of("load.peek=260 MPa").find("did you mean load.peak?"), std::string::npos);
+  EXPECT_NE(fault_of("crack_radius=30 um").find("which the study does not vary"), std::string::npos);
+  EXPECT_NE(fault_of("load.peak=260").find("without a unit"), std::string::npos);
+  EXPECT_NE(fault_of("load.peak").find("no ="), std::string::npos);
+  EXPECT_NE(run({"ask", "fit", "--set", "load.peak=260 MPa", "--set", "peak_pressure=261 MPa"})
+                .err.find("a second time"),
+            std::string::npos);
+  EXPECT_NE(run({"ask", "."}).err.find("no such file"), std::string::npos);
+}
+
+TEST_F(Ask, RefusesAnEditedFit) {
+  std::string text = read("fit/surrogate.json");
+  const std::size_t place = text.find("\"coefficient\": ");
+  ASSERT_NE(place, std::string::npos);
+  write("fit/surrogate.json", text.replace(place, 15, "\"coefficient\": 1"));
+  const Outcome outcome = run({"ask", "fit"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("was edited"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace launchsafe::app
