@@ -69,7 +69,6 @@ Kind critical_gap_kind() {
                 {"critical_gaps.csv"},
                 {"critical_gaps.md"},
                 {"critical_gap", ".svg"},
-                {"safe_gap", ".svg"},
                 {"critical_gaps.json"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},

@@ -18,7 +18,7 @@ using namespace study;
 using namespace report;
 namespace {
 
-constexpr std::size_t most_maps = 9;
+constexpr std::size_t most_pictures = 9, most_lines = 6;
 /// What the pictures show, for who cannot see them.
 constexpr const char* picture_text = "critical gap";
 
@@ -66,8 +66,8 @@ PlotAxis picture_axis(const SweptAxis& swept) {
 }
 
 /// "Critical gap at flaw size 1 mm": with the values of the axes that the picture does not show.
-std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
-                     const std::vector<std::size_t>& shown_axes, const study::StudyCase& input) {
+std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::size_t>& shown_axes,
+                     const study::StudyCase& input) {
   std::string fixed;
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
@@ -75,11 +75,8 @@ std::string title_of(const char* quantity, const std::vector<SweptAxis>& axes,
     fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.heading,
                          axis.key.text(input.coordinates[axis.index]));
   }
-  return quantity + fixed;
+  return "Critical gap" + fixed;
 }
-
-/// The critical gap as shown.
-double shown_critical_gap(const CaseAnswer& answer) { return shown_gap(value_of(answer.critical)); }
 
 // --- marks ---
 
@@ -131,29 +128,23 @@ constexpr std::array<Mark, 5> kind_marks{Mark::circle, Mark::up_triangle, Mark::
                                          Mark::diamond};
 constexpr std::array<int, 5> kind_colours{0, 2, 1, 7, 3};
 
-/// Critical gaps as marks along an axis, one series for every kind: values with their bounds, bounds as
-/// bounds.
+/// Critical gaps that are no values as marks along an axis, one series for every kind.
 class GapMarks {
  public:
   /// `answers`: all that the picture will have, which decide the labels.
   explicit GapMarks(const std::vector<CaseAnswer>& answers) {
     const auto labels = kind_labels(answers);
-    for (std::size_t kind = 0; kind < labels.size(); ++kind) {
-      series_.push_back({labels[kind], {}, {}, kind == 0 ? Style::vertical_bars : Style::points});
-      series_.back().colour = kind_colours[kind];
-      series_.back().mark = kind_marks[kind];
-    }
+    for (std::size_t kind = 0; kind < labels.size(); ++kind)
+      series_.push_back({.label = labels[kind],
+                         .style = Style::points,
+                         .colour = kind_colours[kind],
+                         .mark = kind_marks[kind]});
   }
 
   /// `place`: on the axis.
   void add(const CriticalGap& gap, double place) {
-    Series& series = series_[static_cast<std::size_t>(drawn_kind(gap))];
-    const double position = position_of(gap);
-    const auto bound = [&](double of_gap) {
-      const bool known = drawn_kind(gap) == CriticalGapKind::value && std::isfinite(of_gap);
-      return known ? shown_gap(of_gap) : position;
-    };
-    series.add(place, position, bound(gap.bounds.at_least), bound(gap.bounds.at_most));
+    if (drawn_kind(gap) != CriticalGapKind::value)
+      series_[static_cast<std::size_t>(drawn_kind(gap))].add(place, position_of(gap));
   }
 
   /// The kinds that occur.
@@ -166,130 +157,110 @@ class GapMarks {
   std::vector<Series> series_;
 };
 
-// --- maps ---
-
-/// What a map shows: NaN where there is no value, for which the kind of the answer is the reason, or else
-/// `without_value`.
-struct MappedQuantity {
-  const char* file;  ///< start of its name
-  const char* title;
-  double (*value)(const CaseAnswer&);
-  const char* without_value;
-};
-constexpr MappedQuantity critical_gap{"critical_gap", "Critical gap", shown_critical_gap, "not known"};
-
-/// Up to which gap nothing ignites in spite of the uncertainty; NaN where there is no such gap.
-double surely_safe(const CaseAnswer& answer) {
-  const double least = shown_gap(answer.critical.bounds.at_least);
-  return answer.critical.kind == CriticalGapKind::value && least > 0.0 ? least : study::not_a_number;
-}
-/// By which the critical gap may be smaller.
-double uncertainty_of(const CaseAnswer& answer) {
-  return shown_critical_gap(answer) - shown_gap(answer.critical.bounds.at_least);
-}
-constexpr MappedQuantity safe_gap{"safe_gap", "Lower bound of the critical gap", surely_safe,
-                                  "no gap surely safe"};
+// --- lines ---
 
 std::size_t place_in(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
 }
 
-/// The map of a case's plane, without values.
-Plot empty_map(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& x,
-               const SweptAxis& y, const MappedQuantity& mapped, const study::StudyCase& input) {
-  Plot plot;
-  plot.title = title_of(mapped.title, axes, {x.index, y.index}, input);
-  plot.x = picture_axis(x);
-  plot.y = picture_axis(y);
-  plot.width = 900;
-  plot.height = 620;
-  Map map;
-  map.x = x.values;
-  map.y = y.values;
-  map.values.assign(x.values.size() * y.values.size(), study::not_a_number);
-  map.label = quantity::critical_gap().label();
-  if (mapped.value == surely_safe) map.label = "lower bound of the " + map.label;
-  if (mapped.value == shown_critical_gap) map.uncertainty = map.values;
-  for (const CaseAnswer& answer : result.answers) {  // of all maps, so that their colours compare
-    const double value = mapped.value(answer);
-    if (!std::isfinite(value)) continue;
-    map.minimum = std::min(map.minimum.value_or(value), value);
-    map.maximum = std::max(map.maximum.value_or(value), value);
-    const double uncertainty = uncertainty_of(answer);
-    if (std::isfinite(uncertainty)) map.least_step = std::max(map.least_step, uncertainty);
-  }
-  auto labels = kind_labels(result.answers);
-  labels[static_cast<std::size_t>(CriticalGapKind::value)] = mapped.without_value;
-  constexpr std::array<Hatching, 5> hatchings{Hatching::rising, Hatching::dense, Hatching::falling,
-                                              Hatching::crossed, Hatching::crossed};
-  for (std::size_t kind = 0; kind < labels.size(); ++kind)
-    map.hatched.push_back({labels[kind], hatchings[kind], {}});
-  if (mapped.value == surely_safe)
-    map.hatched.push_back({"computation or model form assumed", Hatching::falling, {}});
-  plot.map = std::move(map);
-  return plot;
+/// So many of the values that lines can be told apart, evenly, the first and the last among them.
+std::vector<double> some_of(const std::vector<double>& values) {
+  if (values.size() <= most_lines) return values;
+  std::vector<double> some;
+  for (std::size_t i = 0; i < most_lines; ++i)
+    some.push_back(values[i * (values.size() - 1) / (most_lines - 1)]);
+  return some;
 }
 
-/// One map over two axes for every combination of the others.
-std::vector<Plot> maps_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
-                          const SweptAxis& x, const SweptAxis& y, const MappedQuantity& mapped) {
+/// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
+class GapLines {
+ public:
+  GapLines(const CriticalGapResult& result, const SweptAxis& along, const SweptAxis* across)
+      : result_(result), along_(along), across_(across), marks_(result.answers) {
+    if (across != nullptr) values_across_ = some_of(across->values);
+    for (std::size_t i = 0; i < std::max<std::size_t>(values_across_.size(), 1); ++i) {
+      const std::vector<double> nothing(along.values.size(), study::not_a_number);
+      const int colour = static_cast<int>(i);
+      values_.push_back({.label = across == nullptr ? "critical gap" : label_of(values_across_[i]),
+                         .x = along.values,
+                         .y = nothing,
+                         .colour = colour});
+      lower_bounds_.push_back({.label = i == 0 ? "lower bound of each" : "",
+                               .x = along.values,
+                               .y = nothing,
+                               .style = Style::dashed_line,
+                               .colour = colour});
+    }
+  }
+
+  void add(const study::StudyCase& input, const CaseAnswer& answer) {
+    std::size_t line = 0;
+    if (across_ != nullptr) {
+      const double value = across_->key.value(input.coordinates[across_->index]);
+      line = place_in(values_across_, value);
+      if (line == values_across_.size() || values_across_[line] != value) return;
+    }
+    const double x = along_.key.value(input.coordinates[along_.index]);
+    marks_.add(answer.critical, x);
+    if (drawn_kind(answer.critical) != CriticalGapKind::value) return;
+    const std::size_t place = place_in(along_.values, x);
+    values_[line].y[place] = shown_gap(answer.critical.value);
+    const double lower = shown_gap(answer.critical.bounds.at_least);
+    if (!std::isfinite(lower)) return;
+    lower_bounds_[line].y[place] = lower;
+    if (!assumed_shares(result_.study.study, input, answer.critical.value).empty()) assumed_.add(x, lower);
+  }
+
+  void put_into(Plot& plot) {
+    for (auto* lines : {&values_, &lower_bounds_})
+      for (Series& line : *lines) plot.series.push_back(std::move(line));
+    if (!assumed_.x.empty()) plot.series.push_back(std::move(assumed_));
+    marks_.put_into(plot);
+  }
+
+ private:
+  std::string label_of(double shown) const {
+    return fmt::format("{} {}{}{}", across_->key.heading, report::significant(shown, 6),
+                       across_->key.form.unit.empty() ? "" : " ", across_->key.form.unit);
+  }
+
+  const CriticalGapResult& result_;
+  const SweptAxis& along_;
+  const SweptAxis* across_;
+  std::vector<double> values_across_;
+  std::vector<Series> values_, lower_bounds_;  ///< a line each
+  Series assumed_{.label = "computation or model form assumed",
+                  .style = Style::points,
+                  .colour = 7,
+                  .mark = Mark::open_circle};
+  GapMarks marks_;
+};
+
+/// A picture for every combination of the axes that it does not show, in the order of the cases.
+std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
+                           const SweptAxis& along, const SweptAxis* across) {
+  std::vector<std::size_t> shown{along.index};
+  if (across != nullptr) shown.push_back(across->index);
   std::vector<std::vector<double>> combinations;
   std::vector<Plot> plots;
+  std::vector<GapLines> lines;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
-    others[x.index] = others[y.index] = 0;
+    for (const std::size_t axis : shown) others[axis] = 0;
     const auto found = std::find(combinations.begin(), combinations.end(), others);
     const auto number = static_cast<std::size_t>(found - combinations.begin());
     if (found == combinations.end()) {
       combinations.push_back(std::move(others));
-      plots.push_back(empty_map(result, axes, x, y, mapped, input));
+      lines.emplace_back(result, along, across);
+      plots.push_back({.title = title_of(axes, shown, input), .x = picture_axis(along)});
+      plots.back().y = {.label = quantity::critical_gap().label(), .minimum = 0.0};
     }
-    Map& map = *plots[number].map;
-    const std::size_t cell = place_in(y.values, y.key.value(input.coordinates[y.index])) * x.values.size() +
-                             place_in(x.values, x.key.value(input.coordinates[x.index]));
-    map.values[cell] = mapped.value(result.answers[i]);
-    if (!map.uncertainty.empty()) map.uncertainty[cell] = uncertainty_of(result.answers[i]);
-    const CriticalGap& gap = result.answers[i].critical;
-    if (mapped.value == surely_safe && std::isfinite(map.values[cell]) &&
-        !assumed_shares(result.study.study, input, gap.value).empty())
-      map.hatched.back().cells.push_back(cell);
-    if (!std::isfinite(map.values[cell]))
-      map.hatched[static_cast<std::size_t>(drawn_kind(result.answers[i].critical))].cells.push_back(cell);
+    lines[number].add(input, result.answers[i]);
   }
+  for (std::size_t i = 0; i < plots.size(); ++i) lines[i].put_into(plots[i]);
   return plots;
-}
-
-/// Names the maps, and leaves out what would be too many.
-void add_maps(std::vector<Plot> plots, const MappedQuantity& mapped, GapPictures& made) {
-  for (std::size_t i = 0; i < std::min(plots.size(), most_maps); ++i) {
-    made.pictures.push_back({fmt::format("{}{}.svg", mapped.file, i == 0 ? "" : fmt::format("_{}", i + 1)),
-                             std::move(plots[i]), picture_text});
-  }
-}
-
-// --- one axis ---
-
-Plot curve_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& axis) {
-  Plot plot;
-  plot.x = picture_axis(axis);
-  plot.y.label = quantity::critical_gap().label();
-  Series line{"", axis.values, std::vector<double>(axis.values.size(), study::not_a_number), Style::line};
-  line.colour = 0;
-  GapMarks marks(result.answers);
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::StudyCase& input = result.study.cases[i];
-    if (input.coordinates.size() < axes.size()) continue;
-    if (plot.title.empty()) plot.title = title_of(critical_gap.title, axes, {axis.index}, input);
-    const CaseAnswer& answer = result.answers[i];
-    const double x = axis.key.value(input.coordinates[axis.index]);
-    line.y[place_in(axis.values, x)] = shown_critical_gap(answer);
-    marks.add(answer.critical, x);
-  }
-  plot.series.push_back(std::move(line));
-  marks.put_into(plot);
-  return plot;
 }
 
 }  // namespace
@@ -301,18 +272,22 @@ GapPictures gap_pictures(const CriticalGapResult& result) {
     if (axis.values.size() > 1) several.push_back(&axis);
   }
   if (several.empty() || result.answers.empty()) return {};
-  if (several.size() == 1)
-    return {{{"critical_gap.svg", curve_of(result, axes, *several.front()), picture_text}}, {}};
+  several.resize(2, nullptr);
+  if (several[1] != nullptr && several[1]->values.size() > several[0]->values.size())
+    std::swap(several[0], several[1]);
+  std::vector<Plot> plots = plots_of(result, axes, *several[0], several[1]);
   GapPictures made;
-  for (const MappedQuantity* mapped : {&critical_gap, &safe_gap}) {
-    std::vector<Plot> maps = maps_of(result, axes, *several[0], *several[1], *mapped);
-    if (maps.size() > most_maps && made.remarks.empty()) {
-      made.remarks.push_back(fmt::format(
-          "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
-          most_maps, maps.size()));
-    }
-    add_maps(std::move(maps), *mapped, made);
-  }
+  if (plots.size() > most_pictures)
+    made.remarks.push_back(fmt::format(
+        "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
+        most_pictures, plots.size()));
+  if (several[1] != nullptr && several[1]->values.size() > most_lines)
+    made.remarks.push_back(
+        fmt::format("The pictures have lines for {} of {} values of {}; critical_gaps.csv has all.",
+                    most_lines, several[1]->values.size(), several[1]->key.heading));
+  for (std::size_t i = 0; i < std::min(plots.size(), most_pictures); ++i)
+    made.pictures.push_back({fmt::format("critical_gap{}.svg", i == 0 ? "" : fmt::format("_{}", i + 1)),
+                             std::move(plots[i]), picture_text});
   return made;
 }
 

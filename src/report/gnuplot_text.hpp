@@ -1,4 +1,4 @@
-// Texts, numbers and the map of a plot in gnuplot's words.
+// Texts and numbers in gnuplot's words.
 #pragma once
 
 #include "launchsafe/report/plot.hpp"
@@ -49,12 +49,5 @@ struct Commands {
     plots.push_back("$" + name + " using " + how);
   }
 };
-
-/// The map of a plot whose grid and values fit. Comes before the settings of the axes: gnuplot finds the
-/// contour lines in the coordinates of the picture, in which both axes are linear.
-Commands map_commands(const Plot& plot);
-
-/// Why values do not fit their grid; empty where they do.
-std::string unfit(const Map& map, const Plot& plot);
 
 }  // namespace launchsafe::report

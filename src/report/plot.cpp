@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace launchsafe::report {
 namespace {
@@ -181,7 +180,6 @@ std::string unfit(const Plot& plot) {
     if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
       return "a series has a bar for every point: " + series.label;
   }
-  if (plot.map) return unfit(*plot.map, plot);
   const bool has_points = std::any_of(plot.series.begin(), plot.series.end(),
                                       [](const Series& series) { return !series.x.empty(); });
   return has_points ? "" : "it has no points";
@@ -190,10 +188,6 @@ std::string unfit(const Plot& plot) {
 std::string drawing_commands(const Plot& plot) {
   std::string text = frame_commands(plot);
   Commands commands;
-  if (plot.map) {
-    commands = map_commands(plot);
-    text += std::exchange(commands.settings, {});
-  }
   text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
   add_bands(plot, commands);
   add_series(plot, commands);

@@ -159,9 +159,9 @@ Row drawing_of(const StudyEvidence* study, const std::string& file, PageFacts& a
   return {{"file", file}};
 }
 
-/// The maps or curves that a sweep drew, lower bounds first: one for every place on the axes behind the first
-/// two, in the order of the cases.
-Row maps_of(const StudyEvidence& sweep, PageFacts& all) {
+/// The pictures that a sweep drew: one for every place on the axes behind the first two, in the order of the
+/// cases.
+Row pictures_of(const StudyEvidence& sweep, PageFacts& all) {
   std::vector<std::pair<std::string, std::vector<CaseEvidence>>> places;
   for (CaseEvidence& each : cases_of(sweep)) {
     auto place = std::ranges::find(places, each.others, [](const auto& one) { return one.first; });
@@ -173,16 +173,16 @@ Row maps_of(const StudyEvidence& sweep, PageFacts& all) {
   axes.resize(std::min<std::size_t>(axes.size(), 2));
   std::string names = fmt::format("{}", fmt::join(axes, " and "));
   std::ranges::replace(names, '_', ' ');
-  Row maps = Row::array();
-  for (const std::string quantity : {"safe_gap", "critical_gap"})
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      Row map = drawing_of(&sweep, quantity + (i > 0 ? fmt::format("_{}", i + 1) : "") + ".svg", all);
-      if (map.is_null()) continue;
-      map.update(summary_of(sweep, places[i].second));
-      map.update({{"lower", quantity == "safe_gap"}, {"axes", names}, {"others", places[i].first}});
-      maps.push_back(std::move(map));
-    }
-  return maps;
+  Row pictures = Row::array();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::string file = fmt::format("critical_gap{}.svg", i > 0 ? fmt::format("_{}", i + 1) : "");
+    Row picture = drawing_of(&sweep, file, all);
+    if (picture.is_null()) continue;
+    picture.update(summary_of(sweep, places[i].second));
+    picture.update({{"axes", names}, {"others", places[i].first}});
+    pictures.push_back(std::move(picture));
+  }
+  return pictures;
 }
 
 /// The case that the report is about in detail.
@@ -257,7 +257,7 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   }
   if (const StudyEvidence* sweep = evidence.find(Tells::sweep)) {
     facts["hottest"] = hottest_of(*sweep);
-    facts["maps"] = maps_of(*sweep, all);
+    facts["envelopes"] = pictures_of(*sweep, all);
   }
   if (const StudyEvidence* accuracy = evidence.find(Tells::accuracy)) {
     facts["setting"] = setting_of(main, *accuracy);

@@ -213,66 +213,49 @@ TEST(SweepReport, JsonHasAxesCountsAndCases) {
 
 // --- pictures ---
 
-TEST(SweepPictures, TwoAxesMakeAMapOfTheGapAndOneLessItsUncertainty) {
+// Six pressures and six crack radii: a line a radius, and its lower bound.
+TEST(SweepPictures, TwoAxesMakeALineForEachValueOfTheShorterOne) {
   const GapPictures made = gap_pictures(made_sweep());
-  ASSERT_EQ(made.pictures.size(), 2u);
+  ASSERT_EQ(made.pictures.size(), 1u);
   EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
-  EXPECT_EQ(made.pictures[1].file, "safe_gap.svg");
   const Plot& plot = made.pictures[0].plot;
   EXPECT_EQ(plot.x.label, "peak pressure [MPa]");
-  EXPECT_EQ(plot.y.label, "crack radius [um]");
+  EXPECT_EQ(plot.y.label, "critical gap [cm]");
   EXPECT_EQ(plot.x.scale, Scale::linear);
-  EXPECT_EQ(plot.y.scale, Scale::logarithmic) << "10 to 200 um is more than a decade";
-  const Map& map = *plot.map;
-  EXPECT_EQ(map.label, "critical gap [cm]");
-  EXPECT_NEAR(map.values[2 * 6 + 3], 0.0395, 1e-12);
-  // Of each cell and its uncertainty, as critical_gap_table has them.
-  EXPECT_NEAR(made.pictures[1].plot.map->values[2 * 6 + 3], 0.0395 - 0.0004, 1e-12);
-  ASSERT_EQ(map.uncertainty.size(), map.values.size());
-  EXPECT_NEAR(map.uncertainty[2 * 6 + 3], 0.0004, 1e-12);
-  EXPECT_TRUE(made.pictures[1].plot.map->uncertainty.empty()) << "an end of the interval has none";
-  for (const report::Picture& each : made.pictures)
-    EXPECT_NEAR(each.plot.map->least_step, 0.0004, 1e-12) << "contour lines are no finer";
+  const Series &value = plot.series[2], &lower = plot.series[6 + 2];
+  EXPECT_EQ(value.label, "crack radius 30 um");
+  EXPECT_NEAR(value.y[3], 0.0395, 1e-12);
+  EXPECT_NEAR(lower.y[3], 0.0395 - 0.0004, 1e-12);
+  EXPECT_EQ(lower.style, Style::dashed_line);
+  EXPECT_EQ(lower.colour, value.colour) << "one colour a line";
 }
 
-TEST(SweepPictures, WhatIsNoValueIsHatchedByItsReason) {
-  const Map map = *gap_pictures(made_sweep()).pictures.front().plot.map;
-  ASSERT_EQ(map.hatched.size(), 5u);
-  EXPECT_TRUE(map.hatched[0].cells.empty()) << "computed values";
-  EXPECT_EQ(map.hatched[1].label, "> 0.1 cm (bound)");
-  EXPECT_EQ(map.hatched[1].cells.size(), 3u);
-  EXPECT_EQ(map.hatched[2].cells, std::vector<std::size_t>{5 + 6 * 5}) << "600 MPa, 200 um";
-  EXPECT_EQ(map.hatched[3].cells, std::vector<std::size_t>{2 + 6 * 4}) << "450 MPa, 100 um";
-  for (const HatchedCells& hatched : map.hatched)
-    for (const std::size_t cell : hatched.cells) EXPECT_TRUE(std::isnan(map.values[cell])) << cell;
-  std::size_t coloured = 0;
-  for (const double value : map.values) coloured += std::isfinite(value) ? 1 : 0;
-  EXPECT_EQ(coloured, 31u);
-}
-
-TEST(SweepPictures, AGapThatDoesNotExceedItsUncertaintyIsNotSafe) {
-  CriticalGapResult result = made_sweep();
-  result.answers[15].critical.bounds.at_least = 0.0;
-  const Map map = *gap_pictures(result).pictures[1].plot.map;
-  ASSERT_EQ(map.hatched[0].cells.size(), 1u);
-  EXPECT_EQ(map.hatched[0].label, "no gap surely safe");
-  EXPECT_TRUE(std::isnan(map.values[map.hatched[0].cells.front()]));
+TEST(SweepPictures, WhatIsNoValueIsAMarkByItsReasonAndBreaksItsLine) {
+  const Plot plot = gap_pictures(made_sweep()).pictures.front().plot;
+  std::size_t values = 0;
+  for (std::size_t line = 0; line < 6; ++line)
+    for (const double value : plot.series[line].y) values += std::isfinite(value) ? 1 : 0;
+  EXPECT_EQ(values, 31u);
+  const auto named = [&](const std::string& label) -> const Series& {
+    return *std::ranges::find(plot.series, label, &Series::label);
+  };
+  EXPECT_EQ(named("> 0.1 cm (bound)").x.size(), 3u);
+  EXPECT_EQ(named("indeterminate or failed").x, std::vector<double>{450}) << "of cracks of 100 um";
+  EXPECT_TRUE(std::isnan(plot.series[4].y[2]));
 }
 
 // By hand: case 15 alone has numerics of which no record speaks.
-TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich) {
+TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundHasACircleAndTheRowSaysWhich) {
   CriticalGapResult result = made_sweep();
   result.study.study.model_form_uncertainty = 1.0;
   result.study.cases.complete_with([](study::StudyCase& made) {
     if (made.label == "case 16") made.numerical_uncertainty_assumed = true;
   });
-  const auto maps = gap_pictures(result).pictures;
-  const HatchedCells& assumed = maps[1].plot.map->hatched.back();
+  const Plot plot = gap_pictures(result).pictures.front().plot;
+  const Series& assumed = plot.series[12];
   EXPECT_EQ(assumed.label, "computation or model form assumed");
-  EXPECT_EQ(assumed.cells, std::vector<std::size_t>{2 + 6 * 3})
-      << "450 MPa, 50 um: the third of six, the fourth";
-  EXPECT_TRUE(std::isfinite(maps[1].plot.map->values[assumed.cells.front()]));
-  EXPECT_EQ(maps[0].plot.map->hatched.size(), 5u) << "the gap itself is computed";
+  EXPECT_EQ(assumed.x, std::vector<double>{450}) << "the third of six";
+  EXPECT_EQ(assumed.y, std::vector<double>{plot.series[6 + 3].y[2]}) << "50 um, the fourth of six";
   const Table table = critical_gap_table(result);
   EXPECT_EQ(shown_text(cell(table, 15, "assumed_shares")), "computation");
   EXPECT_EQ(shown_text(cell(table, 14, "assumed_shares")), "");
@@ -280,40 +263,34 @@ TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsHatchedAndTheRowSaysWhich
   EXPECT_EQ(shown_text(cell(critical_gap_table(result), 15, "assumed_shares")), "computation, model form");
 }
 
-TEST(SweepPictures, AThirdAxisMakesAMapForEachOfItsValues) {
+TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   const auto made = gap_pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
-  ASSERT_EQ(made.pictures.size(), 6u);
+  ASSERT_EQ(made.pictures.size(), 3u);
   EXPECT_EQ(made.pictures[0].plot.title, "Critical gap at charge.flaw_size 0.5 mm");
   EXPECT_EQ(made.pictures[2].plot.title, "Critical gap at charge.flaw_size 2 mm");
   EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
-  EXPECT_EQ(made.pictures[0].plot.map->maximum, made.pictures[2].plot.map->maximum) << "colours compare";
   EXPECT_TRUE(made.remarks.empty());
   std::vector<double> many;
   for (int i = 1; i <= 12; ++i) many.push_back(1e-3 * i);
   const GapPictures cut = gap_pictures(made_sweep(many, "charge.flaw_size"));
-  EXPECT_EQ(cut.pictures.size(), 18u);
+  EXPECT_EQ(cut.pictures.size(), 9u);
   ASSERT_EQ(cut.remarks.size(), 1u);
   EXPECT_NE(cut.remarks[0].find("9 of the 12"), std::string::npos);
 }
 
-TEST(SweepPictures, OneAxisMakesACurveWithErrorBarsAndBounds) {
+TEST(SweepPictures, OneAxisMakesOneLineWithItsLowerBoundAndMarks) {
   const GapPictures made = gap_pictures(one_axis());
   ASSERT_EQ(made.pictures.size(), 1u);
   EXPECT_EQ(made.pictures[0].file, "critical_gap.svg");
   const Plot& curve = made.pictures[0].plot;
-  EXPECT_FALSE(curve.map);
   EXPECT_EQ(curve.title, "Critical gap at flaw size 1 mm");
   EXPECT_EQ(curve.x.scale, Scale::logarithmic);
-  ASSERT_EQ(curve.series.size(), 5u);
   EXPECT_TRUE(std::isnan(curve.series[0].y[2])) << "the line breaks at the failure";
-  const Series& values = curve.series[1];
-  EXPECT_EQ(values.style, Style::vertical_bars);
-  EXPECT_EQ(values.x, (std::vector<double>{30, 100}));
-  EXPECT_NEAR(values.upper[0] - values.y[0], 4e-4, 1e-12);
-  EXPECT_NEAR(values.y[0] - values.lower[0], 4e-4, 1e-12);
-  EXPECT_EQ(curve.series[2].mark, Mark::up_triangle);
-  EXPECT_EQ(curve.series[2].y, std::vector<double>{0.1});
-  EXPECT_EQ(curve.series[2].label, "> 0.1 cm (bound)");
+  EXPECT_NEAR(curve.series[0].y[1] - curve.series[1].y[1], 4e-4, 1e-12);
+  const auto bound = std::ranges::find(curve.series, "> 0.1 cm (bound)", &Series::label);
+  ASSERT_NE(bound, curve.series.end());
+  EXPECT_EQ(bound->mark, Mark::up_triangle);
+  EXPECT_EQ(bound->y, std::vector<double>{0.1});
 }
 
 TEST(SweepPictures, SingleValuesMakeNoPicture) {

@@ -13,12 +13,12 @@ namespace {
 
 using namespace launchsafe::materials;
 
-/// Isentropic bulk modulus from the law's own adiabatic steps: central difference.
+/// Isentropic bulk modulus by a central difference along dE = -p dV, whose curvature falls out of it.
 double jwl_modulus_by_differences(const JwlParameters& m, double v) {
   const double energy = m.initial_energy, d = 1e-5 * v;
   const double pressure = jwl_pressure(m, v, energy);
-  const double up = jwl_compress(m, v, pressure, energy, v + d).pressure;
-  const double down = jwl_compress(m, v, pressure, energy, v - d).pressure;
+  const double up = jwl_pressure(m, v + d, energy - pressure * d);
+  const double down = jwl_pressure(m, v - d, energy + pressure * d);
   return -v * (up - down) / (2.0 * d);
 }
 
@@ -41,29 +41,9 @@ TEST(Jwl, EnergyAndTemperatureFormsAreOneLaw) {
   }
 }
 
-TEST(Jwl, AdiabaticStepKeepsTheTrapezoidalEnergy) {
-  const JwlParameters m = unreacted_composition_b();
-  const auto state = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.98);
-  EXPECT_NEAR(state.energy, m.initial_energy + 0.01 * state.pressure, 1e-6);
-  EXPECT_NEAR(state.pressure, jwl_pressure(m, 0.98, state.energy), 1e-5);
-}
-
 TEST(Jwl, ChapmanJouguetVolumeIsThatOfTheRankineHugoniotRelations) {
   const JwlParameters m = composition_b_products();
   EXPECT_NEAR(chapman_jouguet_volume(m, 7980.0, 29.5e9), 1.0 - 29.5e9 / (1717.0 * 7980.0 * 7980.0), 1e-15);
-}
-
-TEST(Jwl, LargeStepOfOneLaneLeavesTheOthersAlone) {
-  using launchsafe::math::Pack;
-  const JwlParameters m = unreacted_composition_b();
-  Pack v1(0.999);
-  v1.set(1, 0.3);
-  const auto state = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), v1);
-  const auto small = jwl_compress(m, Pack(1.0), Pack(0.0), Pack(m.initial_energy), Pack(0.999));
-  EXPECT_EQ(state.pressure[0], small.pressure[0]);
-  EXPECT_EQ(state.energy[0], small.energy[0]);
-  const auto large = jwl_compress(m, 1.0, 0.0, m.initial_energy, 0.3);
-  EXPECT_NEAR(state.pressure[1] / large.pressure, 1.0, 1e-12);
 }
 
 TEST(MieGruneisen, BulkModulusIsTheSlopeOfTheAdiabat) {

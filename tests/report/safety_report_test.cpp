@@ -314,16 +314,13 @@ TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
   EXPECT_TRUE(has(page_one({sweep}), "are SAFE (at 250 to 700 K before launch)"));
 }
 
-TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {
+TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsThePicturesThatItDrew) {
   const path study = copy_of("sweep_pressure_defect");
-  for (const char* quantity : {"safe_gap", "critical_gap"}) {
-    const std::string first = read(study / (std::string(quantity) + ".svg"));
-    write(study / (std::string(quantity) + "_2.svg"), first);
-    auto manifest = nlohmann::ordered_json::parse(read(study / "manifest.json"));
-    manifest["files"].push_back(
-        {{"name", std::string(quantity) + "_2.svg"}, {"sha256", store::sha256(first)}});
-    write(study / "manifest.json", manifest.dump(2));
-  }
+  const std::string first = read(study / "critical_gap.svg");
+  write(study / "critical_gap_2.svg", first);
+  auto manifest = nlohmann::ordered_json::parse(read(study / "manifest.json"));
+  manifest["files"].push_back({{"name", "critical_gap_2.svg"}, {"sha256", store::sha256(first)}});
+  write(study / "manifest.json", manifest.dump(2));
   change(study, [](auto& results) {
     results["axes"].push_back({{"name", "flaw_size"},
                                {"scene_key", "charge.flaw_size"},
@@ -350,9 +347,7 @@ TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsTheMapsThatItDrew) {
     EXPECT_TRUE(has(block["alternative"], "at flaw size " + size)) << block["alternative"];
     EXPECT_TRUE(has(block["caption"], "56 combinations")) << "14 pressures times 4 cracks";
   }
-  EXPECT_EQ(files, (std::vector<std::string>{"safe_gap.svg", "safe_gap_2.svg", "critical_gap.svg",
-                                             "critical_gap_2.svg"}));
-  EXPECT_TRUE(has(file_of({study}, "critical_gap_2.svg"), "Critical gap with its uncertainty"));
+  EXPECT_EQ(files, (std::vector<std::string>{"critical_gap.svg", "critical_gap_2.svg"}));
 }
 
 TEST_F(SafetyReport, AFolderWithoutAStudyIsRefused) {

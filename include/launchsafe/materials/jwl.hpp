@@ -63,38 +63,12 @@ Real jwl_bulk_modulus(const JwlParameters& m, Real v, Real energy) {
   return -v * (dp_dv - Real(m.omega) * p / v);
 }
 
-template <class Real>
-struct JwlState {
-  Real pressure;  ///< Pa
-  Real energy;    ///< J per m3 of initial volume
-};
-
-/// Change of V, as a share of it, up to which an adiabatic step may use the mean of its two pressures, which
-/// errs by up to (R1 dV)^2/12, 0.7 %. For a large change that mean is useless: from V = 1 to 0.3 it gives
-/// -45 TPa instead of 2.6 TPa.
-inline constexpr double jwl_small_change = 0.025;
-
 /// Energy (J per m3 of initial volume) that belongs to the two exponentials of the isentrope, A/R1 exp(-R1 V)
 /// + B/R2 exp(-R2 V).
 template <class Real>
 Real jwl_cold_energy(const JwlParameters& m, Real v) {
   using math::exp;
   return Real(m.a / m.r1) * exp(Real(-m.r1) * v) + Real(m.b / m.r2) * exp(Real(-m.r2) * v);
-}
-
-/// The isentrope from (V0, E0) to V1 in closed form: what E has beyond the cold energy goes with V^(-w). NaN
-/// for a volume that is none (V <= 0).
-template <class Real>
-[[gnu::noinline, gnu::cold]]  // sound runs change a volume by less in a step
-JwlState<Real>
-jwl_isentrope(const JwlParameters& m, Real v0, Real energy0, Real v1) {
-  using math::pow;
-  using math::select;
-  const Real energy =
-      jwl_cold_energy(m, v1) + (energy0 - jwl_cold_energy(m, v0)) * pow(v0 / v1, Real(m.omega));
-  const Real nothing(std::numeric_limits<double>::quiet_NaN());
-  const auto is_volume = v1 > Real(0.0);
-  return {select(is_volume, jwl_pressure(m, v1, energy), nothing), select(is_volume, energy, nothing)};
 }
 
 /// Pressure (Pa) on the isentrope through V = 1 with the law's initial energy: with E beyond the cold energy
@@ -119,24 +93,6 @@ Real jwl_isentropic_bulk_modulus(const JwlParameters& m, Real v) {
   const double thermal = m.omega * (m.initial_energy - jwl_cold_energy(m, 1.0));
   return v * (Real(m.a * m.r1) * exp(Real(-m.r1) * v) + Real(m.b * m.r2) * exp(Real(-m.r2) * v)) +
          Real(thermal * (1.0 + m.omega)) * pow(v, Real(-1.0 - m.omega));
-}
-
-/// Adiabatic change from (p0, E0) at V0 to V1 with dE = -1/2 (p0 + p1) dV; linear in E, hence solved exactly.
-/// Second-order accurate in V1 - V0. Beyond a small change of V, on the isentrope itself.
-template <class Real>
-JwlState<Real> jwl_compress(const JwlParameters& m, Real v0, Real p0, Real energy0, Real v1) {
-  using math::abs;
-  using math::any;
-  using math::select;
-  const Real half_dv = Real(0.5) * (v1 - v0);
-  const Real cold = jwl_cold_pressure(m, v1);
-  const Real stiffness = Real(m.omega) / v1;
-  const Real energy1 = (energy0 - half_dv * (p0 + cold)) / (Real(1.0) + half_dv * stiffness);
-  const Real pressure1 = cold + stiffness * energy1;
-  const auto large = abs(v1 - v0) > Real(jwl_small_change) * v0;
-  if (!any(large)) return {pressure1, energy1};
-  const JwlState<Real> exact = jwl_isentrope(m, v0, energy0, v1);
-  return {select(large, exact.pressure, pressure1), select(large, exact.energy, energy1)};
 }
 
 }  // namespace launchsafe::materials

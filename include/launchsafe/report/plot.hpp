@@ -83,35 +83,11 @@ struct Band {
   std::string label = {};
 };
 
-enum class Hatching { rising, falling, crossed, dense };
-
-/// Cells of a map that have no value, and why; or what is to be said of those that have one.
-struct HatchedCells {
-  std::string label;  ///< in the legend
-  Hatching hatching = Hatching::crossed;
-  std::vector<std::size_t> cells;  ///< their places in `Map::values`
-};
-
-/// A quantity over a plane, a cell of colour for every point of a grid. Where a number has room in every
-/// cell, it stands there; on finer grids there are contour lines between the grid's points instead, linear in
-/// the coordinates of the picture. At points without a value there are neither.
-struct Map {
-  std::vector<double> x, y;    ///< of the grid, ascending, at least two each
-  std::vector<double> values;  ///< at every grid point, x the fastest; NaN where there is none
-  std::string label;           ///< of the colour bar, with its unit
-  std::optional<double> minimum = {}, maximum = {};  ///< of the colours; from the values where absent
-  std::vector<HatchedCells> hatched = {};
-  /// Of every value, its unit. Numbers stand with it; broken lines show where it may move a contour line.
-  std::vector<double> uncertainty = {};
-  double least_step = 0;  ///< contour lines are no closer, nor closer than the largest uncertainty
-};
-
 struct Plot {
   std::string title;
   PlotAxis x, y;
   std::vector<Series> series = {};
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
-  std::optional<Map> map = {};    ///< below the series; the limits of both axes are those of its cells
   int width = 800, height = 560;  ///< pixels
   std::string subtitle = {};      ///< small, below the title
   std::vector<Band> vertical_bands = {};
@@ -123,8 +99,8 @@ struct Plot {
 std::string to_gnuplot(const Plot& plot);
 
 /// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
-/// (there is no such program), failed (a series whose x and y differ in length, a map whose values do not fit
-/// its grid, nothing to draw, gnuplot's own complaint).
+/// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
+/// own complaint).
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot",
                                   const DrawingLimits& limits = {});
 
