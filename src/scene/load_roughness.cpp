@@ -158,6 +158,32 @@ double power_at(const std::vector<double>& values, std::size_t periods) {
   return 2.0 * std::norm(sum) / std::pow(static_cast<double>(values.size()), 2);
 }
 
+/// The strongest of the lines among powers by frequency, from `first` on: those whose five bins, as a ring
+/// that comes and goes with the pressure spreads over, have on average thirty times the median of what lies
+/// within a third of their frequency. 0 where there is none, as in noise and in the pulse itself.
+std::size_t strongest_line(const std::vector<double>& powers, std::size_t first) {
+  constexpr std::size_t half_width = 2, fewest_around = 8;
+  constexpr double least_prominence = 30.0, span = 4.0 / 3.0;
+  std::size_t top = 0;
+  double strongest = 0.0;
+  for (std::size_t i = first + half_width; i + half_width < powers.size(); ++i) {
+    double line = 0.0;
+    for (std::size_t k = i - half_width; k <= i + half_width; ++k) line += powers[k];
+    if (line <= strongest) continue;
+    const auto begin = std::max(first, static_cast<std::size_t>(static_cast<double>(i) / span));
+    const auto end = std::min(powers.size(), static_cast<std::size_t>(static_cast<double>(i) * span) + 1);
+    if (end - begin < fewest_around) continue;
+    std::vector<double> around(powers.begin() + static_cast<std::ptrdiff_t>(begin),
+                               powers.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+    std::nth_element(around.begin(), middle, around.end());
+    if (line < (2.0 * half_width + 1.0) * least_prominence * *middle) continue;
+    strongest = line;
+    top = i;
+  }
+  return top;
+}
+
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
 
 std::string roughness_text(const Load& load) {
@@ -173,6 +199,27 @@ std::string roughness_text(const Load& load) {
   return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
                             time_text(*window), load_roughness(smoothed),
                             percent(peak_lost_to_smoothing(smoothed)));
+}
+
+/// "3.2 kHz with 1.5 % of its peak".
+std::string size_text(const Ring& ring, const Load& load) {
+  return fmt::format("{:.2g} kHz with {:.2g} % of its peak", 1e-3 * ring.frequency,
+                     100.0 * ring.amplitude / PressureHistory(load).stated_peak());
+}
+
+/// How to take a ring away: averages over its period have none of it.
+std::string removal_text(const Load& load) {
+  if (const auto gone = smoothed_ring(load)) return "; it took away a ring at " + size_text(*gone, load);
+  const auto ring = ring_of(load);
+  if (!ring) return {};
+  Load smoothed = load;
+  // In three digits, which its frequency bears.
+  const double digit = std::pow(10.0, std::floor(-std::log10(ring->frequency)) - 2.0);
+  smoothed.smoothing = digit * std::round(1.0 / ring->frequency / digit);
+  return fmt::format(
+      "; if the ring is the gauge's own, load.smoothing = \"{}\", its period, takes it away, and {} from the "
+      "peak",
+      time_text(smoothed.smoothing), percent(peak_lost_to_smoothing(smoothed)));
 }
 
 std::string smoothing_text(const Load& load) {
@@ -233,7 +280,7 @@ std::optional<double> suggested_smoothing(const Load& load) {
 
 std::optional<Ring> ring_of(const Load& load) {
   constexpr std::size_t most_samples = 4096, fewest_points = 64;
-  constexpr double longest_window = 1e-3, near = 0.1, least_share = 2e-3;
+  constexpr double longest_window = 1e-3, near = 0.1, line_bins = 5.0, least_share = 5e-4;
   if (load.curve_time.size() < fewest_points) return std::nullopt;
   const double length = load.curve_time.back() - load.curve_time.front();
   const double window = std::min(longest_window, 0.1 * length);
@@ -243,35 +290,42 @@ std::optional<Ring> ring_of(const Load& load) {
   const auto first = static_cast<std::size_t>(std::ceil(length / window));
   std::vector<double> powers(samples / 2, 0.0);
   for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
-  const auto top = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
-  double whole = 0.0, around = 0.0, centre = 0.0;
+  const std::size_t top = strongest_line(powers, first);
+  if (top == 0) return std::nullopt;
+  double around = 0.0, line = 0.0, centre = 0.0;
   for (std::size_t i = first; i < powers.size(); ++i) {
-    const double apart = std::abs(static_cast<double>(i) / static_cast<double>(top) - 1.0);
-    whole += powers[i];
-    if (apart > near) continue;
-    around += powers[i];
+    const double apart = std::abs(static_cast<double>(i) - static_cast<double>(top));
+    if (apart <= near * static_cast<double>(top)) around += powers[i];
+    if (apart > line_bins) continue;
+    line += powers[i];
     centre += powers[i] * static_cast<double>(i);
   }
-  const Ring ring{centre / around / length, std::sqrt(2.0 * around)};
-  const bool dominates = around > 0.5 * whole;
-  if (!dominates || ring.amplitude < least_share * PressureHistory(load).stated_peak()) return std::nullopt;
+  const Ring ring{centre / line / length, std::sqrt(2.0 * around)};
+  if (ring.amplitude < least_share * PressureHistory(load).stated_peak()) return std::nullopt;
   return ring;
+}
+
+std::optional<Ring> smoothed_ring(const Load& load) {
+  if (!(load.smoothing > 0.0)) return std::nullopt;
+  Load raw = load;
+  raw.smoothing = 0.0;
+  const auto ring = ring_of(raw), left = ring_of(load);
+  const bool stays = ring && left && left->amplitude > 0.9 * ring->amplitude;
+  return stays ? std::nullopt : ring;
 }
 
 std::string ring_text(const Load& load) {
   const auto ring = ring_of(load);
   if (!ring) return {};
-  return fmt::format(
-      "the record {} rings at {:.3g} kHz with {:.2g} % of its peak, which heats as pressure does",
-      load.curve_file.empty() ? "of the load" : load.curve_file, 1e-3 * ring->frequency,
-      100.0 * ring->amplitude / PressureHistory(load).stated_peak());
+  return fmt::format("the record {} rings at {}, which heats as pressure does",
+                     load.curve_file.empty() ? "of the load" : load.curve_file, size_text(*ring, load));
 }
 
 std::string measured_load_text(const Load& load) {
   if (load.curve_time.empty()) return {};
   const std::string smoothing = smoothing_text(load), ring = ring_text(load);
   return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load) + (ring.empty() ? "" : "; ") +
-         ring;
+         ring + removal_text(load);
 }
 
 }  // namespace launchsafe::scene

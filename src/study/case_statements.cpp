@@ -31,10 +31,23 @@ std::optional<scene::Implausible> pressure_beyond_models(const Study& study, con
                   scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
 }
 
+/// A ring of the record that smoothing takes away heats, and may ignite, where it is pressure: that it is not
+/// somebody has to say.
+std::optional<scene::Implausible> ring_smoothed_away(const scene::Scene& scene) {
+  const auto ring = scene::smoothed_ring(scene.load);
+  if (!ring) return std::nullopt;
+  return scene::implausible(
+      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::time}, "load.smoothing",
+      keys::Value(scene.load.smoothing),
+      fmt::format("\"0 ms\", because it takes a ring of {:.2g} kHz away, which may be pressure",
+                  1e-3 * ring->frequency));
+}
+
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
+  if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch))
     values.push_back(std::move(each));
   return values;

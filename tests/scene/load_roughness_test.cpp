@@ -176,5 +176,27 @@ TEST(LoadRoughness, SeesNoRingInNoisePulsesAndStepsOrBehindAnAverageOverIt) {
   EXPECT_FALSE(ring_of(averaged)) << ring_text(averaged);
 }
 
+TEST(LoadRoughness, TellsARingThatSmoothingTakesAwayAndWhichWindowDoes) {
+  Load load = ringing(3.2e3, 0.015, 1801);
+  EXPECT_NE(measured_load_text(load).find("load.smoothing = \"0.31"), std::string::npos)
+      << measured_load_text(load);
+  EXPECT_FALSE(smoothed_ring(load));
+  load.smoothing = 1.0 / 3.2e3;
+  const auto gone = smoothed_ring(load);
+  ASSERT_TRUE(gone);
+  EXPECT_NEAR(gone->frequency, 3.2e3, 1.0 / duration);
+  EXPECT_NE(measured_load_text(load).find("it took away a ring at 3.2 kHz"), std::string::npos);
+  Load noise = noisy(0.01, 50e3);
+  noise.smoothing = 0.2e-3;
+  EXPECT_FALSE(smoothed_ring(noise)) << "noise is no ring";
+}
+
+// At 9.8 kHz so small a ring ignites the 155 mm shell without a gap.
+TEST(LoadRoughness, SeesARingOfATenthOfAPercent) {
+  const auto ring = ring_of(ringing(9.8e3, 0.001, 1801));
+  ASSERT_TRUE(ring);
+  EXPECT_NEAR(ring->frequency, 9.8e3, 1.0 / duration);
+}
+
 }  // namespace
 }  // namespace launchsafe::scene
