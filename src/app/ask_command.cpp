@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_axes.hpp"
@@ -37,15 +38,17 @@ Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
                     {}};
 }
 
-/// An input of the launch that is asked for.
+/// An input of the launches that are asked for.
 struct AskedInput {
   scene::KeyDescription key;
-  double value = 0;     ///< SI
-  bool is_set = false;  ///< on the command line; else as in the study's scene
+  std::vector<double> values;  ///< SI
+  bool is_set = false;         ///< on the command line; else as in the study's scene
+
+  double value() const { return values.front(); }
 };
 
 std::string value_text(const AskedInput& input) {
-  return scene::format_quantity(input.value, input.key.dimension);
+  return scene::format_quantity(input.value(), input.key.dimension);
 }
 
 /// The inputs with their values in the study's scene.
@@ -57,7 +60,7 @@ Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record)
     auto key = scene::describe_key(*file, name, {file->file});
     if (!key) return key.error();
     const double value = study::number_in(*file, name);
-    inputs.push_back({std::move(*key), value});
+    inputs.push_back({std::move(*key), {value}});
   }
   return inputs;
 }
@@ -67,7 +70,7 @@ InputError fault_of_set(const std::string& given, std::string found, std::string
   return {{}, 0, 0, "--set " + given, std::move(found), std::move(allowed), std::move(suggestion)};
 }
 
-/// "KEY=VALUE", with a key of the study's inputs by its short or full name.
+/// "KEY=VALUE", or a list of values, with a key of the study's inputs by its short or full name.
 std::optional<InputError> set_input(const std::string& given, std::vector<AskedInput>& inputs) {
   const std::size_t equals = given.find('=');
   if (equals == std::string::npos)
@@ -82,10 +85,10 @@ std::optional<InputError> set_input(const std::string& given, std::vector<AskedI
     return fault_of_set(given, fmt::format("\"{}\", which the study does not vary", name),
                         scene::quoted_list(names), scene::nearest_of(name, names));
   if (found->is_set) return fault_of_set(given, name + " a second time", "each key once");
-  const auto value = scene::parse_quantity(given.substr(equals + 1), found->key.dimension);
-  if (!value)
-    return fault_of_set(given, value.error().found, value.error().allowed, value.error().suggestion);
-  found->value = *value;
+  const auto values = scene::parse_list(given.substr(equals + 1), found->key.dimension);
+  if (!values)
+    return fault_of_set(given, values.error().found, values.error().allowed, values.error().suggestion);
+  found->values = *values;
   found->is_set = true;
   return std::nullopt;
 }
@@ -95,17 +98,18 @@ std::optional<InputError> check_ranges(const SurrogateRecord& record, const std:
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const study::InputRange range = study::range_of(record, i);
     const double slack = 1e-9 * (range.upper - range.lower);
-    if (inputs[i].value >= range.lower - slack && inputs[i].value <= range.upper + slack) continue;
     const scene::Dimension dimension = inputs[i].key.dimension;
-    return InputError{
-        {},
-        0,
-        0,
-        inputs[i].key.name,
-        value_text(inputs[i]),
-        fmt::format("{} to {}, where launches were computed", scene::format_quantity(range.lower, dimension),
-                    scene::format_quantity(range.upper, dimension)),
-        {}};
+    for (const double value : inputs[i].values)
+      if (!(value >= range.lower - slack && value <= range.upper + slack))
+        return InputError{{},
+                          0,
+                          0,
+                          inputs[i].key.name,
+                          scene::format_quantity(value, dimension),
+                          fmt::format("{} to {}, where launches were computed",
+                                      scene::format_quantity(range.lower, dimension),
+                                      scene::format_quantity(range.upper, dimension)),
+                          {}};
   }
   return std::nullopt;
 }
@@ -117,7 +121,7 @@ struct PredictedOutput {
   study::Prediction prediction;
 };
 
-/// The output with digits that its error bears.
+/// How an output is shown.
 report::Column shown_output(const SurrogateOutput& output, const SurrogateRecord& record) {
   if (output.name == report::quantity::critical_gap().name)
     return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
@@ -154,7 +158,7 @@ class Answer {
   Answer(const SurrogateRecord& record, std::vector<AskedInput> inputs, double gap)
       : record_(record), inputs_(std::move(inputs)), gap_(gap) {
     std::vector<double> values;
-    for (const AskedInput& each : inputs_) values.push_back(each.value);
+    for (const AskedInput& each : inputs_) values.push_back(each.value());
     point_ = record_.inputs.point_of(values);
   }
 
@@ -233,7 +237,7 @@ class Answer {
   nlohmann::ordered_json json() const {
     nlohmann::ordered_json inputs, outputs = nlohmann::ordered_json::array();
     for (const AskedInput& each : inputs_)
-      inputs.push_back({{"key", each.key.name}, {"value_si", each.value}, {"set", each.is_set}});
+      inputs.push_back({{"key", each.key.name}, {"value_si", each.value()}, {"set", each.is_set}});
     for (const PredictedOutput& each : outputs_)
       outputs.push_back({{"output", each.output->name},
                          {"value_si", each.prediction.value},
@@ -259,6 +263,90 @@ class Answer {
   study::PredictedIgnitions ignitions_;
 };
 
+// --- many launches ---
+
+/// One of them, with a prediction of every output; none where it is too far from those that were computed.
+struct AskedLaunch {
+  std::vector<double> values;  ///< SI, of the inputs
+  std::vector<std::optional<study::Prediction>> predictions;
+};
+
+/// All combinations of the values, the last input the fastest.
+std::vector<AskedLaunch> launches_of(const std::vector<AskedInput>& inputs) {
+  std::vector<AskedLaunch> launches{{}};
+  for (const AskedInput& input : inputs) {
+    std::vector<AskedLaunch> longer;
+    for (const AskedLaunch& launch : launches)
+      for (const double value : input.values) {
+        longer.push_back(launch);
+        longer.back().values.push_back(value);
+      }
+    launches = std::move(longer);
+  }
+  return launches;
+}
+
+/// Columns of what is set, and of every output with its error.
+report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>& inputs,
+                                                  const std::vector<report::Column>& outputs) {
+  report::Quantities<AskedLaunch> quantities;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (inputs[i].is_set)
+      quantities.emplace_back(
+          report::shown(
+              study::Axis{study::name_of_axis(inputs[i].key.name), {}, inputs[i].key, inputs[i].values}),
+          [i](const AskedLaunch& launch) { return launch.values[i]; });
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto of = [i](double study::Prediction::*part) {
+      return [i, part](const AskedLaunch& launch) -> std::optional<double> {
+        const auto& prediction = launch.predictions[i];
+        return prediction ? std::optional((*prediction).*part) : std::nullopt;
+      };
+    };
+    report::Column error = outputs[i];
+    error.name += "_error";
+    error.heading = "+-";
+    quantities.emplace_back(outputs[i], of(&study::Prediction::value));
+    quantities.emplace_back(std::move(error), of(&study::Prediction::error));
+  }
+  return quantities;
+}
+
+/// Nothing is said of a launch that is too far out.
+report::Table table_of_launches(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
+  std::vector<AskedLaunch> launches = launches_of(inputs);
+  std::vector<report::Column> outputs;
+  for (const SurrogateOutput& output : record.outputs) {
+    if (!output.reason.empty()) continue;
+    outputs.push_back(shown_output(output, record));
+    const Surrogate surrogate(record, output);
+    for (AskedLaunch& launch : launches) {
+      const study::Prediction prediction = surrogate.at(record.inputs.point_of(launch.values));
+      launch.predictions.push_back(prediction.covered ? std::optional(prediction) : std::nullopt);
+    }
+  }
+  report::Table table = report::table_of("Predicted", launch_quantities(inputs, outputs), launches);
+  table.notes = {
+      "1 of 100 launches is beyond the error (+-), on each side. A row without numbers is farther out than "
+      "any launch "
+      "by which the error is known. Only a launch that was computed can be SAFE."};
+  return table;
+}
+
+ExitCode print_launches(const AskArguments& arguments, const SurrogateRecord& record,
+                        const std::vector<AskedInput>& inputs, Console& console) {
+  constexpr double most_launches = 1e6;
+  double count = 1;
+  for (const AskedInput& each : inputs) count *= static_cast<double>(each.values.size());
+  if (count > most_launches)
+    return console.refuse(fmt::format("--set: found {:.0f} combinations; allowed: up to a million", count));
+  const report::Table table = table_of_launches(record, inputs);
+  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table));
+  if (console.json())
+    console.print_json({{"launches", report::to_json(table)["rows"]}, {"confidence", 0.99}});
+  return ExitCode::done;
+}
+
 }  // namespace
 
 ExitCode perform(const AskArguments& arguments, Console& console) {
@@ -269,6 +357,8 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   for (const std::string& given : arguments.settings)
     if (const auto fault = set_input(given, *inputs)) return console.refuse(*fault);
   if (const auto fault = check_ranges(*record, *inputs)) return console.refuse(*fault);
+  const bool several = std::ranges::any_of(*inputs, [](const auto& each) { return each.values.size() > 1; });
+  if (several || arguments.csv) return print_launches(arguments, *record, *inputs, console);
   Answer answer(*record, std::move(*inputs), arguments.gap.value_or(record->gap));
   if (const auto fault = answer.predict()) return console.refuse(*fault);
   answer.print(console);

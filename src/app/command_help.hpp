@@ -70,7 +70,7 @@ inline constexpr const char* ask_footer = R"(
 Examples:
   launchsafe ask results                                                 the launch of the study's scene
   launchsafe ask results --set load.peak="510 MPa" --set initial_temperature="305 K" --gap "0.25 mm"
-  launchsafe ask results --set load.peak="510 MPa" --json --quiet
+  launchsafe ask results --set load.peak="480, 490, 500, 510 MPa" --set initial_temperature="290, 300, 310 K" --csv
 
 Nothing is computed: the answer is a prediction, with the error of the fit found at launches that it has not seen. A
 launch beyond those that were computed is refused. A prediction is never SAFE.)";

@@ -103,7 +103,9 @@ void add_ask(CLI::App& app, CommandLine& line) {
   add_required(command, "study", ask.study, "STUDY_DIR",
                "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
   add_optional(command, "--set", ask.settings, "KEY=VALUE",
-               "An input of the launch; those that are not set are as in the study's scene")
+               "An input of the launch, or a list of values, of which all combinations are launches; those "
+               "that are not "
+               "set are as in the study's scene")
       ->allow_extra_args(false);
   const auto read_gap = [](std::string_view text) {
     const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
@@ -111,6 +113,8 @@ void add_ask(CLI::App& app, CommandLine& line) {
   };
   add_amount(command, "--gap", ask.gap, read_gap, "a length such as \"0.3 mm\"", "LENGTH",
              "Gap to be told of; the study's unless given");
+  CLI::Option* csv = command.add_flag("--csv", ask.csv, "A row a launch, as CSV, in place of text");
+  csv->excludes(command.get_option("--gap"));
 }
 
 void add_verify(CLI::App& app, CommandLine& line) {

@@ -59,8 +59,9 @@ ExitCode perform(const EmitArguments& arguments, Console& console);
 
 struct AskArguments {
   std::filesystem::path study;        ///< folder of a finished study, or its surrogate.json
-  std::vector<std::string> settings;  ///< "KEY=VALUE"
+  std::vector<std::string> settings;  ///< "KEY=VALUE", or a list of values
   std::optional<double> gap;          ///< m; none: the study's
+  bool csv = false;                   ///< a row a launch, for programs
 };
 ExitCode perform(const AskArguments& arguments, Console& console);
 

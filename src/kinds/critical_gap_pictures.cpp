@@ -185,7 +185,9 @@ class GapLines {
                          .x = along.values,
                          .y = nothing,
                          .colour = colour});
-      lower_bounds_.push_back({.label = i == 0 ? "lower bound of each" : "",
+      lower_bounds_.push_back({.label = i > 0               ? ""
+                                        : across == nullptr ? "its lower bound"
+                                                            : "lower bound of each",
                                .x = along.values,
                                .y = nothing,
                                .style = Style::dashed_line,

@@ -75,6 +75,28 @@ TEST_F(Ask, NeverSaysSafeAndSaysThatNothingWasComputed) {
   EXPECT_NE(with_unit.out.find("Only a launch that was computed can be SAFE"), std::string::npos);
 }
 
+TEST_F(Ask, ListsMakeARowOfEveryCombinationThatSaysWhatTheLaunchAloneSays) {
+  const std::vector<std::string> command{
+      "ask", "fit", "--set", "peak_pressure=255, 262, 275 MPa", "--set", "initial_temperature=304, 309 K"};
+  auto for_programs = command;
+  for_programs.insert(for_programs.end(), {"--json", "-q"});
+  const Outcome outcome = run(for_programs);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = nlohmann::json::parse(outcome.out)["launches"];
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[2]["peak_pressure_MPa"], 262.0);
+  EXPECT_EQ(rows[2]["initial_temperature_K"], 304.0);
+  const Outcome alone = run(
+      {"ask", "fit", "--set", "peak_pressure=262 MPa", "--set", "initial_temperature=304 K", "--json", "-q"});
+  EXPECT_DOUBLE_EQ(rows[2]["temperature_max_K"], temperature_in(alone.out));
+  auto as_csv = command;
+  as_csv.push_back("--csv");
+  const Outcome csv = run(as_csv);
+  EXPECT_TRUE(csv.out.starts_with("peak_pressure_MPa,initial_temperature_K,temperature_max_K,")) << csv.out;
+  EXPECT_NE(run(command).out.find("Only a launch that was computed can be SAFE"), std::string::npos);
+  EXPECT_EQ(run({"ask", "fit", "--csv", "--gap", "0.1 mm"}).code, 2);
+}
+
 TEST_F(Ask, RefusesWhatWasNotComputed) {
   const auto fault_of = [&](const std::string& given) {
     const Outcome outcome = run({"ask", "fit", "--set", given});
