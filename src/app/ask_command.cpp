@@ -114,12 +114,13 @@ std::optional<InputError> check_ranges(const SurrogateRecord& record, const std:
   return std::nullopt;
 }
 
-/// One output as predicted.
-struct PredictedOutput {
-  const SurrogateOutput* output;
-  report::Column shown;
-  study::Prediction prediction;
-};
+std::optional<InputError> check_count(const std::vector<AskedInput>& inputs) {
+  constexpr double most_launches = 1e6;
+  double count = 1;
+  for (const AskedInput& each : inputs) count *= static_cast<double>(each.values.size());
+  if (!(count > most_launches)) return std::nullopt;
+  return fault_of_set("...", fmt::format("{:.0f} combinations", count), "up to a million");
+}
 
 /// How an output is shown.
 report::Column shown_output(const SurrogateOutput& output, const SurrogateRecord& record) {
@@ -130,145 +131,11 @@ report::Column shown_output(const SurrogateOutput& output, const SurrogateRecord
   return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
 }
 
-/// "predicted: no ignition" of a gap that lies below the predicted critical gap by more than its error.
-std::string word_on(double gap, const study::Prediction& critical_gap) {
-  if (gap < critical_gap.value - critical_gap.error) return "predicted: no ignition";
-  if (gap > critical_gap.value + critical_gap.error) return "predicted: ignition";
-  return "not predicted: nearer to the critical gap than the error of the fit";
-}
-
-/// What is held in every draw: what is set, and with one of them all that vary together.
-std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& record,
-                                                     const std::vector<AskedInput>& inputs,
-                                                     const std::vector<double>& point) {
-  const auto& correlated = record.inputs.correlated;
-  const auto is_set = [&](std::size_t i) { return inputs[i].is_set; };
-  bool holds_together = false;
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    holds_together = holds_together || (correlated && correlated->has(i) && is_set(i));
-  std::vector<std::optional<double>> fixed(inputs.size());
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (is_set(i) || (holds_together && correlated->has(i))) fixed[i] = point[i];
-  return fixed;
-}
-
-/// What is predicted of one launch.
-class Answer {
- public:
-  Answer(const SurrogateRecord& record, std::vector<AskedInput> inputs, double gap)
-      : record_(record), inputs_(std::move(inputs)), gap_(gap) {
-    std::vector<double> values;
-    for (const AskedInput& each : inputs_) values.push_back(each.value());
-    point_ = record_.inputs.point_of(values);
-  }
-
-  /// Nothing where the launch is too far from those that were computed.
-  std::optional<InputError> predict() {
-    for (const SurrogateOutput& output : record_.outputs) {
-      if (!output.reason.empty()) continue;
-      const study::Prediction prediction = Surrogate(record_, output).at(point_);
-      if (!prediction.covered)
-        return InputError{{},
-                          0,
-                          0,
-                          "--set",
-                          "a launch that is farther out than any by which the error of the fit is known",
-                          "values nearer to the middle of their ranges, or a study of the launch itself",
-                          {}};
-      outputs_.push_back({&output, shown_output(output, record_), prediction});
-    }
-    if (record_.predicted("critical_gap") != nullptr)
-      ignitions_ = study::predicted_ignitions(record_, gap_, fixed_coordinates(record_, inputs_, point_));
-    return std::nullopt;
-  }
-
-  void print(Console& console) const {
-    console.print_text(text());
-    console.print_json(json());
-  }
-
- private:
-  const PredictedOutput* critical_gap() const {
-    const auto found = std::ranges::find_if(
-        outputs_, [](const PredictedOutput& each) { return each.output->name == "critical_gap"; });
-    return found == outputs_.end() ? nullptr : &*found;
-  }
-
-  std::string text() const {
-    std::string text;
-    for (const AskedInput& each : inputs_)
-      text += fmt::format("{} = {}{}\n", each.key.name, value_text(each),
-                          each.is_set ? "" : "  (the study's scene)");
-    text += "\n";
-    for (const PredictedOutput& each : outputs_)
-      text += fmt::format("{}: {} +- {} (1 of 100 launches is beyond, on each side)\n", each.shown.heading,
-                          report::in_words(each.prediction.value, each.shown.form),
-                          report::in_words(each.prediction.error, each.shown.form));
-    for (const SurrogateOutput& output : record_.outputs)
-      if (!output.reason.empty())
-        text += fmt::format("{}: not predicted, {}\n", shown_output(output, record_).heading, output.reason);
-    if (critical_gap() != nullptr) text += gap_text();
-    return text +
-           fmt::format(
-               "\nA fit to {} launches, held against {} others; this one was not computed, and the error of "
-               "a "
-               "computation comes on top.\nOnly a launch that was computed can be SAFE: launchsafe study.\n",
-               record_.fitted, record_.points.size() / record_.keys.size() - record_.fitted);
-  }
-
-  std::string gap_text() const {
-    const auto share = [&](std::size_t count) {
-      return report::in_words(static_cast<double>(count) / static_cast<double>(ignitions_.draws),
-                              keys::significant(3, keys::percent));
-    };
-    std::string text = fmt::format("{}: {}\n", scene::format_quantity(gap_, scene::Dimension::length),
-                                   word_on(gap_, critical_gap()->prediction));
-    if (std::ranges::all_of(inputs_, &AskedInput::is_set)) return text;
-    text += fmt::format(
-        "    over what the other inputs may be: of {} draws {} ignite, {} to {} within the error of the "
-        "fit\n",
-        ignitions_.draws, share(ignitions_.predicted), share(ignitions_.at_least), share(ignitions_.at_most));
-    if (ignitions_.uncovered > 0)
-      text += fmt::format("    {} of the draws are farther out than any launch that tells that error\n",
-                          share(ignitions_.uncovered));
-    return text;
-  }
-
-  nlohmann::ordered_json json() const {
-    nlohmann::ordered_json inputs, outputs = nlohmann::ordered_json::array();
-    for (const AskedInput& each : inputs_)
-      inputs.push_back({{"key", each.key.name}, {"value_si", each.value()}, {"set", each.is_set}});
-    for (const PredictedOutput& each : outputs_)
-      outputs.push_back({{"output", each.output->name},
-                         {"value_si", each.prediction.value},
-                         {"error_si", each.prediction.error},
-                         {"inert", each.output->inert}});
-    nlohmann::ordered_json object{
-        {"inputs", inputs}, {"outputs", outputs}, {"confidence", 0.99}, {"gap_m", gap_}};
-    if (critical_gap() == nullptr) return object;
-    object["gap"] = word_on(gap_, critical_gap()->prediction);
-    object["ignitions"] = {{"draws", ignitions_.draws},
-                           {"at_least", ignitions_.at_least},
-                           {"predicted", ignitions_.predicted},
-                           {"at_most", ignitions_.at_most},
-                           {"uncovered", ignitions_.uncovered}};
-    return object;
-  }
-
-  const SurrogateRecord& record_;
-  std::vector<AskedInput> inputs_;
-  double gap_;  ///< m
-  std::vector<double> point_;
-  std::vector<PredictedOutput> outputs_;
-  study::PredictedIgnitions ignitions_;
-};
-
-// --- many launches ---
-
-/// One of them, with a prediction of every output; none where it is too far from those that were computed.
+/// A launch that is asked for, with a prediction of every output; none where it is farther out than any
+/// launch by which the error of the fit is known.
 struct AskedLaunch {
-  std::vector<double> values;  ///< SI, of the inputs
-  std::vector<std::optional<study::Prediction>> predictions;
+  std::vector<double> values = {};  ///< SI, of the inputs
+  std::vector<std::optional<study::Prediction>> predictions = {};
 };
 
 /// All combinations of the values, the last input the fastest.
@@ -312,39 +179,103 @@ report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>&
   return quantities;
 }
 
-/// Nothing is said of a launch that is too far out.
-report::Table table_of_launches(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
-  std::vector<AskedLaunch> launches = launches_of(inputs);
-  std::vector<report::Column> outputs;
-  for (const SurrogateOutput& output : record.outputs) {
-    if (!output.reason.empty()) continue;
-    outputs.push_back(shown_output(output, record));
-    const Surrogate surrogate(record, output);
+/// The outputs of which something is predicted.
+std::vector<const SurrogateOutput*> predicted_outputs(const SurrogateRecord& record) {
+  std::vector<const SurrogateOutput*> outputs;
+  for (const SurrogateOutput& output : record.outputs)
+    if (output.reason.empty()) outputs.push_back(&output);
+  return outputs;
+}
+
+void predict(const SurrogateRecord& record, std::vector<AskedLaunch>& launches) {
+  for (const SurrogateOutput* output : predicted_outputs(record)) {
+    const Surrogate surrogate(record, *output);
     for (AskedLaunch& launch : launches) {
       const study::Prediction prediction = surrogate.at(record.inputs.point_of(launch.values));
       launch.predictions.push_back(prediction.covered ? std::optional(prediction) : std::nullopt);
     }
   }
+}
+
+report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+                       const std::vector<AskedLaunch>& launches) {
+  std::vector<report::Column> outputs;
+  for (const SurrogateOutput* output : predicted_outputs(record))
+    outputs.push_back(shown_output(*output, record));
   report::Table table = report::table_of("Predicted", launch_quantities(inputs, outputs), launches);
-  table.notes = {
-      "1 of 100 launches is beyond the error (+-), on each side. A row without numbers is farther out than "
-      "any launch "
-      "by which the error is known. Only a launch that was computed can be SAFE."};
+  std::vector<std::string> unset;
+  for (const AskedInput& each : inputs)
+    if (!each.is_set) unset.push_back(each.key.name + " = " + value_text(each));
+  if (!unset.empty())
+    table.notes.push_back(fmt::format("As in the study's scene: {}.", fmt::join(unset, ", ")));
+  for (const SurrogateOutput& output : record.outputs)
+    if (!output.reason.empty())
+      table.notes.push_back(
+          fmt::format("{}: not predicted, {}.", shown_output(output, record).heading, output.reason));
+  table.notes.push_back(
+      fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (+-) on each "
+                  "side. Nothing is said "
+                  "of a launch that is farther out than these. How far computed ones are off comes on top, "
+                  "and only a launch that "
+                  "was computed can be SAFE: launchsafe study.",
+                  record.fitted, record.points.size() / record.keys.size() - record.fitted));
   return table;
 }
 
-ExitCode print_launches(const AskArguments& arguments, const SurrogateRecord& record,
-                        const std::vector<AskedInput>& inputs, Console& console) {
-  constexpr double most_launches = 1e6;
-  double count = 1;
-  for (const AskedInput& each : inputs) count *= static_cast<double>(each.values.size());
-  if (count > most_launches)
-    return console.refuse(fmt::format("--set: found {:.0f} combinations; allowed: up to a million", count));
-  const report::Table table = table_of_launches(record, inputs);
-  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table));
-  if (console.json())
-    console.print_json({{"launches", report::to_json(table)["rows"]}, {"confidence", 0.99}});
-  return ExitCode::done;
+// --- a gap ---
+
+/// "predicted: no ignition" of a gap that lies below the predicted critical gap by more than its error.
+std::string word_on(double gap, const study::Prediction& critical_gap) {
+  if (gap < critical_gap.value - critical_gap.error) return "predicted: no ignition";
+  if (gap > critical_gap.value + critical_gap.error) return "predicted: ignition";
+  return "not predicted: nearer to the critical gap than the error of the fit";
+}
+
+/// What is held in every draw: what is set, and with one of them all that vary together.
+std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& record,
+                                                     const std::vector<AskedInput>& inputs,
+                                                     const std::vector<double>& point) {
+  const auto& correlated = record.inputs.correlated;
+  bool holds_together = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    holds_together = holds_together || (correlated && correlated->has(i) && inputs[i].is_set);
+  std::vector<std::optional<double>> fixed(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    if (inputs[i].is_set || (holds_together && correlated->has(i))) fixed[i] = point[i];
+  return fixed;
+}
+
+/// What a gap (m) does in one launch, and over what its other inputs may be.
+void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+               const AskedLaunch& launch, double gap, Console& console) {
+  const auto outputs = predicted_outputs(record);
+  const auto found =
+      std::ranges::find(outputs, report::quantity::critical_gap().name, &SurrogateOutput::name);
+  if (found == outputs.end()) return;
+  const std::string word =
+      word_on(gap, *launch.predictions[static_cast<std::size_t>(found - outputs.begin())]);
+  const study::PredictedIgnitions of = study::predicted_ignitions(
+      record, gap, fixed_coordinates(record, inputs, record.inputs.point_of(launch.values)));
+  const auto share = [&of](std::size_t count) {
+    return report::in_words(static_cast<double>(count) / static_cast<double>(of.draws),
+                            keys::significant(3, keys::percent));
+  };
+  std::string text = fmt::format("\n{}: {}\n", scene::format_quantity(gap, scene::Dimension::length), word);
+  if (!std::ranges::all_of(inputs, &AskedInput::is_set))
+    text += fmt::format(
+        "Over what the other inputs may be: of {} draws {} ignite, {} to {} within the error of the fit; {} "
+        "are farther "
+        "out than any launch by which it is known.\n",
+        of.draws, share(of.predicted), share(of.at_least), share(of.at_most), share(of.uncovered));
+  console.print_text(text);
+  console.print_json({{"gap_cm", report::shown_gap(gap)},
+                      {"gap", word},
+                      {"ignitions",
+                       {{"draws", of.draws},
+                        {"at_least", of.at_least},
+                        {"predicted", of.predicted},
+                        {"at_most", of.at_most},
+                        {"uncovered", of.uncovered}}}});
 }
 
 }  // namespace
@@ -357,11 +288,20 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   for (const std::string& given : arguments.settings)
     if (const auto fault = set_input(given, *inputs)) return console.refuse(*fault);
   if (const auto fault = check_ranges(*record, *inputs)) return console.refuse(*fault);
-  const bool several = std::ranges::any_of(*inputs, [](const auto& each) { return each.values.size() > 1; });
-  if (several || arguments.csv) return print_launches(arguments, *record, *inputs, console);
-  Answer answer(*record, std::move(*inputs), arguments.gap.value_or(record->gap));
-  if (const auto fault = answer.predict()) return console.refuse(*fault);
-  answer.print(console);
+  if (const auto fault = check_count(*inputs)) return console.refuse(*fault);
+  std::vector<AskedLaunch> launches = launches_of(*inputs);
+  predict(*record, launches);
+  const bool is_one = launches.size() == 1;
+  const auto is_told = [](const auto& prediction) { return prediction.has_value(); };
+  if (is_one && !std::ranges::all_of(launches.front().predictions, is_told))
+    return console.refuse(
+        fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
+                     "values nearer to the middle of their ranges, or a study of the launch itself"));
+  const report::Table table = table_of(*record, *inputs, launches);
+  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table));
+  if (console.json()) console.print_json({{"launches", report::to_json(table)["rows"]}});
+  if (is_one && !arguments.csv)
+    print_gap(*record, *inputs, launches.front(), arguments.gap.value_or(record->gap), console);
   return ExitCode::done;
 }
 
