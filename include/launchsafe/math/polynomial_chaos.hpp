@@ -46,7 +46,8 @@ std::size_t fewest_chaos_points(std::size_t inputs);
 /// The output fitted at points of the open unit cube, row by row, to its values there: by least squares with
 /// terms that orthogonal matching pursuit picks one after the other, up to the number and the degree that
 /// leave the least leave-one-out error (Blatman & Sudret, J. Comput. Phys. 230 (2011) 2345, who pick by least
-/// angles). Rows whose value is not finite are left out. No fit from fewer than `fewest_chaos_points`.
+/// angles), of degrees with no more than three candidates a point. Rows whose value is not finite are left
+/// out. No fit from fewer than `fewest_chaos_points`.
 PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                           const std::vector<double>& values);
 
