@@ -128,8 +128,7 @@ Fault make_chaos_samples(StudyFile& study) {
   const UncertainInputs drawn = uncertain_inputs(s);
   const std::vector<double> points = chaos_points(s);
   const auto coordinates = [&](std::size_t evaluation) {
-    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(evaluation * s.axes.size());
-    return drawn.values_at({begin, begin + static_cast<std::ptrdiff_t>(s.axes.size())});
+    return drawn.values_at(math::point_of_row(points, evaluation, s.axes.size()));
   };
   for (std::size_t evaluation = 0; evaluation < all; ++evaluation)
     if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;

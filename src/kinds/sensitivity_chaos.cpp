@@ -17,18 +17,14 @@ using study::Study, study::Axis, study::SurrogateRecord, study::UncertainInputs;
 constexpr std::size_t fewest_held_out = 10;
 constexpr double most_unexplained = 0.1;
 
-std::vector<double> point_of(const std::vector<double>& points, std::size_t row, std::size_t inputs) {
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
-  return {begin, begin + static_cast<std::ptrdiff_t>(inputs)};
-}
-
 /// How far a fit is off the evaluations from `fitted` on.
 void find_error(const std::vector<double>& points, const std::vector<double>& values, std::size_t fitted,
                 SurrogateFit& fit) {
   double squares = 0.0, largest = 0.0;
   for (std::size_t row = fitted; row < values.size(); ++row) {
     if (!std::isfinite(values[row])) continue;
-    const double miss = std::abs(fit.chaos.at(point_of(points, row, fit.chaos.inputs.size())) - values[row]);
+    const double miss =
+        std::abs(fit.chaos.at(math::point_of_row(points, row, fit.chaos.inputs.size())) - values[row]);
     squares += miss * miss;
     largest = std::max(largest, miss);
     ++fit.held_out;

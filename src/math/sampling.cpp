@@ -253,4 +253,9 @@ std::vector<double> unit_points(Design design, std::size_t points, std::size_t d
   return values;
 }
 
+std::vector<double> point_of_row(const std::vector<double>& points, std::size_t row, std::size_t dimensions) {
+  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * dimensions);
+  return {begin, begin + static_cast<std::ptrdiff_t>(dimensions)};
+}
+
 }  // namespace launchsafe::math

@@ -11,6 +11,7 @@
 #include <complex>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::scene {
@@ -158,30 +159,41 @@ double power_at(const std::vector<double>& values, std::size_t periods) {
   return 2.0 * std::norm(sum) / std::pow(static_cast<double>(values.size()), 2);
 }
 
-/// The strongest of the lines among powers by frequency, from `first` on: those whose five bins, as a ring
-/// that comes and goes with the pressure spreads over, have on average thirty times the median of what lies
-/// within a third of their frequency. 0 where there is none, as in noise and in the pulse itself.
-std::size_t strongest_line(const std::vector<double>& powers, std::size_t first) {
-  constexpr std::size_t half_width = 2, fewest_around = 8;
-  constexpr double least_prominence = 30.0, span = 4.0 / 3.0;
-  std::size_t top = 0;
-  double strongest = 0.0;
+/// Whether a bin is in a line among powers by frequency, from `first` on: its five bins, as a ring that comes
+/// and goes with the pressure spreads over, have on average thirty times the median of what lies within a
+/// third of its frequency. None is in noise, nor in the pulse itself.
+bool stands_out(const std::vector<double>& powers, std::size_t first, std::size_t bin, double line) {
+  constexpr std::size_t fewest_around = 8;
+  constexpr double bins = 5.0, least_prominence = 30.0, span = 4.0 / 3.0;
+  const auto begin = std::max(first, static_cast<std::size_t>(static_cast<double>(bin) / span));
+  const auto end = std::min(powers.size(), static_cast<std::size_t>(static_cast<double>(bin) * span) + 1);
+  if (end - begin < fewest_around) return false;
+  std::vector<double> around(powers.begin() + static_cast<std::ptrdiff_t>(begin),
+                             powers.begin() + static_cast<std::ptrdiff_t>(end));
+  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
+  std::nth_element(around.begin(), middle, around.end());
+  return line >= bins * least_prominence * *middle;
+}
+
+/// The lines among powers by frequency, the strongest first, none within a tenth of a stronger one.
+std::vector<std::size_t> lines_of(const std::vector<double>& powers, std::size_t first) {
+  constexpr std::size_t half_width = 2;
+  constexpr double near = 0.1;
+  std::vector<std::pair<double, std::size_t>> bins;  // of what five bins have together
   for (std::size_t i = first + half_width; i + half_width < powers.size(); ++i) {
     double line = 0.0;
     for (std::size_t k = i - half_width; k <= i + half_width; ++k) line += powers[k];
-    if (line <= strongest) continue;
-    const auto begin = std::max(first, static_cast<std::size_t>(static_cast<double>(i) / span));
-    const auto end = std::min(powers.size(), static_cast<std::size_t>(static_cast<double>(i) * span) + 1);
-    if (end - begin < fewest_around) continue;
-    std::vector<double> around(powers.begin() + static_cast<std::ptrdiff_t>(begin),
-                               powers.begin() + static_cast<std::ptrdiff_t>(end));
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    if (line < (2.0 * half_width + 1.0) * least_prominence * *middle) continue;
-    strongest = line;
-    top = i;
+    if (stands_out(powers, first, i, line)) bins.emplace_back(-line, i);
   }
-  return top;
+  std::sort(bins.begin(), bins.end());
+  std::vector<std::size_t> lines;
+  for (const auto& [power, bin] : bins) {
+    const auto is_near = [bin = static_cast<double>(bin)](std::size_t line) {
+      return std::abs(bin / static_cast<double>(line) - 1.0) <= near;
+    };
+    if (std::none_of(lines.begin(), lines.end(), is_near)) lines.push_back(bin);
+  }
+  return lines;
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
@@ -278,40 +290,51 @@ std::optional<double> suggested_smoothing(const Load& load) {
   return std::nullopt;
 }
 
-std::optional<Ring> ring_of(const Load& load) {
+std::vector<Ring> rings_of(const Load& load) {
   constexpr std::size_t most_samples = 4096, fewest_points = 64;
   constexpr double longest_window = 1e-3, near = 0.1, line_bins = 5.0, least_share = 5e-4;
-  if (load.curve_time.size() < fewest_points) return std::nullopt;
+  if (load.curve_time.size() < fewest_points) return {};
   const double length = load.curve_time.back() - load.curve_time.front();
   const double window = std::min(longest_window, 0.1 * length);
-  if (load.smoothing >= window) return std::nullopt;
+  if (load.smoothing >= window) return {};
   const std::size_t samples = std::min(most_samples, load.curve_time.size() - 1);
   const std::vector<double> fast = fast_part(load, window, samples);
   const auto first = static_cast<std::size_t>(std::ceil(length / window));
   std::vector<double> powers(samples / 2, 0.0);
   for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
-  const std::size_t top = strongest_line(powers, first);
-  if (top == 0) return std::nullopt;
-  double around = 0.0, line = 0.0, centre = 0.0;
-  for (std::size_t i = first; i < powers.size(); ++i) {
-    const double apart = std::abs(static_cast<double>(i) - static_cast<double>(top));
-    if (apart <= near * static_cast<double>(top)) around += powers[i];
-    if (apart > line_bins) continue;
-    line += powers[i];
-    centre += powers[i] * static_cast<double>(i);
+  const double least = least_share * PressureHistory(load).stated_peak();
+  std::vector<Ring> rings;
+  for (const std::size_t top : lines_of(powers, first)) {
+    double around = 0.0, line = 0.0, centre = 0.0;
+    for (std::size_t i = first; i < powers.size(); ++i) {
+      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(top));
+      if (apart <= near * static_cast<double>(top)) around += powers[i];
+      if (apart > line_bins) continue;
+      line += powers[i];
+      centre += powers[i] * static_cast<double>(i);
+    }
+    const Ring ring{centre / line / length, std::sqrt(2.0 * around)};
+    if (ring.amplitude >= least) rings.push_back(ring);
   }
-  const Ring ring{centre / line / length, std::sqrt(2.0 * around)};
-  if (ring.amplitude < least_share * PressureHistory(load).stated_peak()) return std::nullopt;
-  return ring;
+  return rings;
+}
+
+std::optional<Ring> ring_of(const Load& load) {
+  const std::vector<Ring> rings = rings_of(load);
+  return rings.empty() ? std::nullopt : std::optional(rings.front());
 }
 
 std::optional<Ring> smoothed_ring(const Load& load) {
+  constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
   Load raw = load;
   raw.smoothing = 0.0;
-  const auto ring = ring_of(raw), left = ring_of(load);
-  const bool stays = ring && left && left->amplitude > 0.9 * ring->amplitude;
-  return stays ? std::nullopt : ring;
+  for (const Ring& ring : rings_of(raw)) {
+    // What an average over a window leaves of a sine.
+    const double angle = std::numbers::pi * ring.frequency * load.smoothing;
+    if (!(std::abs(std::sin(angle)) > least_left * angle)) return ring;
+  }
+  return std::nullopt;
 }
 
 std::string ring_text(const Load& load) {

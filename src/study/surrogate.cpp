@@ -16,17 +16,12 @@ const math::Distribution& standard_normal() {
   return normal;
 }
 
-std::vector<double> point_at(const std::vector<double>& points, std::size_t row, std::size_t inputs) {
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
-  return {begin, begin + static_cast<std::ptrdiff_t>(inputs)};
-}
-
 /// Of the launches that were fitted those that have a number.
 std::vector<double> fitted_points(const SurrogateRecord& record, const SurrogateOutput& output) {
   std::vector<double> points;
   for (std::size_t row = 0; row < record.fitted; ++row) {
     if (!std::isfinite(output.values[row])) continue;
-    const auto point = point_at(record.points, row, record.keys.size());
+    const auto point = math::point_of_row(record.points, row, record.keys.size());
     points.insert(points.end(), point.begin(), point.end());
   }
   return points;
@@ -86,7 +81,7 @@ Surrogate::Surrogate(const SurrogateRecord& record, const SurrogateOutput& outpu
   int held_out = 0;
   for (std::size_t row = record.fitted; row < output.values.size(); ++row) {
     if (!std::isfinite(output.values[row])) continue;
-    const auto [value, leverage] = fit_.at(point_at(record.points, row, record.keys.size()));
+    const auto [value, leverage] = fit_.at(math::point_of_row(record.points, row, record.keys.size()));
     const double miss = std::abs(value - output.values[row]) / std::sqrt(1.0 + leverage);
     sum += miss;
     largest = std::max(largest, miss);
@@ -108,7 +103,8 @@ InputRange range_of(const SurrogateRecord& record, std::size_t input) {
     return {distribution.lower, distribution.upper};
   InputRange range;
   for (std::size_t row = 0; row < record.fitted; ++row) {
-    const double value = record.inputs.values_at(point_at(record.points, row, record.keys.size()))[input];
+    const double value =
+        record.inputs.values_at(math::point_of_row(record.points, row, record.keys.size()))[input];
     range = row == 0 ? InputRange{value, value}
                      : InputRange{std::min(range.lower, value), std::max(range.upper, value)};
   }
@@ -124,7 +120,7 @@ PredictedIgnitions predicted_ignitions(const SurrogateRecord& record, double gap
   const std::vector<double> points =
       math::unit_points(math::Design::scrambled_sobol, ignitions.draws, inputs, seed);
   for (std::size_t row = 0; row < ignitions.draws; ++row) {
-    std::vector<double> point = point_at(points, row, inputs);
+    std::vector<double> point = math::point_of_row(points, row, inputs);
     for (std::size_t i = 0; i < inputs; ++i) point[i] = fixed[i].value_or(point[i]);
     const Prediction predicted = critical_gap.at(point);
     ignitions.at_least += predicted.value + predicted.error <= gap;

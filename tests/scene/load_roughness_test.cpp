@@ -191,6 +191,19 @@ TEST(LoadRoughness, TellsARingThatSmoothingTakesAwayAndWhichWindowDoes) {
   EXPECT_FALSE(smoothed_ring(noise)) << "noise is no ring";
 }
 
+// An average over a tenth of a millisecond leaves 0.97 of a sine at 1.5 kHz and a fiftieth of one at 9.8 kHz.
+TEST(LoadRoughness, TellsAWeakRingThatSmoothingTakesAwayBesideAStrongOneThatStays) {
+  Load load = ringing(1.5e3, 0.02, 1801);
+  for (std::size_t i = 0; i < load.curve_time.size(); ++i)
+    load.curve_pressure[i] *= 1.0 + 0.003 * std::sin(2.0 * std::numbers::pi * 9.8e3 * load.curve_time[i]);
+  EXPECT_NEAR(ring_of(load)->frequency, 1.5e3, 1.0 / duration);
+  load.smoothing = 0.1e-3;
+  ASSERT_TRUE(ring_of(load));
+  const auto gone = smoothed_ring(load);
+  ASSERT_TRUE(gone);
+  EXPECT_NEAR(gone->frequency, 9.8e3, 1.0 / duration);
+}
+
 // At 9.8 kHz so small a ring ignites the 155 mm shell without a gap.
 TEST(LoadRoughness, SeesARingOfATenthOfAPercent) {
   const auto ring = ring_of(ringing(9.8e3, 0.001, 1801));

@@ -20,11 +20,6 @@ UncertainInputs some_inputs() {
           .correlated = CorrelatedInputs{1, 2, {0.05, 0.0, -0.08, 0.06}}};
 }
 
-std::vector<double> point_at(const std::vector<double>& points, std::size_t row, std::size_t inputs) {
-  const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
-  return {begin, begin + static_cast<std::ptrdiff_t>(inputs)};
-}
-
 /// m, a critical gap that falls with the pressure, curved, and that a fit of low degree misses a little.
 double critical_gap_at(const std::vector<double>& values) {
   return 4e-4 * std::exp(-2.0 * (values[0] / 496e6 - 1.0)) * (1350.0 / values[1]) *
@@ -47,7 +42,8 @@ SurrogateRecord some_record(std::uint64_t seed = 1) {
   record.points.insert(record.points.end(), held_out.begin(), held_out.end());
   SurrogateOutput output{.name = "critical_gap"};
   for (std::size_t row = 0; row < 96; ++row)
-    output.values.push_back(critical_gap_at(record.inputs.values_at(point_at(record.points, row, 3))));
+    output.values.push_back(
+        critical_gap_at(record.inputs.values_at(math::point_of_row(record.points, row, 3))));
   output.fit = math::fit_chaos(record.inputs.bases(),
                                {record.points.begin(), record.points.begin() + std::ptrdiff_t{64 * 3}},
                                {output.values.begin(), output.values.begin() + std::ptrdiff_t{64}});
@@ -83,7 +79,7 @@ TEST(Surrogate, ItsErrorHoldsForLaunchesThatItHasNotSeen) {
     const Surrogate surrogate(record, record.outputs.front());
     const std::vector<double> points = math::unit_points(Design::monte_carlo, launches, 3, 1000);
     for (std::size_t row = 0; row < launches; ++row) {
-      const auto point = point_at(points, row, 3);
+      const auto point = math::point_of_row(points, row, 3);
       const Prediction prediction = surrogate.at(point);
       EXPECT_LT(prediction.error, prediction.covered ? 1e-4 : 1.0);  // a quarter of the critical gap
       if (!prediction.covered) continue;
@@ -122,7 +118,7 @@ TEST(Surrogate, CountsTheDrawsWhoseCriticalGapIsBelowAGap) {
   SurrogateRecord record = some_record();
   SurrogateOutput& output = record.outputs.front();
   for (std::size_t row = 0; row < 96; ++row) {
-    auto values = record.inputs.values_at(point_at(record.points, row, 3));
+    auto values = record.inputs.values_at(math::point_of_row(record.points, row, 3));
     output.values[row] = 4e-4 * std::exp(-2.0 * (values[0] / 496e6 - 1.0));
   }
   output.fit = math::fit_chaos(record.inputs.bases(),

@@ -89,4 +89,7 @@ enum class Design {
 std::vector<double> unit_points(Design design, std::size_t points, std::size_t dimensions,
                                 std::uint64_t seed);
 
+/// One of points that lie row by row.
+std::vector<double> point_of_row(const std::vector<double>& points, std::size_t row, std::size_t dimensions);
+
 }  // namespace launchsafe::math

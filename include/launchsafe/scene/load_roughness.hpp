@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace launchsafe::scene {
 
@@ -49,13 +50,16 @@ struct Ring {
   double amplitude = 0;  ///< Pa
 };
 /// What is left of a curve beside its moving average over a millisecond (a tenth of a shorter curve) is
-/// searched, by its discrete Fourier transform, for the strongest line that stands out from the spectrum
-/// around it; nothing where none does, as in noise, or where its amplitude is below 0.05 % of the peak: on
-/// the 155 mm shell a ring of 0.19 % of the pressure ignites the charge without a gap at 9.8 kHz, where the
-/// shell swings along, and at 9.4 kHz it heats by half a kelvin. Sought are frequencies from one over that
-/// window to 100 kHz or half the rate of the points.
+/// searched, by its discrete Fourier transform, for lines that stand out from the spectrum around them, the
+/// strongest first. None are in noise, and none count with an amplitude below 0.05 % of the peak: on the 155
+/// mm shell a ring of 0.19 % of the pressure ignites the charge without a gap at 9.8 kHz, where the shell
+/// swings along, and at 9.4 kHz it heats by half a kelvin. Sought are frequencies from one over that window
+/// to 100 kHz or half the rate of the points.
+std::vector<Ring> rings_of(const Load& load);
+/// The strongest of them.
 std::optional<Ring> ring_of(const Load& load);
-/// The ring that smoothing takes away. Whether it is the gauge's own or pressure no curve tells.
+/// The strongest ring of which smoothing takes more than a tenth away. Whether it is the gauge's own or
+/// pressure no curve tells.
 std::optional<Ring> smoothed_ring(const Load& load);
 /// For people: "the record pressure.csv rings at 3.2 kHz with 1.5 % of its peak, which heats as pressure
 /// does"; empty for none.

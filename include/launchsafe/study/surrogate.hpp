@@ -68,9 +68,9 @@ struct Prediction {
 };
 
 /// The polynomial of an output with its error, which grows with the distance from the launches that were
-/// fitted, and is found at those that were not: math::exponential_tolerance_factor times the mean magnitude of
-/// what the polynomial misses there, or the largest where that is more, each over sqrt(1 + leverage), times
-/// that of the point.
+/// fitted, and is found at those that were not: math::exponential_tolerance_factor times the mean magnitude
+/// of what the polynomial misses there, or the largest where that is more, each over sqrt(1 + leverage),
+/// times that of the point.
 class Surrogate {
  public:
   /// Of an output that is predicted.
