@@ -6,6 +6,8 @@ namespace launchsafe::app {
 
 extern const char* const scene_template;
 extern const char* const study_template;
+extern const char* const accuracy_template;
+extern const char* const firings_template;
 /// Scripts for Slurm: an array of shards, the merge behind it, and what submits both.
 extern const char* const shard_template;
 extern const char* const merge_template;

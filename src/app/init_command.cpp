@@ -35,6 +35,11 @@ constexpr const char* expected_velocity_line =
     "\n# expected_velocity = \"... m/s\"   # type it from the range table, and a pressure in a wrong unit is "
     "found";
 
+/// Of an accuracy study: a load that is no measured curve is computed with selective inertia, which the
+/// lattices that tell the limit do not have.
+constexpr const char* selective_inertia_lines =
+    "\n[set]\nnumerics.selective_inertia = 1\n[[settings]]\nnumerics.selective_inertia = [4]\n";
+
 /// The lines of [load].
 std::string load_lines(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
   if (curve) {
@@ -75,9 +80,12 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
                           {"bore", scaled_length(65, factor)},
                           {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
                           {"load", load_lines(arguments, curve) + expected_velocity_line},
+                          {"selective_inertia", curve ? "" : selective_inertia_lines},
                           {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
   NamedTexts files{{"scene.toml", filled(scene_template, values)},
                    {"critical_gap.toml", filled(study_template, values)},
+                   {"accuracy.toml", filled(accuracy_template, values)},
+                   {"firings.toml", filled(firings_template, values)},
                    {"calibration.json", shipped_calibration},
                    {"scene.schema.json", scene_schema().dump(1) + "\n"},
                    {"study.schema.json", study_schema().dump(1) + "\n"}};

@@ -113,7 +113,29 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
   };
 }
 
+/// Firings stand alone, with what is only of them; they start from a calibration on published results.
+Fault check_firings(const StudyFile& study) {
+  const bool any = has_firings(study.study);
+  for (const auto& [key, place] : study.places) {
+    const bool of_firings =
+        key.starts_with("prior.") || key == "demonstration" || key == "next_gaps" || key == "calibration";
+    const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||
+                         key == "compare_kinetics" || key == "ignition_bracket";
+    if (any ? of_rows : of_firings)
+      return fault_at(
+          study, key,
+          any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
+          any ? "either [[firing]] or published rows" : "at least one [[firing]]");
+  }
+  if (any && study.study.calibration.firings)
+    return fault_at(study, "calibration", "a calibration that is itself on firings",
+                    "the record of a calibration on published results, and all firings here");
+  return std::nullopt;
+}
+
 Fault read_calibration(const StudySource& source, StudyFile& study) {
+  if (Fault fault = read_firings(source.root, study)) return fault;
+  if (Fault fault = check_firings(study)) return fault;
   if (Fault fault = read_references(source, study)) return fault;
   const auto& own = settings_of<CalibrationSettings>(study.study);
   return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
@@ -122,6 +144,7 @@ Fault read_calibration(const StudySource& source, StudyFile& study) {
 std::string mesh_label(const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }
 
 Fault make_calibration_cases(const StudySource&, StudyFile& study) {
+  if (has_firings(study.study)) return make_firing_cases(study);
   if (const auto targets = calibration_targets(study); !targets) return targets.error();
   return make_factorial(study, mesh_label);
 }
@@ -133,6 +156,18 @@ std::vector<Failure> calibration_failures(const CalibrationResult& result) {
   return failures;
 }
 
+std::vector<Failure> firing_failures(const FiringResult& result) {
+  std::vector<Failure> failures;
+  for (const FiredCondition& each : result.conditions)
+    add_failure(failures, each.input.label, each.outcome, each.failure);
+  return failures;
+}
+
+StudyOutcome run(const StudyFile& study, const StudyOptions& options) {
+  return has_firings(study.study) ? outcome_of<run_firings, firing_failures>(study, options)
+                                  : outcome_of<run_calibration, calibration_failures>(study, options);
+}
+
 }  // namespace
 
 Kind calibration_kind() {
@@ -141,14 +176,16 @@ Kind calibration_kind() {
                  .judges_gaps = false,
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false},
-      .keys = joined({reference_keys(), own_keys(calibration_keys())}),
-      .tables = {reference_table()},
+      .keys =
+          joined({reference_keys(), calibration_record_keys(), own_keys(calibration_keys()), firing_keys()}),
+      .tables = {reference_table(), firing_table()},
       .read = read_calibration,
       .make_cases = make_calibration_cases,
-      .run = outcome_of<run_calibration, calibration_failures>,
+      .run = run,
       // Reports of older programs had hold-outs and files of cases too.
       .files = {{"calibration.json"},
                 {"calibration.csv"},
+                {"firings.csv"},
                 {"compared.csv"},
                 {"hold_outs.csv"},
                 {"case_", ".h5"},

@@ -300,14 +300,18 @@ Report report_of(const CalibrationResult& result) {
 }
 
 std::vector<ResultTable> calibration_results() {
-  return {{"constants", "", keys::described(scene_quantities())},
-          {"fitted", "", fitted_columns()},
-          {"calibrations", "calibration.csv", keys::described(calibration_quantities({}))},
-          {"selection", "", keys::described(selection_quantities())},
-          {"convergence", "", keys::described(convergence_quantities())},
-          {"compared", "compared.csv", keys::described(with_setting(compared_quantities()))},
-          {"placements", "", keys::described(with_setting(placement_quantities()))},
-          {"runs", "", run_columns()}};
+  std::vector<ResultTable> results = firing_results();
+  const std::vector<ResultTable> of_rows{
+      {"constants", "", keys::described(scene_quantities())},
+      {"fitted", "", fitted_columns()},
+      {"calibrations", "calibration.csv", keys::described(calibration_quantities({}))},
+      {"selection", "", keys::described(selection_quantities())},
+      {"convergence", "", keys::described(convergence_quantities())},
+      {"compared", "compared.csv", keys::described(with_setting(compared_quantities()))},
+      {"placements", "", keys::described(with_setting(placement_quantities()))},
+      {"runs", "", run_columns()}};
+  results.insert(results.end(), of_rows.begin(), of_rows.end());
+  return results;
 }
 
 }  // namespace launchsafe::kinds

@@ -3,6 +3,7 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
 
 #include <fmt/format.h>
 
@@ -138,6 +139,17 @@ std::string to_text(const Report& report, const std::filesystem::path& folder) {
   return text + report.answer + "\n";
 }
 
+namespace {
+
+/// What verdicts rest on that were calibrated on firings.
+nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
+  int rounds[2] = {0, 0};
+  for (const study::Firing& each : evidence.firings) rounds[each.ignited ? 1 : 0] += each.rounds;
+  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}, {"demonstration", evidence.demonstration}};
+}
+
+}  // namespace
+
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members) {
   nlohmann::ordered_json head{{"format", "launchsafe study 1"},
@@ -146,6 +158,8 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"title", report.title},
                               {"answer", report.answer}};
   head.update(members);
+  if (study.study.calibration.firings && study.study.kind.gives_verdicts)
+    head["firings"] = firings_json(*study.study.calibration.firings);
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
   if (study.study.kind.gives_verdicts) add_acceptances(study::acceptances_of(study), head);

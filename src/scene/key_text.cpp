@@ -102,7 +102,8 @@ std::string allowed_text(const KeyDescription& key) {
       return text;
     }
     case KeyKind::range:
-      return fmt::format("a range, lower end first, of a {}{}, such as {}", name, limits, example_of(key));
+      return fmt::format("{}a range, lower end first, of a {}{}, such as {}",
+                         key.may_be_value ? "a value or " : "", name, limits, example_of(key));
     case KeyKind::list:
       return fmt::format(
           "a list of {}, each a {}{}, such as {}",

@@ -348,8 +348,14 @@ Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension 
   return convert(*token, text, dimension);
 }
 
+namespace {
+constexpr std::string_view between_ends = " to ";
+}
+
+bool is_range(std::string_view text) { return text.find(between_ends) != std::string_view::npos; }
+
 Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension) {
-  const std::size_t separator = text.find(" to ");
+  const std::size_t separator = text.find(between_ends);
   const auto two_values = [&](std::string found) {
     QuantityFault result = fault(std::move(found), dimension);
     const DimensionInfo& info = info_of(dimension);

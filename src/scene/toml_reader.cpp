@@ -116,6 +116,11 @@ Expected<std::vector<double>> parse_numbers(const std::string& text, const KeyDe
 
 Expected<std::vector<double>> read_numbers(const toml::node& node, const KeyDescription& key,
                                            const Place& place) {
+  if (key.may_be_value && (node.is_number() || (node.is_string() && !is_range(node.ref<std::string>())))) {
+    const auto number = read_number(node, key, place);
+    if (!number) return number.error();
+    return std::vector<double>(2, *number);
+  }
   if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
   const toml::array* array = node.as_array();
   const bool too_short = array && array->empty() && !key.may_be_empty;

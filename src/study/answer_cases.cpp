@@ -2,6 +2,7 @@
 
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "launchsafe/study/firing_record.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/stored_answer.hpp"
 #include "launchsafe/version.hpp"
@@ -32,6 +33,7 @@ std::string digest_of_analysis(const Study& study) {
   text += fmt::format("{} {} {} {}\n", evidence.friction_rise, evidence.air_rise, evidence.largest_gap,
                       evidence.fit_uncertainty) +
           scene::to_toml(study.calibration.scene);
+  if (study.calibration.firings) text += to_text(*study.calibration.firings);
   text += fmt::format("{}\n", study.model_form_uncertainty);
   if (study.model_form) text += to_json_text(*study.model_form);
   for (const scene::Implausible& each : study.implausible)

@@ -1,6 +1,23 @@
 #include "launchsafe/study/calibration_domain.hpp"
 
+#include "launchsafe/study/firing_posterior.hpp"
+
+#include <algorithm>
+#include <limits>
+
 namespace launchsafe::study {
+namespace {
+
+constexpr double round_off_of_units = 1e-9;
+
+/// Whether a number lies within those of the firings.
+bool is_between(double value, const std::vector<Firing>& firings, double Firing::*number) {
+  const auto [lowest, highest] = std::ranges::minmax_element(firings, {}, number);
+  return lowest != firings.end() && value >= (*lowest).*number * (1.0 - round_off_of_units) &&
+         value <= (*highest).*number * (1.0 + round_off_of_units);
+}
+
+}  // namespace
 
 scene::Scene calibration_scene() {
   scene::Scene scene;
@@ -21,8 +38,45 @@ scene::Scene calibration_scene() {
 
 Calibration shipped_calibration() { return {calibration_scene(), {}}; }
 
+double fired_pressure(const scene::Load& load) {
+  const bool is_scaled = load.curve_time.empty() || load.rescale_to_peak;
+  return is_scaled ? load.peak : scene::PressureHistory(load).stated_peak();
+}
+
+double calibrated_gap(const std::vector<Firing>& firings, double pressure, double temperature) {
+  const auto at_least = [](double value, double other) {
+    return value >= other * (1.0 - round_off_of_units);
+  };
+  double ignites = std::numeric_limits<double>::infinity();
+  for (const Firing& each : firings)
+    if (each.ignited && at_least(pressure, each.pressure) && at_least(temperature, each.temperature))
+      ignites = std::min(ignites, each.gap);
+  double largest = -1.0;
+  for (const Firing& each : firings)
+    if (!each.ignited && at_least(each.pressure, pressure) && at_least(each.temperature, temperature) &&
+        each.gap < ignites)
+      largest = std::max(largest, each.gap);
+  return largest;
+}
+
+double calibrated_gap(const Calibration& calibration, const scene::Scene& scene) {
+  if (!calibration.firings) return calibration.evidence.largest_gap;
+  return calibrated_gap(calibration.firings->firings, fired_pressure(scene.load), scene.initial_temperature);
+}
+
 RecordDistance distance_to_calibration(const scene::Scene& scene, const Calibration& calibration) {
-  return distance_to_record(RecordKind::calibration, scene, calibration.scene);
+  if (!calibration.firings) return distance_to_record(RecordKind::calibration, scene, calibration.scene);
+  scene::Scene recorded = calibration.scene;
+  const std::vector<Firing>& firings = calibration.firings->firings;
+  const double pressure = fired_pressure(scene.load);
+  if (is_between(pressure, firings, &Firing::pressure)) recorded.load.peak = scene.load.peak;
+  if (is_between(scene.initial_temperature, firings, &Firing::temperature)) {
+    // The air of the gap has the temperature of the charge.
+    recorded.surface.air =
+        materials::warmed(recorded.surface.air, scene.initial_temperature - recorded.initial_temperature);
+    recorded.initial_temperature = scene.initial_temperature;
+  }
+  return distance_to_record(RecordKind::firings, scene, recorded);
 }
 
 }  // namespace launchsafe::study

@@ -18,7 +18,7 @@ bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& cali
   const Uncertainty& u = row.uncertainty;
   return std::ranges::equal(row.as_calibrated, calibrated_keys, {}, &AsCalibrated::key) &&
          !(u.numerical < input.numerical_uncertainty) &&
-         !(u.fit < fit_share(study, statements.distance, {})) &&
+         !(u.fit < fit_share(study, statements.distance, {}, 1.0)) &&
          !(u.model_form < stated_model_form_share(study, input, statements.model_form).value_or(0.0)) &&
          !(u.input < stated_input_share(study, input));
 }
@@ -38,7 +38,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
     return false;
   if (!skin_keys(statements.to_be_accepted()).empty() && !has(ShareKind::accepted)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
-         (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}) > 0.0)) &&
+         (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}, 1.0) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
          (has(ShareKind::model_form) ||
           !(stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0));

@@ -4,6 +4,7 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 #include <fmt/format.h>
@@ -43,13 +44,18 @@ std::optional<scene::Implausible> ring_smoothed_away(const scene::Scene& scene) 
                   1e-3 * ring->frequency));
 }
 
+/// Whether firings gave a constant its value, rather than what was published: another one is foreign to them.
+bool is_of_firings(const Study& study, const std::string& key) {
+  return study.calibration.firings && scene::role_of(key).part == keys::Part::calibrated;
+}
+
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch))
-    values.push_back(std::move(each));
+    if (!is_of_firings(study, each.key)) values.push_back(std::move(each));
   return values;
 }
 
@@ -128,7 +134,9 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   all.distance = distance_to_calibration(scene, study.calibration);
   all.implausible = implausible_in(study, input, launch);
   all.extrapolated = extrapolated_in(all.distance, scene.load);
-  all.calibrated_gap = study.calibration.evidence.largest_gap;
+  all.calibrated_gap = calibrated_gap(study.calibration, scene);
+  all.calibrated_by_firings = study.calibration.firings != nullptr;
+  all.demonstration = all.calibrated_by_firings && study.calibration.firings->demonstration;
   return all;
 }
 

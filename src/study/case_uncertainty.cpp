@@ -2,6 +2,7 @@
 
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
@@ -51,14 +52,37 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
   return raised;
 }
 
-double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises) {
+double heat_factor(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
+                   double gap) {
+  if (!study.kind.gives_verdicts || !study.calibration.firings) return 1.0;
+  const FiringEvidence& evidence = *study.calibration.firings;
+  const surface::SkinModel model = surface::skin_model(scene);
+  const surface::SurfaceConstants constants = surface::constants_of(model);
+  double largest = 1.0;
+  for (const double each : {0.0, gap}) {
+    for (const Posterior* posterior : {&evidence.posterior, &evidence.of_doubled_prior}) {
+      const auto boundary = boundary_for(*posterior, model, trace, each);
+      const double factor =
+          boundary ? heat_factor(*posterior, *boundary, constants) : std::numeric_limits<double>::infinity();
+      largest = std::max(largest, factor);
+    }
+  }
+  return largest;
+}
+
+double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises, double heat_factor) {
   if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.fit_uncertainty;
   if (distance.other_load_shape) fit = std::max(fit, assumed_other_load_shape);
-  const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
-  // Written so that a rise that is not a number leaves none.
-  fit *= growth <= 1.0 ? 1.0 : growth;
+  if (study.calibration.firings) {
+    // Written so that what is not a number leaves none.
+    const double of_firings = (heat_factor - 1.0) * (rises.friction + rises.air);
+    fit = of_firings <= fit ? fit : of_firings;
+  } else {
+    const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
+    fit *= growth <= 1.0 ? 1.0 : growth;
+  }
   return distance.other_numerics ? std::hypot(fit, assumed_numerical_uncertainty) : fit;
 }
 
@@ -120,6 +144,13 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
 }
 
 std::string fit_uncertainty_text(const Study& study) {
+  if (study.calibration.firings)
+    return fmt::format(
+        "{:.3g} K at the thickest gap that was fired, and in a case what raises its own heat until it is as "
+        "close to ignition as all but {:g} % of the rounds at most, by all that the firings leave open of "
+        "the "
+        "constants, with the prior or with one twice as wide.",
+        study.fit_uncertainty, 100.0 * firing_risk);
   const CalibrationEvidence& evidence = study.calibration.evidence;
   const std::string base = std::isfinite(study.fit_uncertainty)
                                ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)

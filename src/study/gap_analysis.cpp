@@ -98,7 +98,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const LoadCurveE
   const double initial = outcome.input.scene.scene.initial_temperature;
   row.uncertainty.numerical = numerical_share(outcome.input, row.gap, row.maximum.temperature - initial);
   const Rises rises{outcome.heated_without_gap - initial, row.heated - outcome.heated_without_gap};
-  row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises);
+  row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises, outcome.heat_factor);
   row.uncertainty.input = input_share(study, outcome, row);
   row.uncertainty.load_curve = load_curve.in_kelvin(rises);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
@@ -329,6 +329,14 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   }
 }
 
+/// At the largest gap that does not ignite; without one, without a gap.
+double heat_factor_of(const Study& study, const CaseOutcome& outcome) {
+  const CriticalGap& critical = outcome.critical;
+  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
+  return heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
+                     bounded ? critical.lower : 0.0);
+}
+
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const LoadCurveErrors load_curve = load_curve_errors(scene.load);
@@ -353,6 +361,7 @@ void evaluate(const Study& study, CaseOutcome& outcome) {
         heated_temperature(outcome.input.scene.scene, outcome.result.mechanics.trace, 0.0);
   outcome.evidence = std::make_shared<const CaseEvidence>(evidence_of(study, outcome));
   find_critical_gaps(study, outcome);
+  if (has_trace(outcome)) outcome.heat_factor = heat_factor_of(study, outcome);
   evaluate_gaps(study, outcome);
 }
 

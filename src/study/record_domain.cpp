@@ -264,27 +264,30 @@ std::vector<Difference> differences(const Scene& scene, const Scene& recorded) {
 
 Effect effect_on(RecordKind record, const Difference& difference) {
   const keys::Role role = difference.key.role();
-  const bool of_accuracy = record == RecordKind::accuracy;
+  const bool of_accuracy = record == RecordKind::accuracy, of_firings = record == RecordKind::firings;
   switch (role.part) {
     case Part::free:
     case Part::minor_setting:
       return Effect::none;
     case Part::setting:
-      return record == RecordKind::calibration ? Effect::carried : Effect::none;
+      return record == RecordKind::calibration || of_firings ? Effect::carried : Effect::none;
+    // Firings tell nothing of what was not fired.
     case Part::range:
+      if (of_firings) return Effect::foreign;
       // Models are compared over the peak pressures of their record.
       if (record == RecordKind::model_form && difference.key.name == "load.peak") return Effect::none;
       return of_accuracy ? Effect::none : Effect::carried;
     case Part::load_shape:
+      if (of_firings) return Effect::foreign;
       return of_accuracy ? Effect::none : Effect::carried;
     case Part::calibrated:
       if (of_accuracy) return Effect::none;
-      return is_hotter(difference) ? Effect::carried : Effect::foreign;
+      return !of_firings && is_hotter(difference) ? Effect::carried : Effect::foreign;
     case Part::constant:
       // What heats the skin alone is among the numbers of the recorded launch; the chemistry comes after it.
       if (of_accuracy && (!keys::reaches_mechanics(role.acts_on) || role.acts_on == ActsOn::chemistry))
         return Effect::none;
-      return !of_accuracy && is_hotter(difference) ? Effect::carried : Effect::foreign;
+      return !of_accuracy && !of_firings && is_hotter(difference) ? Effect::carried : Effect::foreign;
     case Part::model:
       break;
   }

@@ -59,6 +59,9 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
       return "no margin to the ignition temperature";
     case ReasonCode::optimistic:
       return optimistic_text(*evidence.of_case);
+    case ReasonCode::beyond_firings:
+      return "no round with such a gap was fired without ignition, at such a pressure and temperature or "
+             "worse";
     case ReasonCode::critical_gap_indeterminate:
       return "the critical gap is indeterminate: " + to_string(judgement.critical_gap);
     case ReasonCode::several_crossings:
@@ -212,6 +215,7 @@ std::string reason_text(const Evidence& evidence, const Judgement& judgement) {
   add(of_case.input.ring);
   add(models_text(evidence));
   add(extrapolated_text(evidence));
+  if (of_case.input.demonstration) add("a demonstration, whose firings are invented");
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));
   return text;

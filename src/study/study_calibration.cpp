@@ -3,6 +3,7 @@
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/firing_record.hpp"
 
 #include <fmt/format.h>
 
@@ -63,6 +64,18 @@ Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) 
                   "no less than the record shows, or no fit_uncertainty, which takes it");
 }
 
+/// The record of a calibration of either sort. On firings none fits the load.
+scene::Expected<CalibrationRecord> parse_either(const std::string& text, const std::string& file) {
+  if (!is_firing_record(text)) return parse_calibration_record(text, file);
+  auto record = parse_firing_record(text, file);
+  if (!record) return record.error();
+  CalibrationRecord own;
+  own.title = std::move(record->title);
+  own.model_version = record->model_version;
+  own.calibration = std::move(record->calibration);
+  return own;
+}
+
 /// The record that a key names, noted as one that the study rests on.
 template <class Record>
 scene::Expected<Record> read_named(StudyFile& study, const std::filesystem::path& folder, const char* key,
@@ -80,7 +93,7 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;
   if (name.empty()) return std::nullopt;
   const auto record = read_named(study, folder, "calibration", name, "the calibration.json of a calibration",
-                                 parse_calibration_record);
+                                 parse_either);
   if (!record) return record.error();
   if (!record->failure.empty()) {
     return fault_at(study, "calibration", "a record without constants: " + record->failure,

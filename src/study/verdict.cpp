@@ -19,6 +19,7 @@ std::string to_string(ReasonCode code) {
                              "unaccepted",
                              "no-margin",
                              "optimistic",
+                             "beyond-firings",
                              "critical-gap-indeterminate",
                              "several-crossings",
                              "smaller-gaps-ignite",
@@ -87,6 +88,8 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!(evidence.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
   if (of_case.input.optimistic || optimistic_by_run(of_case.friction_rise))
     return indeterminate(ReasonCode::optimistic, critical);
+  if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(evidence.gap))
+    return indeterminate(ReasonCode::beyond_firings, critical);
   return judge_in_gap(evidence, critical);
 }
 

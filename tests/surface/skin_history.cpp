@@ -12,44 +12,13 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::surface;
 
-/// A launch with the default load on the charge bottom and friction that grows with t^3 to `friction` J/m3.
-trace::BottomTrace launch(int intervals, int rows, double friction) {
-  trace::BottomTrace trace;
-  trace.stations = {{"G1", 0.6775, 0.0625, 0.0, true}, {"G13", 0.6775, 0.0025, 0.0, true}};
-  for (int row = 0; row < rows; ++row) {
-    trace.stations.push_back({"row " + std::to_string(row), 0.6775, 0.001 * row, 1e-4 * (row + 1), false});
-  }
-  const auto pressure = [](double t) {
-    return 101325.0 + 140e6 * std::pow(t / 11e-3 * std::exp(1.0 - t / 11e-3), 12.0);
-  };
-  for (int sample = 0; sample <= intervals; ++sample) {
-    const double dt = 18e-3 / intervals, t = dt * sample;
-    double mean = 0.0;
-    for (int k = 0; k < 64; ++k) mean += pressure(t - dt * (k + 0.5) / 64.0) / 64.0;
-    if (sample == 0) mean = pressure(0.0);
-    trace.time.push_back(t);
-    for (auto* values : {&trace.bottom_pressure, &trace.chamber_pressure}) values->push_back(pressure(t));
-    for (auto* values : {&trace.mean_bottom_pressure, &trace.mean_chamber_pressure}) values->push_back(mean);
-    trace.steps.push_back(200.0 * sample);
-    for (auto& closure : trace.friction) {
-      for (std::size_t station = 0; station < trace.stations.size(); ++station) {
-        const double share =
-            1.0 - 0.2 * static_cast<double>(station) / static_cast<double>(trace.stations.size());
-        closure.push_back(share * friction * std::pow(t / 18e-3, 3.0));
-      }
-    }
-  }
-  return trace;
-}
-
-constexpr double friction_energy = 1.1e6;  // J/m3: 108 K at a localisation of 300
 
 double last(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station) {
   return history.temperature[(history.time.size() - 1) * trace.stations.size() + station];
 }
 
 TEST(Ignites, SaysWhatTheWholeHistorySays) {
-  const trace::BottomTrace trace = launch(200, 3, friction_energy);
+  const trace::BottomTrace trace = smooth_launch(200, 3, friction_energy);
   const SkinModel model = plain_model();
   int ignited = 0, safe = 0;
   for (int step = 0; step <= 20; ++step) {
@@ -65,13 +34,13 @@ TEST(Ignites, SaysWhatTheWholeHistorySays) {
 
 TEST(Ignites, SaysNothingWithoutATraceOrWithATemperatureThatIsNone) {
   EXPECT_FALSE(ignites(plain_model(), {}, 1e-4));
-  trace::BottomTrace trace = launch(50, 1, friction_energy);
+  trace::BottomTrace trace = smooth_launch(50, 1, friction_energy);
   trace.mean_bottom_pressure[20] = std::nan("");
   EXPECT_FALSE(ignites(plain_model(), trace, 1e-4));
 }
 
 TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
-  const trace::BottomTrace trace = launch(100, 0, friction_energy);
+  const trace::BottomTrace trace = smooth_launch(100, 0, friction_energy);
   SkinModel model = plain_model();
   model.kinetics.frequency = 0.0;
   const SkinHistory history = integrate_skin(model, trace, 0.0);
@@ -82,7 +51,7 @@ TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
 
 TEST(SkinHistory, EachTenthOfAMillimetreOfGapAddsLess) {
   // The shape of the paper's Table 8: 26.1, 25.5, 25.2 K.
-  const trace::BottomTrace trace = launch(900, 0, friction_energy);
+  const trace::BottomTrace trace = smooth_launch(900, 0, friction_energy);
   double before = HUGE_VAL;
   for (const double gap : {0.0, 1e-4, 2e-4}) {
     const double added = last(integrate_skin(plain_model(), trace, gap + 1e-4), trace, 0) -
@@ -96,13 +65,13 @@ TEST(SkinHistory, EachTenthOfAMillimetreOfGapAddsLess) {
 TEST(SkinHistory, SamplingErrorIsFourthOrder) {
   SkinModel model = plain_model();
   const auto temperature = [&](int intervals) {
-    const trace::BottomTrace trace = launch(intervals, 0, 0.0);
+    const trace::BottomTrace trace = smooth_launch(intervals, 0, 0.0);
     return last(integrate_skin(model, trace, 3e-4), trace, 0);
   };
   const double reference = temperature(3200);
   EXPECT_LE(std::abs(temperature(100) - reference), 1e-3);
   EXPECT_LE(std::abs(temperature(800) - reference), 1e-5);
-  const trace::BottomTrace trace = launch(900, 0, 0.0);
+  const trace::BottomTrace trace = smooth_launch(900, 0, 0.0);
   EXPECT_NEAR(last(integrate_skin(model, trace::thinned(trace), 3e-4), trace::thinned(trace), 0),
               last(integrate_skin(model, trace, 3e-4), trace, 0), 1e-4);
 }
@@ -110,7 +79,7 @@ TEST(SkinHistory, SamplingErrorIsFourthOrder) {
 TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
   // What a run with skin does: many small calls with the air at the ends of each. Second order in their
   // length.
-  const trace::BottomTrace trace = launch(900, 0, 0.0), fine = launch(90000, 0, 0.0);
+  const trace::BottomTrace trace = smooth_launch(900, 0, 0.0), fine = smooth_launch(90000, 0, 0.0);
   const SkinModel model = plain_model();
   SkinPoint point{300.0};
   for (std::size_t k = 1; k < fine.samples(); ++k) {
@@ -123,7 +92,7 @@ TEST(SkinHistory, TracedTemperaturesAreThoseOfFineCalls) {
 }
 
 TEST(SkinHistory, FirstIgnitionIsReportedWithTimeStationAndCause) {
-  const trace::BottomTrace trace = launch(900, 3, 3.0 * friction_energy);
+  const trace::BottomTrace trace = smooth_launch(900, 3, 3.0 * friction_energy);
   SkinModel model;
   model.surface.localisation = 1048.1;
   const SkinHistory history = integrate_skin(model, trace, 0.0);
@@ -138,7 +107,7 @@ TEST(SkinHistory, FirstIgnitionIsReportedWithTimeStationAndCause) {
 
 TEST(SkinHistory, PerStepExchangeGoesWithTheNumberOfSteps) {
   // With ever more steps the printed form lets the skin follow the air; that is why it is not the default.
-  trace::BottomTrace few = launch(300, 0, 0.0), many = few;
+  trace::BottomTrace few = smooth_launch(300, 0, 0.0), many = few;
   for (double& steps : few.steps) steps *= 0.01;
   for (double& steps : many.steps) steps *= 1000.0;
   SkinModel model = plain_model();
@@ -152,7 +121,7 @@ TEST(SkinHistory, PerStepExchangeGoesWithTheNumberOfSteps) {
 
 TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
   for (int which = 0; which < 3; ++which) {
-    trace::BottomTrace trace = launch(300, 2, 3.0 * friction_energy);
+    trace::BottomTrace trace = smooth_launch(300, 2, 3.0 * friction_energy);
     if (which == 0) trace.bottom_pressure[250] = std::nan("");
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
     if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
@@ -167,14 +136,14 @@ TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
 }
 
 TEST(SkinHistory, ClosureThatWasNotTracedIsNoVerdict) {
-  trace::BottomTrace trace = launch(10, 1, friction_energy);
+  trace::BottomTrace trace = smooth_launch(10, 1, friction_energy);
   trace.friction[0].clear();
   EXPECT_TRUE(std::isnan(maximum_at_stations(integrate_skin(SkinModel{}, trace, 3e-4), trace).temperature));
 }
 
 // Found by the property test of random scenes: a mean pressure of 0 had a relative spread of 0/0.
 TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
-  trace::BottomTrace trace = launch(10, 1, 0.0);
+  trace::BottomTrace trace = smooth_launch(10, 1, 0.0);
   for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
     std::fill(pressures->begin(), pressures->end(), 0.0);
   for (const auto air : {scene::AirModel::reservoir, scene::AirModel::film}) {

@@ -104,6 +104,7 @@ struct KeyDescription {
   std::string sentence = {};
   std::string example = {};                 ///< of a text, without quotation marks
   bool may_be_empty = false;                ///< of a list: [] is allowed
+  bool may_be_value = false;                ///< of a range: "a" is allowed, and stands for both ends
   bool required = false;                    ///< no default: the user must say
   std::string usual = {};                   ///< the default in words, where it follows from other keys
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
@@ -423,6 +424,13 @@ Key<Owner> written_where(Key<Owner> key, std::type_identity_t<std::function<bool
 template <class Owner>
 Key<Owner> formerly(Key<Owner> key, FormerWord word) {
   key.former_words.push_back(std::move(word));
+  return key;
+}
+
+/// The same range, which may also be one value.
+template <class Owner>
+Key<Owner> value_or_range(Key<Owner> key) {
+  key.may_be_value = true;
   return key;
 }
 

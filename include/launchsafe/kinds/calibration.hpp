@@ -1,6 +1,7 @@
 // The study of kind calibration: the constants that published rows ask for, and what follows for the others.
 #pragma once
 
+#include "launchsafe/kinds/firings.hpp"
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/report.hpp"
 #include "launchsafe/store/result.hpp"
@@ -23,6 +24,7 @@ struct CalibrationSettings {
   double ignition_highest = study::not_a_number;  ///< K
   bool load_fitted = false;  ///< the bell of the load is fitted to the calibrated rows too
   std::string frozen_at;     ///< where rule and weights were settled before the fit, for people
+  FiringSettings firings;    ///< instead of published rows
 };
 
 /// The calibrated constants of a scene.

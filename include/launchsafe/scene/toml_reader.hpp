@@ -33,7 +33,7 @@ using keys::above, keys::above_to, keys::any_number, keys::at_least, keys::betwe
 using keys::flag_key, keys::list_key, keys::number_key, keys::optional_number_key, keys::range_key,
     keys::text_key, keys::word_key;
 using keys::always_plausible, keys::formerly, keys::may_be_empty, keys::overriding, keys::plausibly, keys::required, keys::then;
-using keys::written_where, keys::zero_or_plausibly;
+using keys::usually, keys::value_or_range, keys::written_where, keys::zero_or_plausibly;
 using keys::find_key;
 // clang-format on
 

@@ -4,6 +4,8 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
+#include <memory>
+
 namespace launchsafe::study {
 
 /// The published rows that localisation and exchange time were fitted to, and how well the launch with these
@@ -18,18 +20,27 @@ struct CalibrationEvidence {
   double fit_uncertainty = 2.86;
 };
 
+struct FiringEvidence;  // firing_posterior.hpp
+
 /// A launch with its calibrated constants: they hold where they were found.
 struct Calibration {
   scene::Scene scene;
   CalibrationEvidence evidence;
+  std::shared_ptr<const FiringEvidence> firings = {};  ///< none of a calibration on published results
 };
+
+/// m, the largest gap of a round that was fired without ignition at no lower a peak pressure and no colder
+/// than the scene's, and thinner than any that ignited at no higher a pressure and no hotter; below 0 where
+/// there was none. Without firings the largest gap of the published rows.
+double calibrated_gap(const Calibration& calibration, const scene::Scene& scene);
 
 /// The launch that the constants of scene::Scene were calibrated on: the 155 mm shell of the paper.
 scene::Scene calibration_scene();
 /// That launch with its evidence: what holds where a study names no record of another calibration.
 Calibration shipped_calibration();
 
-/// What of a scene lies outside of a calibration.
+/// What of a scene lies outside of a calibration. On firings it holds within the pressures and temperatures
+/// that were fired, and nothing carries it beyond.
 RecordDistance distance_to_calibration(const scene::Scene& scene, const Calibration& calibration);
 
 }  // namespace launchsafe::study

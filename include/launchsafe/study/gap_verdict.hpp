@@ -91,7 +91,8 @@ struct CaseOutcome {
   std::shared_ptr<const CaseEvidence> evidence;  ///< once its gaps are evaluated
   /// K, T max without a gap of a skin that never reacts; NaN where nothing was computed.
   double heated_without_gap = not_a_number;
-  CriticalGap critical;  ///< by the hottest station
+  double heat_factor = 1.0;  ///< by what firings leave open of the constants; 1 where none calibrated
+  CriticalGap critical;      ///< by the hottest station
   std::vector<Confirmation> confirmations;
   std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
   std::optional<GapFit> fit;         ///< over the rows that do not ignite

@@ -24,7 +24,7 @@ struct Difference {
 /// up to the round-off of units. Names of bodies and materials are the user's and make no difference.
 std::vector<Difference> differences(const scene::Scene& scene, const scene::Scene& recorded);
 
-enum class RecordKind { calibration, accuracy, model_form };
+enum class RecordKind { calibration, firings, accuracy, model_form };
 
 /// What a record does with a difference: nothing, as it does not matter to it or as the record judges it by
 /// its own numbers; it carries its errors over; it says nothing.

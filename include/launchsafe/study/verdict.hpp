@@ -76,6 +76,7 @@ enum class ReasonCode {
   unaccepted,
   no_margin,
   optimistic,
+  beyond_firings,
   critical_gap_indeterminate,
   several_crossings,
   smaller_gaps_ignite,
@@ -105,7 +106,8 @@ struct Judgement {
 /// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
 ///   thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
 ///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
-///   constants of the surface as calibrated.
+///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
+///   ignition.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in

@@ -1,0 +1,152 @@
+// Tables, page and files of a calibration on firings.
+#include "kind_texts.hpp"
+#include "launchsafe/kinds/firings.hpp"
+#include "launchsafe/report/case_tables.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "study_outcome.hpp"
+
+#include <algorithm>
+
+namespace launchsafe::kinds {
+
+using namespace report;
+
+namespace {
+
+Column initial_temperature() {
+  return {"initial_temperature", "T before", keys::significant(4, kelvin),
+          "Temperature of charge and air before."};
+}
+
+Column probability(const char* name, const char* heading, const char* meaning) {
+  return {name, heading, keys::significant(2, percent), meaning};
+}
+
+Quantities<FiringRow> row_quantities() {
+  const auto of_firing = [](Column column, auto member) {
+    return Quantity<FiringRow>(std::move(column), &FiringRow::firing, member);
+  };
+  return {
+      of_firing({"name", "firing", keys::text(), "What the rounds are called."}, &study::Firing::name),
+      of_firing({"rounds", "rounds", count(), "How many there were."}, &study::Firing::rounds),
+      of_firing(quantity::peak_pressure(), &study::Firing::pressure),
+      of_firing(initial_temperature(), &study::Firing::temperature),
+      of_firing(quantity::gap(), &study::Firing::gap),
+      of_firing(
+          {"gap_most", "gap at most", keys::significant(6, centimetre), "The largest that it can have been."},
+          &study::Firing::most_gap),
+      of_firing({"ignited", "ignited", keys::text(), "Whether the rounds ignited."}, &study::Firing::ignited),
+      {probability("shown_lowest", "more than",
+                   "With 95 % the probability of a round is more, by the rounds of this kind alone."),
+       &FiringRow::shown_lowest},
+      {probability("shown_highest", "less than", "With 95 % it is less, by these rounds alone."),
+       &FiringRow::shown_highest},
+      {probability("ignition_probability", "computed",
+                   "Probability that a round ignites, after all firings."),
+       &FiringRow::predicted, &IgnitionProbability::mean},
+      {probability("ignition_probability_lowest", "from", "With 95 % it is more than this."),
+       &FiringRow::predicted, &IgnitionProbability::lowest},
+      {probability("ignition_probability_highest", "to", "With 95 % it is less than this."),
+       &FiringRow::predicted, &IgnitionProbability::highest}};
+}
+
+Quantities<ConstantRange> constant_quantities() {
+  const auto column = [](const char* name, const char* heading, const char* meaning) {
+    return Column{name, heading, keys::significant(4), meaning};
+  };
+  return {
+      {{"key", "constant", keys::text(), "Key of the scene, SI; or the scatter between rounds."},
+       &ConstantRange::name},
+      {column("prior_lowest", "before: 5 %", "5 % of the prior lie below."), &ConstantRange::prior_lowest},
+      {column("prior_centre", "mean", "Geometric mean of the prior."), &ConstantRange::prior_centre},
+      {column("prior_highest", "95 %", "95 % of the prior lie below."), &ConstantRange::prior_highest},
+      {column("lowest", "after: 5 %", "5 % of the posterior lie below."), &ConstantRange::lowest},
+      {column("centre", "mean", "Geometric mean of the posterior, which the record has as the constant."),
+       &ConstantRange::centre},
+      {column("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::highest},
+      {{"change_of_coarser", "coarser lattice", keys::significant(2, percent),
+        "By how much the mean is higher on a lattice of half as many values a constant."},
+       &ConstantRange::change_of_coarser}};
+}
+
+Quantities<NextFiring> next_quantities() {
+  return {{quantity::peak_pressure(), &NextFiring::pressure},
+          {initial_temperature(), &NextFiring::temperature},
+          {quantity::gap(), &NextFiring::gap},
+          {probability("ignition_probability", "ignites",
+                       "Probability that the round ignites, after all firings."),
+           &NextFiring::ignition},
+          {{"information", "tells [bit]", keys::significant(2),
+            "What its outcome tells of the constants, on average."},
+           &NextFiring::information}};
+}
+
+int rounds_of(const FiringResult& result, bool ignited) {
+  int rounds = 0;
+  for (const FiringRow& row : result.rows) rounds += row.firing.ignited == ignited ? row.firing.rounds : 0;
+  return rounds;
+}
+
+/// What the texts of the page are filled with.
+Row facts_of(const FiringResult& result) {
+  Row facts{{"failure", result.failure},
+            {"contradicting", result.contradicting},
+            {"quiet", rounds_of(result, false)},
+            {"ignited", rounds_of(result, true)},
+            {"demonstration", result.record && result.record->calibration.firings->demonstration},
+            {"rows", Row::array()}};
+  for (const FiringRow& row : result.rows) {
+    Row& facts_of_row = facts["rows"].emplace_back(json_of(row_quantities(), row));
+    facts_of_row["ignited_rounds"] = row.ignited;
+    facts_of_row["counted_rounds"] = row.rounds;
+  }
+  if (!result.next.empty()) facts["next"] = json_of(next_quantities(), result.next.front());
+  if (result.record) facts["largest"] = centimetres(result.record->calibration.evidence.largest_gap);
+  return facts;
+}
+
+Table run_table_of(const FiringResult& result) {
+  std::vector<NamedRun> runs;
+  for (const FiredCondition& each : result.conditions)
+    runs.push_back({each.input.label, each.failure, &each.mechanics, {}});
+  return run_table(runs);
+}
+
+}  // namespace
+
+std::string answer(const FiringResult& result) {
+  return said("calibration.firings.answer", facts_of(result)).front();
+}
+
+Report report_of(const FiringResult& result) {
+  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  if (result.record) report.files.push_back({"calibration.json", study::to_json_text(*result.record)});
+  const Row facts = facts_of(result);
+  const auto add = [&](const char* title, const auto& quantities, const auto& rows, const char* csv,
+                       const char* member, const char* notes) {
+    Table table = table_of(title, quantities, rows);
+    table.notes = said(notes, facts);
+    report.items.push_back(ReportTable{std::move(table), csv, member});
+  };
+  add("Firings, and the probability that such a round ignites", row_quantities(), result.rows, "firings.csv",
+      "firings", "calibration.note.firings");
+  add("The constants before and after the firings", constant_quantities(), result.constants, "", "posterior",
+      "calibration.note.posterior");
+  add("What one more round would tell", next_quantities(), result.next, "", "next_firings",
+      "calibration.note.next");
+  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(ReportTable{run_table_of(result), "", "runs", Shown::page});
+  report.items.push_back(Statement{timing_sentence(result.timing)});
+  report.json =
+      study_json(result.study, report, {{"failure", result.failure}, {"timing", timing_json(result.timing)}});
+  return report;
+}
+
+std::vector<ResultTable> firing_results() {
+  return {{"firings", "firings.csv", keys::described(row_quantities())},
+          {"posterior", "", keys::described(constant_quantities())},
+          {"next_firings", "", keys::described(next_quantities())}};
+}
+
+}  // namespace launchsafe::kinds

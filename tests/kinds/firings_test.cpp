@@ -1,0 +1,233 @@
+// Calibrations on firings of a made-up shell: its truth is known, so that what verdicts make of them can be
+// held against it.
+#include "launchsafe/kinds/firings.hpp"
+
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <fstream>
+
+namespace {
+
+using namespace launchsafe;
+using namespace launchsafe::kinds;
+using namespace launchsafe::study;
+
+std::string firing(const std::string& outcome, int rounds, const std::string& gap,
+                   const std::string& more = {}) {
+  return fmt::format("[[firing]]\nname = \"{} of {}\"\noutcome = \"{}\"\nrounds = {}\ngap = \"{}\"\n{}\n",
+                     rounds, gap, outcome, rounds, gap, more);
+}
+
+const std::string firing_text = "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\n";
+
+/// The synthetic launch heats by 116 K without a gap, and ignites above 0.4 mm with the calibrated constants.
+FiringResult fire(const std::string& firings, const std::string& head = {}) {
+  const StudyFile study = study_of(firing_text + head + firings);
+  return run_firings(study, synthetic_options());
+}
+
+std::string refusal(const std::string& text) {
+  const auto study = parse_here(firing_text + text);
+  return study ? std::string{} : study.error().message();
+}
+
+TEST(Firings, GiveConstantsAndTheLaunchesThatWereFired) {
+  const FiringResult result =
+      fire(firing("no ignition", 20, "0.2 mm") + firing("no ignition", 5, "0.3 to 0.4 mm"));
+  ASSERT_TRUE(result.record) << answer(result);
+  const auto& firings = *result.record->calibration.firings;
+  ASSERT_EQ(firings.firings.size(), 2u);
+  // Of a gap between two lengths the smaller counts.
+  EXPECT_DOUBLE_EQ(firings.firings[1].gap, 0.3e-3);
+  EXPECT_DOUBLE_EQ(firings.firings[1].most_gap, 0.4e-3);
+  EXPECT_DOUBLE_EQ(result.record->calibration.evidence.largest_gap, 0.3e-3);
+  EXPECT_DOUBLE_EQ(firings.firings[0].pressure, 496e6);  // the scene's
+  EXPECT_EQ(result.conditions.size(), 1u);
+  // 0 of 5 rounds: at most 1 - 0.05^(1/5) = 45 % (Clopper and Pearson).
+  EXPECT_NEAR(result.rows[1].shown_highest, 1.0 - std::pow(0.05, 0.2), 1e-9);
+  EXPECT_NE(answer(result).find("a bound, and no fit"), std::string::npos) << answer(result);
+}
+
+TEST(Firings, MoreRoundsWithoutIgnitionLeaveALowerProbability) {
+  const FiringResult few = fire(firing("no ignition", 2, "0.4 mm")),
+                     many = fire(firing("no ignition", 50, "0.4 mm"));
+  EXPECT_LT(many.rows[0].predicted.mean, few.rows[0].predicted.mean);
+  EXPECT_LT(many.rows[0].predicted.highest, few.rows[0].predicted.highest);
+}
+
+TEST(Firings, ThatContradictEachOtherGiveNoRecord) {
+  const FiringResult result = fire(firing("ignition", 1, "0 mm") + firing("no ignition", 1000, "0.8 mm"));
+  EXPECT_FALSE(result.record);
+  EXPECT_NE(answer(result).find("would hardly have ended so"), std::string::npos) << answer(result);
+}
+
+TEST(Firings, NameTheRoundThatTellsMost) {
+  const FiringResult result = fire(firing("no ignition", 5, "0.4 mm"), "next_gaps = \"0.4, 0.8, 4 mm\"\n");
+  ASSERT_EQ(result.next.size(), 3u);
+  for (std::size_t i = 1; i < result.next.size(); ++i)
+    EXPECT_LE(result.next[i].information, result.next[i - 1].information);
+  // A round whose outcome is all but certain tells next to nothing.
+  EXPECT_DOUBLE_EQ(result.next.back().gap, 4e-3);
+}
+
+TEST(Firings, RefuseWhatTheyCannotRestOn) {
+  EXPECT_NE(refusal("[[firing]]\noutcome = \"no ignition\"\n").find("firing.gap"), std::string::npos);
+  EXPECT_NE(refusal(firing("perhaps", 1, "0.1 mm")).find("firing.outcome"), std::string::npos);
+  EXPECT_NE(refusal(firing("no ignition", 0, "0.1 mm")).find("firing.rounds"), std::string::npos);
+  EXPECT_NE(
+      refusal("prior.localisation = 1.1\n" + firing("no ignition", 1, "0.1 mm")).find("prior.localisation"),
+      std::string::npos);
+  EXPECT_NE(refusal("references = \"table8.toml\"\n" + firing("no ignition", 1, "0.1 mm"))
+                .find("beside [[firing]]"),
+            std::string::npos);
+  EXPECT_NE(refusal("references = \"table8.toml\"\ndemonstration = true\n").find("without [[firing]]"),
+            std::string::npos);
+}
+
+/// A study of the made-up shell on the record of its firings.
+class StudyOnFirings : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+    std::filesystem::copy(studies_folder / "scene_155mm.toml", folder_ / "scene_155mm.toml",
+                          std::filesystem::copy_options::overwrite_existing);
+  }
+
+  void record(const std::string& firings, const std::string& head = {}) {
+    const FiringResult result = fire(firings, head);
+    ASSERT_TRUE(result.record) << answer(result);
+    write(to_json_text(*result.record));
+  }
+  void write(const std::string& text) { std::ofstream(folder_ / "calibration.json") << text; }
+
+  scene::Expected<StudyFile> read(const std::string& more) const {
+    return kinds::parse_study(critical_kind + "calibration = \"calibration.json\"\n" + statements_ + more,
+                              folder_ / "study.toml");
+  }
+  /// Verdicts by the gaps of the study.
+  std::vector<GapVerdict> verdicts(const std::string& more = {}) const {
+    auto study = read(more);
+    EXPECT_TRUE(study) << (study ? "" : study.error().message());
+    if (!study) return {};
+    study->in_detail = false;
+    study->confirmations_per_case = 0;
+    return run_critical_gap(*study, synthetic_options()).answers.front().verdicts;
+  }
+
+  std::filesystem::path folder_;
+  const std::string statements_ =
+      "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "gaps = \"0, 0.1, 0.3, 0.5 mm\"\n";
+};
+
+int count_safe(const std::vector<GapVerdict>& rows) {
+  return static_cast<int>(std::ranges::count_if(
+      rows, [](const GapVerdict& row) { return row.judgement.verdict == Verdict::safe; }));
+}
+
+TEST_F(StudyOnFirings, IsSafeForThinGapsAfterManyRoundsWithThickOnes) {
+  record(firing("no ignition", 60, "0.6 mm") + firing("ignition", 5, "2.5 mm"));
+  const auto rows = verdicts();
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << reason_text(rows[0]);
+}
+
+TEST_F(StudyOnFirings, IsNeverSafeAfterFewRounds) {
+  record(firing("no ignition", 1, "0.6 mm"));
+  EXPECT_EQ(count_safe(verdicts()), 0);
+}
+
+TEST_F(StudyOnFirings, IsNotSafeBeyondTheGapsThatDidNotIgnite) {
+  record(firing("no ignition", 1000, "0.2 mm") + firing("ignition", 50, "2.5 mm"));
+  const auto rows = verdicts();
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].judgement.verdict, Verdict::safe) << reason_text(rows[0]);
+  EXPECT_EQ(rows[2].judgement.verdict, Verdict::indeterminate) << reason_text(rows[2]);
+  EXPECT_EQ(rows[2].judgement.code, ReasonCode::beyond_firings) << reason_text(rows[2]);
+}
+
+// Where one of three rounds did not ignite, that is no evidence of safety.
+TEST_F(StudyOnFirings, IsNotSafeWhereOthersOfTheSameRoundsIgnited) {
+  record(firing("no ignition", 1000, "0.2 mm") + firing("ignition", 2, "0.5 mm") +
+         firing("no ignition", 10, "0.5 mm"));
+  const auto rows = verdicts();
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[2].judgement.code, ReasonCode::beyond_firings) << reason_text(rows[2]);
+}
+
+// Rounds that ignited are no evidence of safety, however many.
+TEST_F(StudyOnFirings, IsNotSafeWhereOnlyIgnitionsWereFired) {
+  record(firing("ignition", 20, "2.5 mm"));
+  EXPECT_EQ(count_safe(verdicts()), 0);
+}
+
+TEST_F(StudyOnFirings, HoldsForNoHotterChargeAndNoHigherPressure) {
+  record(firing("no ignition", 1000, "0.6 mm") +
+         firing("no ignition", 1000, "0.6 mm", "temperature = \"290 K\"\n"));
+  EXPECT_GT(count_safe(verdicts()), 0);
+  const auto colder = verdicts("[set]\ninitial_temperature = \"295 K\"\n");
+  EXPECT_GT(count_safe(colder), 0) << reason_text(colder.front());
+  for (const char* set :
+       {"initial_temperature = \"305 K\"", "load.peak = \"497 MPa\"", "load.peak = \"495 MPa\"",
+        "load.width = \"3 ms\"", "charge.crack_radius = \"31 um\""}) {
+    ASSERT_TRUE(read(std::string("[set]\n") + set + "\n")) << set;
+    EXPECT_EQ(count_safe(verdicts(std::string("[set]\n") + set + "\n")), 0) << set;
+  }
+}
+
+// What is accepted may be milder than what was fired, never worse.
+TEST_F(StudyOnFirings, AcceptingAHigherPressureMakesNothingSafe) {
+  record(firing("no ignition", 1000, "0.6 mm"));
+  const std::string accepted =
+      "accept = [{ key = \"load.peak\", value = \"497 MPa\", because = \"it is hardly more\" }]\n"
+      "[set]\nload.peak = \"497 MPa\"\n";
+  const auto rows = verdicts(accepted);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(count_safe(rows), 0);
+  EXPECT_EQ(rows[0].judgement.code, ReasonCode::beyond_firings) << reason_text(rows[0]);
+}
+
+TEST_F(StudyOnFirings, SaysThatInventedFiringsAreADemonstration) {
+  record(firing("no ignition", 1000, "0.6 mm"), "demonstration = true\n");
+  EXPECT_NE(reason_text(verdicts().front()).find("a demonstration"), std::string::npos);
+}
+
+TEST_F(StudyOnFirings, RefusesAnEditedRecord) {
+  const FiringResult result = fire(firing("no ignition", 5, "0.2 mm"));
+  ASSERT_TRUE(result.record);
+  std::string text = to_json_text(*result.record);
+  const std::size_t place = text.find("\"rounds\": 5");
+  ASSERT_NE(place, std::string::npos);
+  text.replace(place, 11, "\"rounds\": 500");
+  write(text);
+  const auto study = read("");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().message().find("digest"), std::string::npos) << study.error().message();
+}
+
+TEST_F(StudyOnFirings, RefusesFiringsThatStartFromFirings) {
+  record(firing("no ignition", 5, "0.2 mm"));
+  const auto study = kinds::parse_study(
+      firing_text + "calibration = \"calibration.json\"\n" + firing("no ignition", 5, "0.2 mm"),
+      folder_ / "again.toml");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().message().find("itself on firings"), std::string::npos) << study.error().message();
+}
+
+// A record that is read says what the one that was written said.
+TEST(FiringRecord, IsReadAsItWasWritten) {
+  const FiringResult result = fire(firing("no ignition", 5, "0.2 mm"));
+  ASSERT_TRUE(result.record);
+  const std::string text = to_json_text(*result.record);
+  const auto read = parse_firing_record(text, "calibration.json");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(to_json_text(*read), text);
+  EXPECT_TRUE(is_firing_record(text));
+}
+
+}  // namespace
