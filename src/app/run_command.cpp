@@ -14,7 +14,6 @@
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
@@ -314,12 +313,6 @@ std::optional<std::string> obstacle_at(const std::filesystem::path& path, const 
   return present.error().message + "; it is not overwritten: move it away or name another folder";
 }
 
-/// Likewise for the file that ParaView opens.
-std::optional<std::string> obstacle_to_sidecar(const std::filesystem::path& path) {
-  const auto error = store::obstacle_to_own_file(store::sidecar_of(path));
-  return error ? std::optional(error->message) : std::nullopt;
-}
-
 ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
                              const scene::Scene& scene, Console& console) {
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
@@ -363,7 +356,8 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
     auto obstacle = obstacle_at(target, manifest);
-    if (!obstacle && scene.output.asks_for_snapshots()) obstacle = obstacle_to_sidecar(target);
+    if (!obstacle && scene.output.asks_for_snapshots())
+      if (const auto error = store::obstacle_to_sidecar(target)) obstacle = error->message;
     if (!obstacle && !arguments.dry_run) obstacle = prepare_output_folder(*arguments.output);
     if (obstacle) return console.refuse(*obstacle);
   }

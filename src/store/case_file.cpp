@@ -3,8 +3,8 @@
 #include "case_layout.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "posix_file.hpp"
 #include "xdmf.hpp"
 
 #include <fmt/format.h>
@@ -245,16 +245,33 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
     return Error{bytes.error().kind,
                  fmt::format("cannot write {}: {}", path.string(), bytes.error().message)};
   }
-  if (MaybeError error = publish(path, *bytes, manifest)) return error;
   const bool burns = std::any_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
     return gap.combustion && !gap.combustion->snapshots.empty();
   });
-  if (result.mechanics.snapshots.empty() && !burns) return {};
-  return write_own_file(sidecar_of(path), xdmf_of(result, path.filename().string()));
+  const bool has_sidecar = burns || !result.mechanics.snapshots.empty();
+  const MaybeError obstacle = has_sidecar ? obstacle_to_sidecar(path) : MaybeError();
+  if (obstacle) return obstacle;
+  if (MaybeError error = publish(path, *bytes, manifest)) return error;
+  if (!has_sidecar) return {};
+  return write_file_atomically(sidecar_of(path), xdmf_of(result, path.filename().string()),
+                               IfExists::replace);
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& path) {
   return std::filesystem::path(path).replace_extension(".xdmf");
+}
+
+MaybeError obstacle_to_sidecar(const std::filesystem::path& path) {
+  const std::filesystem::path sidecar = sidecar_of(path);
+  std::error_code failed;
+  const auto status = std::filesystem::symlink_status(sidecar, failed);
+  if (!std::filesystem::exists(status)) return {};
+  const Result<StoredCase> stored = read_case_file(path);
+  const Result<std::string> text = read_file(sidecar);
+  if (std::filesystem::is_regular_file(status) && stored && text &&
+      *text == xdmf_of(stored->result, path.filename().string()))
+    return {};
+  return refusal(sidecar, "is not what launchsafe writes beside that case");
 }
 
 Result<StoredCase> read_case_file(const std::filesystem::path& path) { return read_with(path, case_of); }
