@@ -6,14 +6,11 @@
 #include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace launchsafe::app {

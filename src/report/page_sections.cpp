@@ -6,9 +6,7 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-#include <sstream>
 
 namespace launchsafe::report {
 namespace {

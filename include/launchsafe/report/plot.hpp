@@ -3,8 +3,6 @@
 
 #include "launchsafe/store/program.hpp"
 
-#include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
