@@ -30,7 +30,6 @@ inline constexpr const char* run_footer = R"(
 Examples:
   launchsafe run studies/scene_155mm.toml                print the table, write nothing
   launchsafe run studies/scene_155mm.toml -o results     write results/scene_155mm.h5 as well
-  launchsafe run studies/scene_155mm.toml --dry-run      what it would compute, at what cost; size of snapshots
   launchsafe run studies/scene_155mm.toml --json --quiet > case.json
 
 A file with the result of another input is never overwritten.)";
@@ -39,9 +38,8 @@ inline constexpr const char* study_footer = R"(
 Examples:
   launchsafe study studies/critical_gap_155mm.toml -o results
   launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2 --json > study.json
-  launchsafe study sweep.toml --dry-run                      the runs it needs, and their cost
+  launchsafe study sweep.toml -o results --dry-run           the runs it needs, why, and their cost
   launchsafe study sweep.toml -o results --memory 8GB --time-limit 30min
-  launchsafe study sweep.toml -o results --explain           why each run runs
   launchsafe study sweep.toml -o results --update            after a change of the study
   launchsafe study studies/critical_gap_155mm.toml -o results --tolerance 5K
                                                              the cheapest numerics that know T max to 5 K

@@ -50,7 +50,6 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
   add_folder(command, run.output, "Folder to write the HDF5 case file to");
   add_longest_run(command, run.longest_run);
-  command.add_flag("--dry-run", run.dry_run, "Say what would be run and at what cost; write nothing");
 }
 
 void add_study(CLI::App& app, CommandLine& line) {
@@ -64,8 +63,8 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_longest_run(command, study.longest_run);
   add_shard(command, study.shard);
   add_tolerance(command, study.tolerance);
-  command.add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
-  command.add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
+  command.add_flag("--dry-run", study.dry_run,
+                   "Say which mechanical runs it needs and why, and at what cost; write nothing");
   add_update(command, study.update);
 }
 

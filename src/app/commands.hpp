@@ -15,7 +15,6 @@ struct RunArguments {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
   std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
-  bool dry_run = false;                         ///< say what would be run, and run nothing
 };
 ExitCode perform(const RunArguments& arguments, Console& console);
 
@@ -29,7 +28,6 @@ struct StudyArguments {
   study::Shard shard;                 ///< the part that is ours
   std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
   bool dry_run = false;               ///< say what would be run, and run nothing
-  bool explain = false;               ///< say of every mechanical run why it runs
   bool update = false;                ///< the folder may hold the results of an earlier study
   std::string command;                ///< the whole command, to be repeated in a shell
 };

@@ -5,6 +5,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -113,7 +114,7 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
   if (file.extension() != ".csv")
     return console.refuse(fmt::format(
         "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::path folder = store::folder_of(file);
   const std::string csv = scene::csv_of(import.cleaned.curve, text);
   std::filesystem::path picture = file;
   picture.replace_extension(".svg");

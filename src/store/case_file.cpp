@@ -166,29 +166,12 @@ std::string fault_in(const run::CaseResult& result) {
 
 // --- files ---
 
-/// Nothing when `path` is free or holds an answer to the same question.
-MaybeError conflict_at(const std::filesystem::path& path, const Manifest& manifest) {
-  const Result<Manifest> present = read_manifest(path);
-  if (!present) {
-    if (present.error().kind != Error::Kind::missing) return present.error();
-    // A link that leads nowhere is there, and somebody's.
-    if (!std::filesystem::is_symlink(path)) return {};
-    return Error{Error::Kind::conflict,
-                 fmt::format("{} is a symbolic link; it was left as it is", path.string())};
-  }
-  if (present->input_sha256 == manifest.input_sha256) return {};
-  return Error{Error::Kind::conflict,
-               fmt::format("{} holds the result of a different input (SHA-256 {:.12}..., not "
-                           "{:.12}...); it was left as it is",
-                           path.string(), present->input_sha256, manifest.input_sha256)};
-}
-
 MaybeError publish(const std::filesystem::path& path, std::string_view bytes, const Manifest& manifest) {
-  if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
+  if (const MaybeError conflict = obstacle_to_case_file(path, manifest)) return conflict;
   const MaybeError error = write_file_atomically(path, bytes, IfExists::refuse);
   if (!error || error->kind != Error::Kind::conflict) return error;
   // Something is there: the same question's answer before, or since a moment ago by another process.
-  if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
+  if (const MaybeError conflict = obstacle_to_case_file(path, manifest)) return conflict;
   return write_file_atomically(path, bytes, IfExists::replace);
 }
 
@@ -259,6 +242,17 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
 
 std::filesystem::path sidecar_of(const std::filesystem::path& path) {
   return std::filesystem::path(path).replace_extension(".xdmf");
+}
+
+MaybeError obstacle_to_case_file(const std::filesystem::path& path, const Manifest& manifest) {
+  std::error_code failed;
+  if (std::filesystem::is_symlink(path, failed)) return refusal(path, "is a link");
+  const Result<Manifest> present = read_manifest(path);
+  if (present && present->input_sha256 == manifest.input_sha256) return {};
+  if (present) return refusal(path, "holds the result of a different input");
+  if (present.error().kind == Error::Kind::missing) return {};
+  return Error{present.error().kind,
+               present.error().message + "; it is not overwritten: move it away or name another folder"};
 }
 
 MaybeError obstacle_to_sidecar(const std::filesystem::path& path) {

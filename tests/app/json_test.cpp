@@ -64,7 +64,7 @@ TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
       {{"verify", "--filter", "no check has this name"}, 2, "--filter"},
       {{"explain"}, 2, "--keys"},
       {{"explain", "unknown_key.toml"}, 2, "peek_time"},
-      {{"explain", "shell.toml", "--grid", "none/grid.svg"}, 2, "no folder"}};
+      {{"explain", "shell.toml", "--grid", "shell.toml/grid.svg"}, 2, "no folder"}};
   for (const ErrorPath& path : paths) {
     Arguments arguments = path.arguments;
     arguments.push_back("--json");
