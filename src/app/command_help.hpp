@@ -93,11 +93,7 @@ STUDY_DIR is what launchsafe study wrote with -o DIR, finished or not, with or w
 about the study of kind critical-gap (without one, the sweep); accuracy, sweep, sensitivity, comparison and stability
 studies of the same shell add their sections. Histories, profile and temperature field need the case files.
 
-  report.html    one file that opens offline, fits a phone, and prints on A4; page one is the answer
-  report.md      the same for a terminal or a repository
-  report.json    every block with its parts and where they come from; its schema is
-                 src/report/templates/report.schema.json
-  *.svg          the figures, drawn by gnuplot (Debian: gnuplot-nox); a report without them says so
+Written are report.html, report.md, report.json, the figures as SVG, and manifest.json, by which the files are known.
 
 --criterion: a largest gap is recommended only under a criterion that you state with its source; none is built in.
   margin >= N uncertainty     N at least 1; the margin to the ignition temperature over its uncertainty
@@ -108,10 +104,7 @@ studies of the same shell add their sections. Histories, profile and temperature
 
 --templates: a folder with any of report.html.mustache, report.md.mustache and texts.mustache; what it lacks stays as
 built in. The built-in ones are in src/report/templates, where texts.mustache says how to translate it.
-
-Exit codes: 0 the report was written, whatever its verdicts say; 2 bad usage or input: no study there, a file that
-differs from its manifest, another model version, a damaged case, studies of different shells or twice of one kind, a
-file of somebody else in the way; 70 it could not be written; 75 interrupted.)";
+The exit code is 0 once the report was written, whatever its verdicts say.)";
 
 inline constexpr const char* plot_footer = R"(
 Examples:
@@ -120,23 +113,9 @@ Examples:
   launchsafe plot results/scene_155mm.h5 --what fields --times "10, 18 ms"
   launchsafe plot results/scene_155mm.h5 --csv -o numbers
 
-Pictures, each an SVG file drawn by gnuplot:
-  pressure     pressure.svg: chamber and bottom pressure
-  fields       field_temperature_10ms.svg, field_pressure_, field_von_mises_, field_crack_radius_: cells of the
-               charge and the shell at each snapshot, to scale, with the same colours for the same values in
-               all pictures of a field; of an event field_temperature_peak-pressure.svg, of a gap that burns
-               field_burnt_share_0.04cm_ignition.svg, ..., with colours of their own
-  histories    histories_0.04cm.svg: skin temperatures of a gap against time
-  profile      profile_0.04cm.svg: skin temperatures along the bottom; profile_spread.svg: highest less lowest
-  air          air.svg: temperature of the gap's air against its compression, and the states reached
-  energy       energy.svg: terms of the energy balance; energy_dissipated.svg
-  combustion   combustion_mass_0.04cm.svg, combustion_pressure_, combustion_reaction_: after ignition
-
-Numbers of --csv, without gnuplot: pressure.csv; field_10ms.csv, ..., a row a particle, all fields of a snapshot;
-histories_0.04cm.csv, ..., a row a time, skin temperatures of all stations and observation points of a gap.
-
-Snapshots are what output.snapshots and output.snapshot_events of the scene ask for. Nothing is overwritten: a picture whose place holds
-something else is refused, and then none is written.)";
+Pictures are SVG files drawn by gnuplot, numbers CSV files without it; share/launchsafe/studies/pictures_and_reports.md
+tells which there are of every kind. Snapshots are what output.snapshots and output.snapshot_events of the scene ask
+for. Nothing is overwritten: a picture whose place holds something else is refused, and then none is written.)";
 
 inline constexpr const char* init_footer = R"(
 Examples:
