@@ -95,6 +95,7 @@ struct ImportCurveArguments {
   std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
   std::string pressure;                         ///< name of the column; empty: the only one
   std::optional<double> offset, trigger;        ///< Pa
+  std::string command;                          ///< the whole command, to be repeated in a shell
 };
 ExitCode perform(const ImportCurveArguments& arguments, Console& console);
 

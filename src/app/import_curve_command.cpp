@@ -52,20 +52,6 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
   return text;
 }
 
-/// The same import into a file.
-std::vector<std::string> command_that_writes(const ImportCurveArguments& arguments) {
-  std::vector<std::string> words{"launchsafe", "import-curve", arguments.record.string()};
-  const auto add = [&words](const char* option, const std::string& value) {
-    words.emplace_back(option);
-    words.push_back(value);
-  };
-  if (!arguments.pressure.empty()) add("--pressure", arguments.pressure);
-  if (arguments.offset) add("--offset", pressure_text(*arguments.offset));
-  if (arguments.trigger) add("--trigger", pressure_text(*arguments.trigger));
-  add("-o", "pressure.csv");
-  return words;
-}
-
 std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
   for (double& value : values) value = factor * (value - shift);
   return values;
@@ -147,7 +133,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
   console.print_json(json_of(import));
   if (arguments.output) return write(arguments, import, done, console);
-  console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments))));
+  console.print_text(fmt::format("\nnext: {}\n", arguments.command + " -o pressure.csv"));
   return ExitCode::done;
 }
 

@@ -71,10 +71,7 @@ std::vector<std::string> names_in(const path& folder) {
 }  // namespace
 
 bool holds_store(const path& folder) {
-  if (!store::results_files_in(folder).empty()) return true;
-  for (const path file : names_in(folder / "cases"))
-    if (file.extension() == ".h5" && store::is_case_hash(file.stem().string())) return true;
-  return false;
+  return !store::results_files_in(folder).empty() || !names_in(folder / "cases").empty();
 }
 
 std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
