@@ -14,7 +14,6 @@ Examples:
   launchsafe merge sweep.toml -o results shard-1 shard-2
   launchsafe emit slurm sweep.toml -o results --shards 20
   launchsafe ask results --set load.peak="510 MPa"
-  launchsafe verify
   launchsafe explain studies/scene_155mm.toml
   launchsafe plot results/scene_155mm.h5
   launchsafe init --calibre "105 mm" -o shell
@@ -23,14 +22,13 @@ Examples:
 
 Results go to stdout, progress and messages to stderr. Nothing is written but what --output names, the
 picture of explain --grid, and the pictures of plot.
-Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
+Exit codes: 0 done, 2 bad usage or input, 3 some cases failed, 4 a verdict is indeterminate,
 70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
 
 inline constexpr const char* run_footer = R"(
 Examples:
   launchsafe run studies/scene_155mm.toml                print the table, write nothing
   launchsafe run studies/scene_155mm.toml -o results     write results/scene_155mm.h5 as well
-  launchsafe run studies/scene_155mm.toml --dry-run      what it would compute, at what cost; size of snapshots
   launchsafe run studies/scene_155mm.toml --json --quiet > case.json
 
 A file with the result of another input is never overwritten.)";
@@ -39,9 +37,8 @@ inline constexpr const char* study_footer = R"(
 Examples:
   launchsafe study studies/critical_gap_155mm.toml -o results
   launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2 --json > study.json
-  launchsafe study sweep.toml --dry-run                      the runs it needs, and their cost
+  launchsafe study sweep.toml -o results --dry-run           the runs it needs, why, and their cost
   launchsafe study sweep.toml -o results --memory 8GB --time-limit 30min
-  launchsafe study sweep.toml -o results --explain           why each run runs
   launchsafe study sweep.toml -o results --update            after a change of the study
   launchsafe study studies/critical_gap_155mm.toml -o results --tolerance 5K
                                                              the cheapest numerics that know T max to 5 K
@@ -75,11 +72,6 @@ Examples:
 Nothing is computed: the answer is a prediction, with the error of the fit found at launches that it has not seen. A
 launch beyond those that were computed is refused. A prediction is never SAFE.)";
 
-inline constexpr const char* verify_footer = R"(
-Examples:
-  launchsafe verify                      every check
-  launchsafe verify --filter jwl         those with "jwl" in their name)";
-
 inline constexpr const char* explain_footer = R"(
 Examples:
   launchsafe explain studies/scene_155mm.toml            physics in and out, grid, steps, time, memory
@@ -101,11 +93,7 @@ STUDY_DIR is what launchsafe study wrote with -o DIR, finished or not, with or w
 about the study of kind critical-gap (without one, the sweep); accuracy, sweep, sensitivity, comparison and stability
 studies of the same shell add their sections. Histories, profile and temperature field need the case files.
 
-  report.html    one file that opens offline, fits a phone, and prints on A4; page one is the answer
-  report.md      the same for a terminal or a repository
-  report.json    every block with its parts and where they come from; its schema is
-                 src/report/templates/report.schema.json
-  *.svg          the figures, drawn by gnuplot (Debian: gnuplot-nox); a report without them says so
+Written are report.html, report.md, report.json, the figures as SVG, and manifest.json, by which the files are known.
 
 --criterion: a largest gap is recommended only under a criterion that you state with its source; none is built in.
   margin >= N uncertainty     N at least 1; the margin to the ignition temperature over its uncertainty
@@ -116,10 +104,7 @@ studies of the same shell add their sections. Histories, profile and temperature
 
 --templates: a folder with any of report.html.mustache, report.md.mustache and texts.mustache; what it lacks stays as
 built in. The built-in ones are in src/report/templates, where texts.mustache says how to translate it.
-
-Exit codes: 0 the report was written, whatever its verdicts say; 2 bad usage or input: no study there, a file that
-differs from its manifest, another model version, a damaged case, studies of different shells or twice of one kind, a
-file of somebody else in the way; 70 it could not be written; 75 interrupted.)";
+The exit code is 0 once the report was written, whatever its verdicts say.)";
 
 inline constexpr const char* plot_footer = R"(
 Examples:
@@ -128,23 +113,9 @@ Examples:
   launchsafe plot results/scene_155mm.h5 --what fields --times "10, 18 ms"
   launchsafe plot results/scene_155mm.h5 --csv -o numbers
 
-Pictures, each an SVG file drawn by gnuplot:
-  pressure     pressure.svg: chamber and bottom pressure
-  fields       field_temperature_10ms.svg, field_pressure_, field_von_mises_, field_crack_radius_: cells of the
-               charge and the shell at each snapshot, to scale, with the same colours for the same values in
-               all pictures of a field; of an event field_temperature_peak-pressure.svg, of a gap that burns
-               field_burnt_share_0.04cm_ignition.svg, ..., with colours of their own
-  histories    histories_0.04cm.svg: skin temperatures of a gap against time
-  profile      profile_0.04cm.svg: skin temperatures along the bottom; profile_spread.svg: highest less lowest
-  air          air.svg: temperature of the gap's air against its compression, and the states reached
-  energy       energy.svg: terms of the energy balance; energy_dissipated.svg
-  combustion   combustion_mass_0.04cm.svg, combustion_pressure_, combustion_reaction_: after ignition
-
-Numbers of --csv, without gnuplot: pressure.csv; field_10ms.csv, ..., a row a particle, all fields of a snapshot;
-histories_0.04cm.csv, ..., a row a time, skin temperatures of all stations and observation points of a gap.
-
-Snapshots are what output.snapshots and output.snapshot_events of the scene ask for. Nothing is overwritten: a picture whose place holds
-something else is refused, and then none is written.)";
+Pictures are SVG files drawn by gnuplot, numbers CSV files without it; share/launchsafe/studies/pictures_and_reports.md
+tells which there are of every kind. Snapshots are what output.snapshots and output.snapshot_events of the scene ask
+for. Nothing is overwritten: a picture whose place holds something else is refused, and then none is written.)";
 
 inline constexpr const char* init_footer = R"(
 Examples:

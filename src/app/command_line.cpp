@@ -50,7 +50,6 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
   add_folder(command, run.output, "Folder to write the HDF5 case file to");
   add_longest_run(command, run.longest_run);
-  command.add_flag("--dry-run", run.dry_run, "Say what would be run and at what cost; write nothing");
 }
 
 void add_study(CLI::App& app, CommandLine& line) {
@@ -64,8 +63,8 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_longest_run(command, study.longest_run);
   add_shard(command, study.shard);
   add_tolerance(command, study.tolerance);
-  command.add_flag("--dry-run", study.dry_run, "Say what would be run and at what cost; write nothing");
-  command.add_flag("--explain", study.explain, "Say of every mechanical run why it runs or is used again");
+  command.add_flag("--dry-run", study.dry_run,
+                   "Say which mechanical runs it needs and why, and at what cost; write nothing");
   add_update(command, study.update);
 }
 
@@ -115,13 +114,6 @@ void add_ask(CLI::App& app, CommandLine& line) {
              "Gap to be told of; the study's unless given");
   CLI::Option* csv = command.add_flag("--csv", ask.csv, "A row a launch, as CSV, in place of text");
   csv->excludes(command.get_option("--gap"));
-}
-
-void add_verify(CLI::App& app, CommandLine& line) {
-  auto [command, verify] = add_command<VerifyArguments>(
-      app, line, "verify", "Test an installed program against known numbers", verify_footer);
-  add_optional(command, "--filter", verify.filter, "TEXT",
-               "Only checks with this in their name, case ignored");
 }
 
 void add_explain(CLI::App& app, CommandLine& line) {
@@ -272,8 +264,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
-                         add_init, add_import_curve, add_report})
+  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_explain, add_plot, add_init,
+                         add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");

@@ -19,7 +19,7 @@ struct UsageError {
 };
 
 using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments, InitArguments,
+                             EmitArguments, ExplainArguments, PlotArguments, InitArguments,
                              ImportCurveArguments, ReportArguments, AskArguments>;
 
 struct CommandLine {

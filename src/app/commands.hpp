@@ -15,7 +15,6 @@ struct RunArguments {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
   std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
-  bool dry_run = false;                         ///< say what would be run, and run nothing
 };
 ExitCode perform(const RunArguments& arguments, Console& console);
 
@@ -29,7 +28,6 @@ struct StudyArguments {
   study::Shard shard;                 ///< the part that is ours
   std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
   bool dry_run = false;               ///< say what would be run, and run nothing
-  bool explain = false;               ///< say of every mechanical run why it runs
   bool update = false;                ///< the folder may hold the results of an earlier study
   std::string command;                ///< the whole command, to be repeated in a shell
 };
@@ -65,11 +63,6 @@ struct AskArguments {
 };
 ExitCode perform(const AskArguments& arguments, Console& console);
 
-struct VerifyArguments {
-  std::string filter;  ///< part of a check's group or name, case ignored
-};
-ExitCode perform(const VerifyArguments& arguments, Console& console);
-
 struct ExplainArguments {
   std::filesystem::path
       file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
@@ -102,6 +95,7 @@ struct ImportCurveArguments {
   std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
   std::string pressure;                         ///< name of the column; empty: the only one
   std::optional<double> offset, trigger;        ///< Pa
+  std::string command;                          ///< the whole command, to be repeated in a shell
 };
 ExitCode perform(const ImportCurveArguments& arguments, Console& console);
 

@@ -8,7 +8,7 @@
 #include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
@@ -16,12 +16,10 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <map>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace launchsafe::app {
@@ -105,37 +103,26 @@ std::string section_of(const char* title, const std::vector<std::string>& lines)
   return text;
 }
 
-/// Why the picture of a grid cannot be written; found before anything is measured.
-std::optional<std::string> obstacle_to_picture(const std::optional<std::filesystem::path>& wanted,
-                                               const std::string& svg) {
-  if (!wanted) return std::nullopt;
-  const std::filesystem::path& picture = *wanted;
-  const std::string found = fmt::format("--grid: found \"{}\"", picture.string());
-  if (picture.extension() != ".svg") return found + "; allowed: the name of an SVG file, such as grid.svg";
-  const std::filesystem::path folder = picture.has_parent_path() ? picture.parent_path() : ".";
-  std::error_code unknown;
-  if (!std::filesystem::is_directory(folder, unknown))
-    return fmt::format("{}, and {} is no folder; allowed: a file in a folder that is there", found,
-                       folder.string());
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return fmt::format("{}, and {} may not be written to; allowed: a file in a folder of yours", found,
-                       folder.string());
-  if (auto obstacle = obstacle_to_file(picture, svg)) return "--grid: " + *obstacle;
-  return std::nullopt;
+/// Writes the half section and the grid.
+ExitCode draw_grid(const std::filesystem::path& picture, const scene::Scene& scene, Console& console) {
+  if (picture.extension() != ".svg")
+    return console.refuse(fmt::format(
+        "--grid: found \"{}\"; allowed: the name of an SVG file, such as grid.svg", picture.string()));
+  const ExitCode code = write_where_absent(store::folder_of(picture),
+                                           {{picture.filename(), report::section_svg(scene)}}, console);
+  if (code == ExitCode::done) console.remark(fmt::format("wrote {}", picture.string()));
+  return code;
 }
 
 ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   const auto file = scene::read_scene(arguments.file);
   if (!file) return console.refuse(file.error());
   for (const std::string& note : file->notes) console.remark(note);
-  const std::string svg = arguments.picture ? report::section_svg(file->scene) : std::string{};
-  if (const auto obstacle = obstacle_to_picture(arguments.picture, svg)) return console.refuse(*obstacle);
+  if (arguments.picture)
+    if (const ExitCode code = draw_grid(*arguments.picture, file->scene, console); code != ExitCode::done)
+      return code;
   const auto update_rate = measured_update_rate(file->scene, console);
   if (!update_rate) return ExitCode::interrupted;
-  if (arguments.picture) {
-    if (const auto error = write_where_absent(*arguments.picture, svg)) return console.fail(error->message);
-    console.remark(fmt::format("wrote {}", arguments.picture->string()));
-  }
   console.print_text(
       scene_text(file->scene, *update_rate) + section_of("Plausibility", plausibility_lines(file->scene)) +
       section_of("Acceptances", acceptance_lines(acceptances_of(*file), file->scene.accepted)));

@@ -19,6 +19,7 @@ namespace launchsafe::app {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
 using scene::NamedMaterial;
 
 /// A scene with the numbers of a material.
@@ -54,112 +55,91 @@ struct Number {
   std::string key, name, value;
 };
 
-/// A material or a contact as it is told.
-struct Told {
-  std::string name, title, what;
-  std::vector<scene::Source> sources;  ///< of all its keys
-  std::vector<Number> numbers;
-
-  const Number& number(const std::string& key) const {
-    return *std::find_if(numbers.begin(), numbers.end(), [&](const Number& each) { return each.key == key; });
-  }
-};
-
-/// What is told of a material or a contact, with the user's word as the source of keys that have no other.
-template <class Named>
-Told told(const Named& named, std::string what, std::vector<Number> numbers) {
-  Told told{named.name, named.title, std::move(what), named.sources, std::move(numbers)};
-  scene::Source unsaid{{}, scene::Standing::input, "no source is given"};
-  for (const Number& each : told.numbers)
-    if (scene::source_of(named.sources, each.key) == nullptr) unsaid.keys.push_back(each.key);
-  if (!unsaid.keys.empty()) told.sources.push_back(std::move(unsaid));
-  return told;
+/// In the order of their sources; the user's word is the source of those that have no other.
+Json numbers_json(const std::vector<scene::Source>& sources, const std::vector<Number>& numbers) {
+  Json list = Json::array();
+  const auto add = [&list](const Number& number, scene::Standing standing, const std::string& citation) {
+    list.push_back({{"key", number.name},
+                    {"value", number.value},
+                    {"standing", scene::letter_of(standing)},
+                    {"citation", citation}});
+  };
+  for (const scene::Source& source : sources)
+    for (const std::string& key : source.keys)
+      add(*std::ranges::find(numbers, key, &Number::key), source.standing, source.citation);
+  for (const Number& each : numbers)
+    if (scene::source_of(sources, each.key) == nullptr)
+      add(each, scene::Standing::input, "no source is given");
+  return list;
 }
 
-Told told(const NamedMaterial& material) {
+Json json_of(const NamedMaterial& material) {
   std::vector<Number> numbers;
   for (const auto& [key, given] : material.values)
     numbers.push_back({key, scene::key_in_material(material.law, key),
                        scene::format_value(*scene::find_key(scene::scene_keys(), key), given.value)});
-  return told(
-      material,
-      fmt::format("law {}; {}{}", material.law, calibration_text(material), self_heating_text(material)),
-      std::move(numbers));
+  return {{"name", material.name},
+          {"title", material.title},
+          {"what", fmt::format("law {}; {}{}", material.law, calibration_text(material),
+                               self_heating_text(material))},
+          {"law", material.law},
+          {"calibrated", is_calibrated(material)},
+          {"numbers", numbers_json(material.sources, numbers)}};
 }
 
-Told told(const scene::NamedContact& contact) {
+Json json_of(const scene::NamedContact& contact) {
   std::vector<Number> numbers;
   for (const auto& key : scene::interface_keys())
     if (!key.is_written || key.is_written(contact.faces))
       numbers.push_back({key.name, key.name, scene::format_value(key, key.get(contact.faces))});
-  return told(contact, "contact of an interface", std::move(numbers));
+  return {{"name", contact.name},
+          {"title", contact.title},
+          {"what", "contact of an interface"},
+          {"numbers", numbers_json(contact.sources, numbers)}};
 }
 
-Told told(const scene::Decomposition& decomposition) {
+Json json_of(const scene::Decomposition& decomposition) {
+  const double specific_heat = materials::Charge{}.specific_heat;
+  const auto runaway = [&](double from) {
+    return 1e3 * materials::adiabatic_runaway_time(decomposition.kinetics, specific_heat, from);
+  };
   std::vector<Number> numbers;
   for (const auto& key : scene::decomposition_keys())
     if (key.name != "title")
       numbers.push_back({key.name, key.name, scene::format_value(key, key.get(decomposition))});
-  return told(decomposition,
-              "decomposition of a flame, combustion.kinetics; with the specific heat of comp-b it " +
-                  report::runaway_text(decomposition.kinetics, materials::Charge{}.specific_heat),
-              std::move(numbers));
-}
-
-std::string text_of(const Told& told) {
-  std::string text = fmt::format("{}: {}\n  {}\n", told.name, told.title, told.what);
-  for (const scene::Source& source : told.sources) {
-    text += fmt::format("  [{}] {}\n", scene::letter_of(source.standing), source.citation);
-    for (const std::string& key : source.keys)
-      text += fmt::format("      {:<32}{}\n", told.number(key).name, told.number(key).value);
-  }
-  return text;
-}
-
-nlohmann::ordered_json numbers_json(const Told& told) {
-  nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
-  for (const scene::Source& source : told.sources)
-    for (const std::string& key : source.keys)
-      numbers.push_back({{"key", told.number(key).name},
-                         {"value", told.number(key).value},
-                         {"standing", scene::letter_of(source.standing)},
-                         {"citation", source.citation}});
-  return numbers;
-}
-
-nlohmann::ordered_json json_of(const NamedMaterial& material) {
-  return {{"name", material.name},
-          {"title", material.title},
-          {"law", material.law},
-          {"calibrated", is_calibrated(material)},
-          {"numbers", numbers_json(told(material))}};
-}
-
-nlohmann::ordered_json json_of(const scene::Decomposition& decomposition) {
-  const auto runaway = [&](double from) {
-    return 1e3 *
-           materials::adiabatic_runaway_time(decomposition.kinetics, materials::Charge{}.specific_heat, from);
-  };
   return {{"name", decomposition.name},
           {"title", decomposition.title},
+          {"what", "decomposition of a flame, combustion.kinetics; with the specific heat of comp-b it " +
+                       report::runaway_text(decomposition.kinetics, specific_heat)},
           {"runaway_from_519_K_ms", runaway(519.0)},
           {"runaway_from_550_K_ms", runaway(550.0)},
-          {"numbers", numbers_json(told(decomposition))}};
+          {"numbers", numbers_json(decomposition.sources, numbers)}};
 }
 
-nlohmann::ordered_json json_of(const scene::NamedContact& contact) {
-  return {{"name", contact.name}, {"title", contact.title}, {"numbers", numbers_json(told(contact))}};
+/// The same for people.
+std::string text_of(const Json& told) {
+  const auto text_in = [](const Json& object, const char* key) { return object[key].get<std::string>(); };
+  std::string text =
+      fmt::format("{}: {}\n  {}\n", text_in(told, "name"), text_in(told, "title"), text_in(told, "what"));
+  std::string source;
+  for (const Json& number : told["numbers"]) {
+    const std::string own =
+        fmt::format("  [{}] {}\n", text_in(number, "standing"), text_in(number, "citation"));
+    if (std::exchange(source, own) != own) text += own;
+    text += fmt::format("      {:<32}{}\n", text_in(number, "key"), text_in(number, "value"));
+  }
+  return text;
 }
 
 /// Prints those whose name begins with a word; false where none does.
 bool print_materials(const scene::NamedMaterials& named, const std::string& word, Console& console) {
   std::string text;
   const auto list_of = [&](const auto& all) {
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    Json list = Json::array();
     for (const auto& each : all) {
       if (!each.name.starts_with(word)) continue;
-      text += (text.empty() ? "" : "\n") + text_of(told(each));
       list.push_back(json_of(each));
+      text += (text.empty() ? "" : "\n") + text_of(list.back());
     }
     return list;
   };

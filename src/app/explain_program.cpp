@@ -17,11 +17,7 @@ namespace launchsafe::app {
 
 namespace {
 
-std::string default_of(const scene::DocumentedKey& key) {
-  if (key.description.required) return "must be given";
-  if (key.default_text.empty()) return "default: none";
-  return fmt::format("default: {}  [{}]", key.default_text, scene::letter_of(key.description.standing));
-}
+using Json = nlohmann::ordered_json;
 
 std::string standings() {
   using enum scene::Standing;
@@ -33,120 +29,97 @@ std::string standings() {
   return text;
 }
 
-/// Empty where nothing is said.
+/// What is plausible of a key or a quantity; empty where nothing is said.
 std::string plausible_line(const scene::KeyDescription& key) {
   if (key.plausible.because.empty()) return {};
   return fmt::format("    plausible: {}\n", scene::plausible_text(key));
 }
 
-std::string derived_text() {
-  std::string text =
-      "Quantities that follow from the keys of a scene; what is not plausible of one gives "
-      "validity warnings too.\n";
-  for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
-    text += fmt::format("\n{}\n    {}\n{}", each.description.name, each.description.sentence,
-                        plausible_line(each.description));
-  }
-  return text;
+std::string default_of(const scene::DocumentedKey& key) {
+  if (key.description.required) return "must be given";
+  if (key.default_text.empty()) return "default: none";
+  return fmt::format("default: {}  [{}]", key.default_text, scene::letter_of(key.description.standing));
 }
 
-nlohmann::ordered_json derived_json() {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const scene::DerivedQuantity& each : scene::derived_quantities()) {
-    list.push_back({{"quantity", each.description.name},
-                    {"si_unit", scene::si_unit_of(each.description.dimension)},
-                    {"plausible", scene::plausible_text(each.description)},
-                    {"sentence", each.description.sentence}});
-  }
-  return list;
-}
-
-std::string documented(const std::vector<scene::DocumentedKey>& keys) {
+/// What is listed, for people and for programs.
+struct Listed {
   std::string text;
-  for (const scene::DocumentedKey& key : keys) {
-    text +=
-        fmt::format("\n{}\n    {}\n    {}\n{}    {}\n", key.description.name, key.description.sentence,
-                    scene::allowed_text(key.description), plausible_line(key.description), default_of(key));
-  }
-  return text;
-}
-
-nlohmann::ordered_json json_of(const std::vector<scene::DocumentedKey>& keys) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const scene::DocumentedKey& key : keys) {
-    list.push_back({{"key", key.description.name},
-                    {"si_unit", scene::si_unit_of(key.description.dimension)},
-                    {"allowed", scene::allowed_text(key.description)},
-                    {"plausible", scene::plausible_text(key.description)},
-                    {"default", key.default_text},
-                    {"required", key.description.required},
-                    {"standing", scene::letter_of(key.description.standing)},
-                    {"sentence", key.description.sentence}});
-  }
-  return list;
-}
+  Json rows = Json::array();
+};
 
 /// The keys whose name begins with a word; all for an empty one.
-std::vector<scene::DocumentedKey> beginning_with(const std::string& word,
-                                                 std::vector<scene::DocumentedKey> keys) {
-  std::erase_if(keys, [&](const auto& key) { return !key.description.name.starts_with(word); });
-  return keys;
+Listed listed(const std::vector<scene::DocumentedKey>& keys, const std::string& word) {
+  Listed listed;
+  for (const scene::DocumentedKey& key : keys) {
+    const scene::KeyDescription& described = key.description;
+    if (!described.name.starts_with(word)) continue;
+    listed.text += fmt::format("\n{}\n    {}\n    {}\n{}    {}\n", described.name, described.sentence,
+                               scene::allowed_text(described), plausible_line(described), default_of(key));
+    listed.rows.push_back({{"key", described.name},
+                           {"si_unit", scene::si_unit_of(described.dimension)},
+                           {"allowed", scene::allowed_text(described)},
+                           {"plausible", scene::plausible_text(described)},
+                           {"default", key.default_text},
+                           {"required", described.required},
+                           {"standing", scene::letter_of(described.standing)},
+                           {"sentence", described.sentence}});
+  }
+  return listed;
 }
 
-/// Every key of a scene file and of a study file, from the same descriptions that read them.
-std::string keys_text() {
-  return fmt::format(
-             "Keys of a scene file; a key a.b is written b under [a]. Standing of a default: {}.\n{}\n\n",
-             standings(), documented(scene::describe_keys())) +
-         derived_text() +
-         "\n\nStudy files\n\nA study file also has [set], a table of scene keys with other values.\n" +
-         documented(kinds::describe_study_keys());
+Listed listed_quantities() {
+  Listed listed;
+  for (const auto& [described, value] : scene::derived_quantities()) {
+    listed.text +=
+        fmt::format("\n{}\n    {}\n{}", described.name, described.sentence, plausible_line(described));
+    listed.rows.push_back({{"quantity", described.name},
+                           {"si_unit", scene::si_unit_of(described.dimension)},
+                           {"plausible", scene::plausible_text(described)},
+                           {"sentence", described.sentence}});
+  }
+  return listed;
 }
 
-/// Those whose name begins with a word.
-std::string keys_text(const std::string& word) {
-  const std::string of_scene = documented(beginning_with(word, scene::describe_keys()));
-  const std::string of_study = documented(beginning_with(word, kinds::describe_study_keys()));
-  return (of_scene.empty() ? "" : "Scene files\n" + of_scene) +
-         (of_study.empty() ? "" : (of_scene.empty() ? "" : "\n") + std::string("Study files\n") + of_study);
-}
-
-nlohmann::ordered_json keys_json(const std::string& word) {
-  nlohmann::ordered_json object{{"keys", json_of(beginning_with(word, scene::describe_keys()))}};
-  if (word.empty()) object["derived_quantities"] = derived_json();
-  object["study_keys"] = json_of(beginning_with(word, kinds::describe_study_keys()));
-  return object;
-}
-
+/// The keys of scene and study files, from the same descriptions that read them.
 ExitCode explain_keys(const std::string& word, Console& console) {
-  const std::string text = word.empty() ? keys_text() : keys_text(word);
-  if (text.empty())
+  const Listed of_scene = listed(scene::describe_keys(), word),
+               of_study = listed(kinds::describe_study_keys(), word);
+  if (of_scene.rows.empty() && of_study.rows.empty())
     return console.refuse(
         fmt::format("explain --keys: found \"{}\", with which no key begins; allowed: the beginning of a "
                     "name, such as load",
                     word));
-  console.print_text(text);
-  console.print_json(keys_json(word));
+  console.print_json({{"keys", of_scene.rows}});
+  if (word.empty()) {
+    const Listed derived = listed_quantities();
+    console.print_json({{"derived_quantities", derived.rows}});
+    console.print_text(fmt::format(
+        "Keys of a scene file; a key a.b is written b under [a]. Standing of a default: {}.\n{}\n\n"
+        "Quantities that follow from the keys of a scene; what is not plausible of one gives validity "
+        "warnings too.\n{}\n\nStudy files\n\nA study file also has [set], a table of scene keys with "
+        "other values.\n{}",
+        standings(), of_scene.text, derived.text, of_study.text));
+  } else {
+    const bool both = !of_scene.rows.empty() && !of_study.rows.empty();
+    if (!of_scene.rows.empty()) console.print_text("Scene files\n" + of_scene.text + (both ? "\n" : ""));
+    if (!of_study.rows.empty()) console.print_text("Study files\n" + of_study.text);
+  }
+  console.print_json({{"study_keys", of_study.rows}});
   return ExitCode::done;
-}
-
-/// The columns of a table whose key begins with a word.
-std::vector<report::Column> beginning_with(const std::string& word, std::vector<report::Column> columns) {
-  std::erase_if(columns, [&](const report::Column& column) { return !column.key().starts_with(word); });
-  return columns;
 }
 
 /// Every column of the tables of all kinds, from the same descriptions that write them.
 ExitCode explain_results(const std::string& word, Console& console) {
   std::string text;
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  Json list = Json::array();
   for (const kinds::Kind& kind : kinds::kinds()) {
     for (const kinds::ResultTable& table : kind.results()) {
-      const std::vector<report::Column> columns = beginning_with(word, table.columns);
+      std::vector<report::Column> columns = table.columns;
+      std::erase_if(columns, [&](const report::Column& column) { return !column.key().starts_with(word); });
       if (columns.empty()) continue;
       text += fmt::format("{}{}, `{}` of study.json{}\n", text.empty() ? "" : "\n", kind.traits.name,
                           table.member, table.csv.empty() ? "" : ", " + table.csv);
-      nlohmann::ordered_json described = nlohmann::ordered_json::array();
+      Json described = Json::array();
       for (const report::Column& column : columns) {
         text += fmt::format("  {}\n      {}\n", column.key(), column.meaning);
         described.push_back({{"key", column.key()},
@@ -174,9 +147,9 @@ ExitCode explain_results(const std::string& word, Console& console) {
 }
 
 ExitCode explain_schema(const std::string& what, Console& console) {
-  const nlohmann::ordered_json schema = what == "study"   ? study_schema()
-                                        : what == "scene" ? scene_schema()
-                                                          : references_schema();
+  const Json schema = what == "study"   ? study_schema()
+                      : what == "scene" ? scene_schema()
+                                        : references_schema();
   console.print_text(schema.dump(2) + "\n");
   console.print_json(schema);
   return ExitCode::done;

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <map>
-#include <utility>
 
 namespace launchsafe::app {
 namespace {
@@ -136,20 +134,6 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
           {"predicted_time_s", forecast.time},
           {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
           {"runs", report::to_json(run_table(forecast))["rows"]}};
-}
-
-std::vector<std::string> reason_lines(const Forecast& forecast) {
-  constexpr std::size_t few = 30;
-  std::map<std::string, std::size_t> runs_of;
-  for (const ForecastRun& run : forecast.runs) ++runs_of[state_of(run)];
-  std::vector<std::string> lines;
-  for (const ForecastRun& run : forecast.runs) {
-    const std::string state = state_of(run);
-    const std::size_t runs = forecast.runs.size() < few ? 1 : std::exchange(runs_of[state], 0);
-    if (runs == 1) lines.push_back(run.label + ": " + state);
-    if (runs > 1) lines.push_back(fmt::format("{} runs: {}", runs, state));
-  }
-  return lines;
 }
 
 }  // namespace launchsafe::app

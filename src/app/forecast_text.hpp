@@ -7,7 +7,6 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace launchsafe::app {
 
@@ -16,9 +15,5 @@ namespace launchsafe::app {
 std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast,
                           const std::filesystem::path& folder);
 nlohmann::ordered_json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
-
-/// A line for every mechanical run that says why it runs or is used again; where there are many, a line for
-/// all that have the same reason.
-std::vector<std::string> reason_lines(const study::Forecast& forecast);
 
 }  // namespace launchsafe::app

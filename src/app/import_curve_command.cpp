@@ -5,6 +5,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -49,20 +50,6 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
     text += fmt::format("below 0  {} points, {} at most, set to 0\n", cleaned.points_below_zero,
                         pressure_text(-cleaned.lowest));
   return text;
-}
-
-/// The same import into a file.
-std::vector<std::string> command_that_writes(const ImportCurveArguments& arguments) {
-  std::vector<std::string> words{"launchsafe", "import-curve", arguments.record.string()};
-  const auto add = [&words](const char* option, const std::string& value) {
-    words.emplace_back(option);
-    words.push_back(value);
-  };
-  if (!arguments.pressure.empty()) add("--pressure", arguments.pressure);
-  if (arguments.offset) add("--offset", pressure_text(*arguments.offset));
-  if (arguments.trigger) add("--trigger", pressure_text(*arguments.trigger));
-  add("-o", "pressure.csv");
-  return words;
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
@@ -113,7 +100,7 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
   if (file.extension() != ".csv")
     return console.refuse(fmt::format(
         "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::path folder = store::folder_of(file);
   const std::string csv = scene::csv_of(import.cleaned.curve, text);
   std::filesystem::path picture = file;
   picture.replace_extension(".svg");
@@ -146,7 +133,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
   console.print_json(json_of(import));
   if (arguments.output) return write(arguments, import, done, console);
-  console.print_text(fmt::format("\nnext: {}\n", shell_command(command_that_writes(arguments))));
+  console.print_text(fmt::format("\nnext: {}\n", arguments.command + " -o pressure.csv"));
   return ExitCode::done;
 }
 

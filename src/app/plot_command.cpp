@@ -13,6 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <utility>
 
 namespace launchsafe::app {
@@ -22,17 +24,10 @@ using report::CasePicture;
 using report::PictureKind;
 
 /// The words of a list between commas or blanks.
-std::vector<std::string> words_of(const std::string& list) {
-  std::vector<std::string> words;
-  std::string word;
-  for (const char letter : list + ",") {
-    if (letter != ',' && letter != ' ') {
-      word += letter;
-    } else if (!word.empty()) {
-      words.push_back(std::exchange(word, {}));
-    }
-  }
-  return words;
+std::vector<std::string> words_of(std::string list) {
+  std::ranges::replace(list, ',', ' ');
+  std::istringstream words(list);
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 /// What a command draws, and why it leaves out the rest.

@@ -14,13 +14,11 @@
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
-#include "update_rate.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -297,29 +295,6 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   return run::run_case(scene, options);
 }
 
-/// Why the result may not be written at `path`; found out before anything is computed.
-std::optional<std::string> obstacle_at(const std::filesystem::path& path, const store::Manifest& manifest) {
-  std::error_code failed;
-  if (std::filesystem::is_symlink(path, failed))
-    return path.string() +
-           " is a link, and nothing is written in its place: move it away or name another folder";
-  const auto present = store::read_manifest(path);
-  if (present) {
-    if (present->input_sha256 == manifest.input_sha256) return std::nullopt;
-    return fmt::format(
-        "{} holds the result of a different input, and nothing is overwritten; name another folder",
-        path.string());
-  }
-  if (present.error().kind == store::Error::Kind::missing) return std::nullopt;
-  return present.error().message + "; it is not overwritten: move it away or name another folder";
-}
-
-/// Likewise for the file that ParaView opens.
-std::optional<std::string> obstacle_to_sidecar(const std::filesystem::path& path) {
-  const auto error = store::obstacle_to_own_file(store::sidecar_of(path));
-  return error ? std::optional(error->message) : std::nullopt;
-}
-
 ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
                              const scene::Scene& scene, Console& console) {
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
@@ -338,16 +313,6 @@ std::vector<std::string> missing_events(const scene::Scene& scene, const run::Ca
   return words;
 }
 
-/// What the scene would run, and at what cost.
-ExitCode dry_run(const scene::Scene& scene, const std::filesystem::path& target, Console& console) {
-  const auto update_rate = measured_update_rate(scene, console);
-  if (!update_rate) return ExitCode::interrupted;
-  if (!target.empty()) console.remark(fmt::format("would write {}", target.string()));
-  console.print_text(scene_text(scene, *update_rate));
-  console.print_json(scene_json(scene, *update_rate));
-  return ExitCode::done;
-}
-
 }  // namespace
 
 ExitCode perform(const RunArguments& arguments, Console& console) {
@@ -362,13 +327,12 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   std::filesystem::path target;
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
-    auto obstacle = obstacle_at(target, manifest);
-    if (!obstacle && scene.output.asks_for_snapshots()) obstacle = obstacle_to_sidecar(target);
-    if (!obstacle && !arguments.dry_run) obstacle = prepare_output_folder(*arguments.output);
-    if (obstacle) return console.refuse(*obstacle);
+    // Found out before anything is computed.
+    auto error = store::obstacle_to_case_file(target, manifest);
+    if (!error && scene.output.asks_for_snapshots()) error = store::obstacle_to_sidecar(target);
+    if (error) return console.refuse(error->message);
+    if (const auto obstacle = prepare_output_folder(*arguments.output)) return console.refuse(*obstacle);
   }
-  if (arguments.dry_run) return dry_run(scene, target, console);
-
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
   }

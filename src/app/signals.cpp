@@ -7,12 +7,7 @@ namespace {
 
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
 
-std::atomic<bool>& stop_flag() {
-  static constinit std::atomic<bool> flag{false};
-  return flag;
-}
-
-void request_stop(int) { stop_flag().store(true, std::memory_order_relaxed); }
+void request_stop(int) { stop_requested().store(true, std::memory_order_relaxed); }
 
 void stop_on(int signal) {
   struct sigaction action {};
@@ -38,6 +33,9 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-std::atomic<bool>& stop_requested() { return stop_flag(); }
+std::atomic<bool>& stop_requested() {
+  static constinit std::atomic<bool> flag{false};
+  return flag;
+}
 
 }  // namespace launchsafe::app

@@ -116,11 +116,6 @@ ExitCode perform(const StudyArguments& arguments, Console& console) {
                        console);
   if (const ExitCode code = session.open(); code != ExitCode::done) return code;
   options.store = &session.store();
-  if (arguments.explain) {
-    constexpr double any_rate = 1.0;
-    for (const std::string& line : reason_lines(study::forecast_study(*file, options, any_rate)))
-      console.remark(line);
-  }
   return session.conclude(run_with_progress(*file, options, console), options.shard);
 }
 

@@ -3,7 +3,6 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/study_file.hpp"
@@ -11,7 +10,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace launchsafe::app {
 
@@ -41,11 +39,5 @@ void remove_leftovers(const std::filesystem::path& folder);
 /// Errors: conflict, write_failed, unreadable.
 store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
                                                  const StudyRecord& asked);
-
-/// Moves what an earlier report left and the new one, of the files `written`, did not write again, such as a
-/// picture that cannot be drawn any more. Returns where it went, empty if nowhere. Errors: write_failed.
-store::Result<std::filesystem::path> set_stale_aside(const std::filesystem::path& folder,
-                                                     const StudyRecord& earlier,
-                                                     const std::vector<std::string>& written);
 
 }  // namespace launchsafe::app

@@ -2,7 +2,6 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 #include "shell_words.hpp"
@@ -126,15 +125,6 @@ ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
   return written == ExitCode::done ? exit_code_of(result) : written;
 }
 
-ExitCode StudySession::keep_edited_files() {
-  const auto moved = store::set_edited_aside(request_.folder);
-  if (!moved) return console_.end_with(moved.error());
-  for (const std::string& name : *moved)
-    console_.remark(fmt::format("a file was edited since it was written; it is kept as {}",
-                                (request_.folder / name).string()));
-  return ExitCode::done;
-}
-
 StudyRecord StudySession::record() const {
   // Never an absolute path: it would name this machine.
   const std::filesystem::path& study = request_.study;
@@ -149,29 +139,20 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result) {
     console_.remark(fmt::format("the report in {} stands as it is", request_.folder.string()));
     return ExitCode::done;
   }
-  if (const ExitCode code = keep_edited_files(); code != ExitCode::done) return code;
   store_->replace_tables(report::plain_tables(result.report));
   if (!kept()) return ExitCode::failed;
-  const auto written = report::write_report(result.report, request_.folder, {.stop = &stop_requested()});
-  if (!written) return console_.end_with(written.error());
-  for (const std::string& remark : written->remarks) console_.remark(remark);
-  StudyRecord written_record = record();
-  written_record.failures = digest;
-  written_record.manifest.wall_time = result.timing.wall_time;
+  const report::RenderedReport rendered = report::render_report(result.report, {.stop = &stop_requested()});
+  for (const std::string& remark : rendered.remarks) console_.remark(remark);
+  StudyRecord written = record();
+  written.failures = digest;
+  written.manifest.wall_time = result.timing.wall_time;
   // A report that lacks a picture is no finished one: the next time it is written again.
-  written_record.complete = written->pictures_missing == 0;
-  written_record.files = store::record_files(request_.folder, written->files);
-  if (present) {
-    const auto stale = set_stale_aside(request_.folder, *present, written->files);
-    if (!stale) return console_.end_with(stale.error());
-    if (!stale->empty())
-      console_.remark(
-          fmt::format("files of the earlier report that the new one lacks moved to {}", stale->string()));
-  }
-  if (const auto error = store::write_study_record(request_.folder, written_record))
-    return console_.end_with(*error);
-  console_.remark(fmt::format("wrote {} files to {}", written->files.size() + 1, request_.folder.string()));
-  if (written_record.complete || !stop_requested()) return ExitCode::done;
+  written.complete = rendered.pictures_missing == 0;
+  const auto remarks = store::write_report_files(request_.folder, written, rendered.files);
+  if (!remarks) return console_.end_with(remarks.error());
+  for (const std::string& remark : *remarks) console_.remark(remark);
+  console_.remark(fmt::format("wrote {} files to {}", rendered.files.size() + 1, request_.folder.string()));
+  if (written.complete || !stop_requested()) return ExitCode::done;
   console_.error(fmt::format(
       "interrupted while a picture was drawn; all results are kept; for the picture: {}", request_.command));
   return ExitCode::interrupted;

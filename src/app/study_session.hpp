@@ -48,8 +48,6 @@ class StudySession {
   ExitCode report_interruption();
   ExitCode deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard);
   ExitCode deliver_whole(const kinds::StudyOutcome& result);
-  /// Remarks edited files of an earlier report, which keep their content under another name.
-  ExitCode keep_edited_files();
   /// What manifest.json is to say before there is a report.
   store::StudyRecord record() const;
   ExitCode write_files(const kinds::StudyOutcome& result);

@@ -43,9 +43,4 @@ bool may_write(const Kind& kind, std::string_view name) {
                      [name](const FileName& file) { return file.fits(name); });
 }
 
-bool may_write(std::string_view name) {
-  return std::any_of(kinds().begin(), kinds().end(),
-                     [name](const Kind& kind) { return may_write(kind, name); });
-}
-
 }  // namespace launchsafe::kinds

@@ -3,8 +3,6 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,6 @@
 // Skin temperatures along the charge's bottom, the gap's air, and what burns.
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/study_text.hpp"
 
 #include <fmt/format.h>
 

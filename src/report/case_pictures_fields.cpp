@@ -1,7 +1,6 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/run/snapshot_fields.hpp"
 #include "launchsafe/scene/mesh.hpp"
 

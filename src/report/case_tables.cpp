@@ -197,8 +197,6 @@ Quantities<run::CombustionHistory> burnt_state_quantities() {
 }
 
 std::vector<Column> run_columns() { return keys::described(run_quantities()); }
-std::vector<Column> face_columns() { return keys::described(face_quantities()); }
-std::vector<Column> combustion_columns() { return keys::described(combustion_quantities()); }
 std::vector<Column> air_energy_columns() { return keys::described(air_quantities(true)); }
 
 Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run_quantities(), runs); }

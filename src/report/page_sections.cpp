@@ -6,9 +6,7 @@
 #include <openssl/evp.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-#include <sstream>
 
 namespace launchsafe::report {
 namespace {
@@ -191,25 +189,16 @@ void prepare(Row& blocks, const std::vector<TextFile>& figures) {
 
 }  // namespace
 
-std::vector<std::string> figures_of(const std::string& report_json) {
-  std::vector<std::string> files;
-  const Row report = Row::parse(report_json, nullptr, false);
-  for (const Row& section : found_in(report, "sections"))
-    for (const Row& block : found_in(section, "blocks"))
-      if (found_in(block, "file").is_string()) files.push_back(block["file"]);
-  return files;
-}
-
-store::Result<RenderedPage> render_page(const std::vector<PageText>& order, const PageFacts& all,
-                                        const PageTemplates& templates, const Row& head,
-                                        const DrawingLimits& limits) {
+store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
+                                          const PageTemplates& templates, const Row& head,
+                                          const DrawingLimits& limits) {
   Sections made(order, all, templates.texts, limits);
   Row page{{"format", head["format"]},       {"language", made.words("language")},
            {"report", made.words("report")}, {"title", head["title"]},
            {"subject", head["subject"]},     {"made_of", made.made_of()},
            {"answer", head["answer"]},       {"sections", std::move(made.sections)}};
-  RenderedPage report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
-                      std::move(made.remarks)};
+  RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
+                        std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);
   auto html = filled(templates.html, {&page}, html_escape<std::string>);
   if (!html) return html.error();

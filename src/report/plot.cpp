@@ -2,13 +2,11 @@
 
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/store/own_files.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 
 namespace launchsafe::report {
@@ -220,13 +218,6 @@ std::string to_gnuplot(const Plot& plot) {
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {
   return drawn(plot, unfit(plot), program, limits);
-}
-
-store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,
-                            const DrawingLimits& limits) {
-  const auto svg = to_svg(plot, "gnuplot", limits);
-  if (!svg) return svg.error();
-  return store::write_own_file(path, *svg);
 }
 
 }  // namespace launchsafe::report

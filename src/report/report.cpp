@@ -1,7 +1,6 @@
 #include "launchsafe/report/report.hpp"
 
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
 
@@ -60,22 +59,20 @@ std::string printed(const ReportTable& item, const std::filesystem::path& folder
 }
 
 /// Draws the pictures, until gnuplot is missing, fails or takes too long at one, which is a remark. The names
-/// of those that are not there. Errors: write_failed.
-store::Result<std::vector<std::string>> draw(const Report& report, const std::filesystem::path& folder,
-                                             const DrawingLimits& limits, WrittenFiles& written) {
+/// of those that are not there.
+std::vector<std::string> draw(const Report& report, const DrawingLimits& limits, RenderedReport& rendered) {
   std::vector<std::string> missing;
   for (const auto& item : report.items) {
     const auto* picture = std::get_if<Picture>(&item);
     if (picture == nullptr) continue;
     if (missing.empty()) {
-      const auto error = write_svg(picture->plot, folder / picture->file, limits);
-      if (!error) {
-        written.files.push_back(picture->file);
+      auto svg = to_svg(picture->plot, "gnuplot", limits);
+      if (svg) {
+        rendered.files.push_back({picture->file, std::move(*svg)});
         continue;
       }
-      if (!is_of_drawing(*error)) return *error;
-      written.remarks.push_back("no picture: " + error->message);
-      ++written.pictures_missing;
+      rendered.remarks.push_back("no picture: " + svg.error().message);
+      ++rendered.pictures_missing;
     }
     missing.push_back(picture->file);
   }
@@ -94,23 +91,6 @@ void add_acceptances(const study::AcceptancesOfStudy& all, nlohmann::ordered_jso
   add("accepted", all.accepted);
   add("not_accepted", all.missing);
   head["extrapolated"] = all.extrapolated;
-}
-
-/// Makes a folder and writes texts into it, one file each.
-store::MaybeError write_texts(const std::filesystem::path& folder,
-                              const std::vector<std::pair<std::string, std::string>>& texts,
-                              WrittenFiles& written) {
-  std::error_code status;
-  std::filesystem::create_directories(folder, status);
-  if (status) {
-    return store::Error{store::Error::Kind::write_failed,
-                        fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
-  }
-  for (const auto& [name, text] : texts) {
-    if (auto error = store::write_own_file(folder / name, text)) return error;
-    written.files.push_back(name);
-  }
-  return {};
 }
 
 }  // namespace
@@ -224,24 +204,19 @@ std::vector<store::PlainTable> plain_tables(const Report& report) {
   return tables;
 }
 
-store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits) {
-  WrittenFiles written;
-  std::vector<std::pair<std::string, std::string>> texts;
+RenderedReport render_report(const Report& report, const DrawingLimits& limits) {
+  RenderedReport rendered;
   for (const auto& item : report.items) {
     const auto* table = std::get_if<ReportTable>(&item);
     if (table != nullptr && !table->csv.empty() && !table->table.rows.empty())
-      texts.emplace_back(table->csv, to_csv(table->table));
+      rendered.files.push_back({table->csv, to_csv(table->table)});
   }
-  for (const TextFile& file : report.files) texts.emplace_back(file.name, file.text);
-  if (auto error = write_texts(folder, texts, written)) return *error;
-  const auto missing = draw(report, folder, limits, written);
-  if (!missing) return missing.error();
-  written.remarks.insert(written.remarks.end(), report.remarks.begin(), report.remarks.end());
-  texts = {{"report.md", to_markdown(report, *missing)}};
-  if (!report.json.empty()) texts.emplace_back("study.json", report.json);
-  if (auto error = write_texts(folder, texts, written)) return *error;
-  return written;
+  rendered.files.insert(rendered.files.end(), report.files.begin(), report.files.end());
+  const std::vector<std::string> missing = draw(report, limits, rendered);
+  rendered.remarks.insert(rendered.remarks.end(), report.remarks.begin(), report.remarks.end());
+  rendered.files.push_back({"report.md", to_markdown(report, missing)});
+  if (!report.json.empty()) rendered.files.push_back({"study.json", report.json});
+  return rendered;
 }
 
 }  // namespace launchsafe::report

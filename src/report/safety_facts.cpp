@@ -288,9 +288,10 @@ PageTemplates built_in_templates() {
   return templates;
 }
 
-store::Result<RenderedPage> make_safety_report(const SafetyEvidence& evidence,
-                                               const std::optional<GapCriterion>& criterion,
-                                               const PageTemplates& templates, const DrawingLimits& limits) {
+store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
+                                                 const std::optional<GapCriterion>& criterion,
+                                                 const PageTemplates& templates,
+                                                 const DrawingLimits& limits) {
   const PageFacts facts = safety::facts_of(evidence, criterion);
   return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
                      {{"format", "launchsafe safety report 2"},

@@ -4,7 +4,6 @@
 
 #include "launchsafe/mpm/conduction.hpp"
 #include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/scene/plan.hpp"
 
 #include <optional>
 #include <vector>

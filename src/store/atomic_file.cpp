@@ -10,7 +10,6 @@
 
 #include <cerrno>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <random>
 #include <utility>

@@ -3,8 +3,8 @@
 #include "case_layout.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "posix_file.hpp"
 #include "xdmf.hpp"
 
 #include <fmt/format.h>
@@ -166,29 +166,12 @@ std::string fault_in(const run::CaseResult& result) {
 
 // --- files ---
 
-/// Nothing when `path` is free or holds an answer to the same question.
-MaybeError conflict_at(const std::filesystem::path& path, const Manifest& manifest) {
-  const Result<Manifest> present = read_manifest(path);
-  if (!present) {
-    if (present.error().kind != Error::Kind::missing) return present.error();
-    // A link that leads nowhere is there, and somebody's.
-    if (!std::filesystem::is_symlink(path)) return {};
-    return Error{Error::Kind::conflict,
-                 fmt::format("{} is a symbolic link; it was left as it is", path.string())};
-  }
-  if (present->input_sha256 == manifest.input_sha256) return {};
-  return Error{Error::Kind::conflict,
-               fmt::format("{} holds the result of a different input (SHA-256 {:.12}..., not "
-                           "{:.12}...); it was left as it is",
-                           path.string(), present->input_sha256, manifest.input_sha256)};
-}
-
 MaybeError publish(const std::filesystem::path& path, std::string_view bytes, const Manifest& manifest) {
-  if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
+  if (const MaybeError conflict = obstacle_to_case_file(path, manifest)) return conflict;
   const MaybeError error = write_file_atomically(path, bytes, IfExists::refuse);
   if (!error || error->kind != Error::Kind::conflict) return error;
   // Something is there: the same question's answer before, or since a moment ago by another process.
-  if (const MaybeError conflict = conflict_at(path, manifest)) return conflict;
+  if (const MaybeError conflict = obstacle_to_case_file(path, manifest)) return conflict;
   return write_file_atomically(path, bytes, IfExists::replace);
 }
 
@@ -245,16 +228,44 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
     return Error{bytes.error().kind,
                  fmt::format("cannot write {}: {}", path.string(), bytes.error().message)};
   }
-  if (MaybeError error = publish(path, *bytes, manifest)) return error;
   const bool burns = std::any_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
     return gap.combustion && !gap.combustion->snapshots.empty();
   });
-  if (result.mechanics.snapshots.empty() && !burns) return {};
-  return write_own_file(sidecar_of(path), xdmf_of(result, path.filename().string()));
+  const bool has_sidecar = burns || !result.mechanics.snapshots.empty();
+  const MaybeError obstacle = has_sidecar ? obstacle_to_sidecar(path) : MaybeError();
+  if (obstacle) return obstacle;
+  if (MaybeError error = publish(path, *bytes, manifest)) return error;
+  if (!has_sidecar) return {};
+  return write_file_atomically(sidecar_of(path), xdmf_of(result, path.filename().string()),
+                               IfExists::replace);
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& path) {
   return std::filesystem::path(path).replace_extension(".xdmf");
+}
+
+MaybeError obstacle_to_case_file(const std::filesystem::path& path, const Manifest& manifest) {
+  std::error_code failed;
+  if (std::filesystem::is_symlink(path, failed)) return refusal(path, "is a link");
+  const Result<Manifest> present = read_manifest(path);
+  if (present && present->input_sha256 == manifest.input_sha256) return {};
+  if (present) return refusal(path, "holds the result of a different input");
+  if (present.error().kind == Error::Kind::missing) return {};
+  return Error{present.error().kind,
+               present.error().message + "; it is not overwritten: move it away or name another folder"};
+}
+
+MaybeError obstacle_to_sidecar(const std::filesystem::path& path) {
+  const std::filesystem::path sidecar = sidecar_of(path);
+  std::error_code failed;
+  const auto status = std::filesystem::symlink_status(sidecar, failed);
+  if (!std::filesystem::exists(status)) return {};
+  const Result<StoredCase> stored = read_case_file(path);
+  const Result<std::string> text = read_file(sidecar);
+  if (std::filesystem::is_regular_file(status) && stored && text &&
+      *text == xdmf_of(stored->result, path.filename().string()))
+    return {};
+  return refusal(sidecar, "is not what launchsafe writes beside that case");
 }
 
 Result<StoredCase> read_case_file(const std::filesystem::path& path) { return read_with(path, case_of); }

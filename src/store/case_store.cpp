@@ -1,9 +1,8 @@
 #include "launchsafe/store/case_store.hpp"
 
-#include "case_store_content.hpp"
+#include "case_store_files.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "plain_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -22,6 +21,55 @@ MaybeError make_folder(const std::filesystem::path& folder) {
   if (!status) return {};
   return Error{Error::Kind::write_failed,
                fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
+}
+
+/// What every case of this program has in common; what differs between equal runs is left out.
+Manifest common_manifest() {
+  Manifest manifest = make_manifest("", 1);
+  manifest.host.clear();
+  manifest.start_time.clear();
+  return manifest;
+}
+
+// --- tables of a report in a results file, for other programs ---
+
+/// The type by which every value of a column can be declared.
+std::string type_of_column(const PlainTable& table, std::size_t column) {
+  bool any_text = false, any_number = false;
+  for (const SqlRow& row : table.rows) {
+    any_text = any_text || std::holds_alternative<std::string>(row[column]);
+    any_number = any_number || std::holds_alternative<double>(row[column]);
+  }
+  if (any_text) return "ANY";
+  return any_number ? "REAL" : "INTEGER";
+}
+
+/// Makes a table and fills it; none of that name may be there.
+MaybeError write_table(Database& database, const PlainTable& table) {
+  std::vector<std::string> declared;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    declared.push_back(fmt::format("\"{}\" {}", table.columns[i], type_of_column(table, i)));
+  if (MaybeError error =
+          database.run(fmt::format("CREATE TABLE \"{}\" ({}) STRICT", table.name, fmt::join(declared, ", "))))
+    return error;
+  const std::vector<std::string> marks(table.columns.size(), "?");
+  const std::string insert =
+      fmt::format("INSERT INTO \"{}\" VALUES ({})", table.name, fmt::join(marks, ", "));
+  for (const SqlRow& row : table.rows)
+    if (MaybeError error = database.run(insert, row)) return error;
+  return {};
+}
+
+/// Drops all tables that are none of the store's own.
+MaybeError drop_plain_tables(Database& database) {
+  const auto found = database.rows(
+      "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT GLOB 'stored_*' AND name NOT GLOB "
+      "'sqlite_*'");
+  if (!found) return found.error();
+  for (const SqlRow& row : *found)
+    if (MaybeError error = database.run(fmt::format("DROP TABLE \"{}\"", std::get<std::string>(row[0]))))
+      return error;
+  return {};
 }
 
 }  // namespace
@@ -46,14 +94,14 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
   std::erase_if(others, [&](const std::filesystem::path& each) {
     return each == names.results() || (!options.part.empty() && each != StoreNames{folder, {}}.results());
   });
-  auto content = std::make_unique<Content>(std::move(names), options, std::move(*database), true);
-  if (const MaybeError error = content->take_over(others)) return *error;
-  remove_leftovers_of(content->names);
-  content->status.host = content->host;
-  content->status.process = ::getpid();
-  content->status.since = utc_now();
-  content->write_status();
-  return std::unique_ptr<CaseStore>(new CaseStore(std::move(content)));
+  std::unique_ptr<CaseStore> store(new CaseStore(std::move(names), options, std::move(*database), true));
+  if (const MaybeError error = store->take_over(others)) return *error;
+  remove_leftovers_of(store->names_);
+  store->status_.host = store->host_;
+  store->status_.process = ::getpid();
+  store->status_.since = utc_now();
+  store->write_status();
+  return store;
 }
 
 Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder,
@@ -69,45 +117,46 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem
                                             : Database::copy_of(files.front());
   if (!database) return told_who_writes(database.error(), files.empty() ? folder : files.front());
   if (!files.empty()) files.erase(files.begin());
-  auto content = std::make_unique<Content>(StoreNames{folder, {}}, StoreOptions{{}, model_version, {}},
-                                           std::move(*database), false);
-  if (const MaybeError error = content->take_over(files)) return *error;
-  return std::unique_ptr<CaseStore>(new CaseStore(std::move(content)));
+  std::unique_ptr<CaseStore> store(
+      new CaseStore({folder, {}}, {{}, model_version, {}}, std::move(*database), false));
+  if (const MaybeError error = store->take_over(files)) return *error;
+  return store;
 }
 
-CaseStore::CaseStore(std::unique_ptr<Content> content) : content_(std::move(content)) {}
+CaseStore::CaseStore(StoreNames names, StoreOptions options, Database database, bool writes)
+    : names_(std::move(names)),
+      options_(std::move(options)),
+      manifest_(common_manifest()),
+      host_(host_name()),
+      writes_(writes),
+      database_(std::move(database)) {}
 
 CaseStore::~CaseStore() {
-  content_->flush();
-  if (!content_->writes) return;
-  content_->status.ended = true;
-  content_->write_status();
-}
-
-std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
-  return content_->record_of(hash);
+  flush();
+  if (!writes_) return;
+  status_.ended = true;
+  write_status();
 }
 
 std::vector<RunRecord> CaseStore::records() const {
-  const std::lock_guard lock(content_->using_);
-  auto found = run_table().select(content_->database, {});
+  const std::lock_guard lock(using_);
+  auto found = run_table().select(database_, {});
   return found ? std::move(*found) : std::vector<RunRecord>{};
 }
 
 bool CaseStore::holds(const std::string& hash) {
   struct stat file {};
-  if (::stat(content_->names.case_file(hash).c_str(), &file) != 0 || content_->is_given_up(hash))
-    return false;
-  return content_->knows(hash, file) || content_->adopt(hash);
+  if (::stat(names_.case_file(hash).c_str(), &file) != 0 || is_given_up(hash)) return false;
+  return knows(hash, file) || adopt(hash);
 }
 
 Result<run::CaseResult> CaseStore::load(const std::string& hash) {
-  const std::filesystem::path path = content_->names.case_file(hash);
+  const std::filesystem::path path = names_.case_file(hash);
   Result<StoredCase> stored = read_case_file(path);
   if (stored && !belongs_to(stored->manifest, hash)) stored = of_another_case(path);
-  if (!stored && stored.error().kind == Error::Kind::corrupt) return content_->give_up(hash, stored.error());
+  if (!stored && stored.error().kind == Error::Kind::corrupt) return give_up(hash, stored.error());
   if (!stored) return stored.error();
-  const std::optional<RunRecord> record = content_->record_of(hash);
+  const std::optional<RunRecord> record = record_of(hash);
   if (record && record->state == CaseState::done) {
     stored->result.mechanics.wall_time = record->wall_time;
     stored->result.mechanics.processor_time = record->processor_time;
@@ -116,19 +165,19 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
 }
 
 Result<std::string> CaseStore::input_of(const std::string& hash) {
-  Result<CheckedFile> file = read_checked(content_->names.case_file(hash), hash);
+  Result<CheckedFile> file = read_checked(names_.case_file(hash), hash);
   if (file) return std::move(file->manifest.input_text);
   if (file.error().kind != Error::Kind::corrupt) return file.error();
-  return content_->give_up(hash, file.error());
+  return give_up(hash, file.error());
 }
 
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
                      RunRecord record) {
-  assert(content_->writes);
+  assert(writes_);
   record.hash = identity.hash();
   record.state = CaseState::done;
-  content_->fill_in(record);
-  Manifest manifest = content_->manifest;
+  fill_in(record);
+  Manifest manifest = manifest_;
   manifest.input_text = identity.input();
   manifest.input_sha256 = sha256(identity.input());
   manifest.model_version = record.model_version;
@@ -137,45 +186,37 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
     record.processor_time = result.mechanics.processor_time;
   }
   result.mechanics.wall_time = 0;
-  content_->keep(case_bytes(scene, result, manifest), std::move(record));
+  keep(case_bytes(scene, result, manifest), std::move(record));
 }
 
 void CaseStore::note(RunRecord record) {
-  assert(content_->writes);
-  content_->fill_in(record);
-  content_->put(record);
+  assert(writes_);
+  fill_in(record);
+  put(record);
 }
 
-void CaseStore::write(const std::function<MaybeError(Database&)>& change) {
-  content_->change(false, [&] { return change(content_->database); });
+void CaseStore::write(const std::function<MaybeError(Database&)>& make) {
+  change(false, [&] { return make(database_); });
 }
 
 void CaseStore::read(const std::function<void(Database&)>& look) const {
-  const std::lock_guard lock(content_->using_);
-  look(content_->database);
+  const std::lock_guard lock(using_);
+  look(database_);
 }
 
 void CaseStore::replace_tables(const std::vector<PlainTable>& tables) {
-  content_->change(true, [&] {
-    MaybeError error = drop_plain_tables(content_->database);
+  change(true, [&] {
+    MaybeError error = drop_plain_tables(database_);
     for (const PlainTable& table : tables)
-      if (!error) error = write_table(content_->database, table);
+      if (!error) error = write_table(database_, table);
     return error;
   });
 }
 
-MaybeError CaseStore::flush() { return content_->flush(); }
-
-void CaseStore::tell_progress(std::size_t done, std::size_t running, std::size_t total) {
-  content_->tell_progress(done, running, total);
-}
-
 std::vector<std::string> CaseStore::remarks() const {
-  const std::lock_guard lock(content_->using_);
-  return content_->remarks;
+  const std::lock_guard lock(using_);
+  return remarks_;
 }
-
-const std::filesystem::path& CaseStore::folder() const { return content_->names.folder; }
 
 Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& other) {
   Imported imported;
@@ -188,23 +229,28 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   for (const std::filesystem::path& file : files)
     if (const MaybeError error = Database::obstacle(file)) return told_who_writes(*error, file);
   const StoreNames theirs{other, {}};
-  std::vector<std::string> absent;
   for (const std::string& hash : stored_hashes(theirs, status)) {
-    if (holds(hash))
+    if (holds(hash)) {
       ++imported.already_there;
-    else
-      absent.push_back(hash);
+      continue;
+    }
+    const std::filesystem::path path = theirs.case_file(hash);
+    const Result<CheckedFile> file = read_checked(path, hash);
+    if (!file && file.error().kind != Error::Kind::corrupt) return file.error();
+    if (!file) {
+      remark(file.error().message + "; it was left there");
+      continue;
+    }
+    if (file->manifest.model_version != options_.model_version)
+      return Error{Error::Kind::conflict,
+                   fmt::format("{} is a result of model version {}, this program's is {}", path.string(),
+                               file->manifest.model_version, options_.model_version)};
+    if (const MaybeError error = take_file(path, hash)) return *error;
+    ++imported.cases;
   }
-  std::vector<std::string> remarks;
-  const auto whole = whole_ones(theirs, absent, content_->options.model_version, remarks);
-  if (!whole) return whole.error();
-  for (const std::string& remark : remarks) content_->remark(remark);
-  for (const std::string& hash : *whole)
-    if (const MaybeError error = content_->take_file(theirs.case_file(hash), hash)) return *error;
-  imported.cases = whole->size();
   if (const MaybeError error = flush()) return *error;
-  const std::lock_guard lock(content_->using_);
-  if (const MaybeError error = content_->take_over(files)) return *error;
+  const std::lock_guard lock(using_);
+  if (const MaybeError error = take_over(files)) return *error;
   return imported;
 }
 

@@ -3,7 +3,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/case_store.hpp"
-#include "store_status.hpp"
 
 #include <fmt/format.h>
 
@@ -158,25 +157,6 @@ bool began_as_case(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, failed))) return false;
   const Result<std::string> bytes = read_file(path);
   return bytes && bytes->starts_with(case_file_begin);
-}
-
-Result<std::vector<std::string>> whole_ones(const StoreNames& names, const std::vector<std::string>& hashes,
-                                            int model_version, std::vector<std::string>& remarks) {
-  std::vector<std::string> whole;
-  for (const std::string& hash : hashes) {
-    const Result<CheckedFile> file = read_checked(names.case_file(hash), hash);
-    if (!file && file.error().kind != Error::Kind::corrupt) return file.error();
-    if (!file) {
-      remarks.push_back(file.error().message + "; it was left there");
-    } else if (file->manifest.model_version != model_version) {
-      return Error{Error::Kind::conflict,
-                   fmt::format("{} is a result of model version {}, this program's is {}; nothing was copied",
-                               names.case_file(hash).string(), file->manifest.model_version, model_version)};
-    } else {
-      whole.push_back(hash);
-    }
-  }
-  return whole;
 }
 
 }  // namespace launchsafe::store

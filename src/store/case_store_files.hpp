@@ -1,8 +1,7 @@
 // The names of a store's files, and what lies there.
 #pragma once
 
-#include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/case_store.hpp"
 #include "posix_file.hpp"
 
 #include <filesystem>
@@ -10,21 +9,6 @@
 #include <vector>
 
 namespace launchsafe::store {
-
-struct StoreNames {
-  std::filesystem::path folder;
-  std::string part;
-
-  std::filesystem::path cases() const { return folder / "cases"; }
-  std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
-  std::filesystem::path results() const { return folder / ("study" + suffix() + ".db"); }
-  std::filesystem::path status() const { return folder / ("status" + suffix() + ".json"); }
-  /// Ends the names of files that this part is writing.
-  std::string mark() const { return part.empty() ? "whole" : part; }
-
- private:
-  std::string suffix() const { return part.empty() ? "" : "." + part; }
-};
 
 /// The hashes of what has the name of a case file in a store, in order.
 std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status);
@@ -53,8 +37,15 @@ bool began_as_case(const std::filesystem::path& path);
 Error of_file(const std::filesystem::path& path, const Error& error);
 Error of_another_case(const std::filesystem::path& path);
 
-/// Those of the hashes whose files are whole. Damaged ones are remarked. Errors: conflict, unreadable.
-Result<std::vector<std::string>> whole_ones(const StoreNames& names, const std::vector<std::string>& hashes,
-                                            int model_version, std::vector<std::string>& remarks);
+// --- status.json: how far a study is, for whoever watches, since nobody else may read a results file that is
+// being written ---
+
+/// The file's text.
+std::string to_text(const StoreStatus& status);
+/// Whether the content of a file is that of a status.
+bool is_status(std::string_view content);
+/// "HOST process PID since TIME, 3 of 12 runs done", from a status file; "another process" where it names
+/// none.
+std::string writer_in(const std::filesystem::path& status_file);
 
 }  // namespace launchsafe::store

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 
 namespace launchsafe::store {
 
@@ -37,19 +36,6 @@ std::string_view fault_of(const struct stat& status) {
 }
 
 }  // namespace
-
-Result<Descriptor> open_in_place(const std::filesystem::path& path, int flags) {
-  // O_NONBLOCK so that a named pipe is refused below rather than waited for.
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | flags, 0666));
-  if (!file.is_open()) {
-    if (errno == ELOOP || errno == EISDIR || errno == ENXIO) return refusal(path, no_plain_file);
-    return write_error(path, errno);
-  }
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0) return write_error(path, errno);
-  if (const std::string_view fault = fault_of(status); !fault.empty()) return refusal(path, fault);
-  return file;
-}
 
 MaybeError obstacle_in_place(const std::filesystem::path& path,
                              const std::function<bool(std::string_view content)>& is_ours) {

@@ -49,11 +49,6 @@ Error write_error(const std::filesystem::path& path, int error_number);
 Error refusal(const std::filesystem::path& path, std::string_view what);
 inline constexpr std::string_view foreign_file = "was not written by launchsafe";
 
-/// Opens a file to be written in place, makes it where there is none, and never follows a symbolic link.
-/// `flags` come on top of O_RDWR. Errors: conflict (what is there is no regular file, or has other names that
-/// its content would change under too), write_failed.
-Result<Descriptor> open_in_place(const std::filesystem::path& path, int flags);
-
 /// Why a file may not be written in place; nothing when it is not there, or when it is a regular file of one
 /// name and `is_ours`, where it is given, holds for its content. Changes nothing. Errors: conflict,
 /// unreadable.

@@ -1,5 +1,4 @@
-#include "store_status.hpp"
-
+#include "case_store_files.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,9 @@
 #include "launchsafe/store/study_record.hpp"
 
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/own_files.hpp"
+#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "posix_file.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,12 +11,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <optional>
+#include <set>
 
 namespace launchsafe::store {
 namespace {
 
-std::filesystem::path manifest_path(const std::filesystem::path& folder) { return folder / "manifest.json"; }
+namespace fs = std::filesystem;
 
 nlohmann::ordered_json files_json(const std::vector<WrittenFile>& files) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -27,32 +28,34 @@ nlohmann::ordered_json json_of(const StudyRecord& record) {
   const Manifest& manifest = record.manifest;
   nlohmann::ordered_json libraries;
   for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
-  return {{"input_sha256", manifest.input_sha256},
-          {"model_version", manifest.model_version},
-          {"program_version", manifest.program_version},
-          {"commit", manifest.commit},
-          {"compiler", manifest.compiler},
-          {"compiler_flags", manifest.compiler_flags},
-          {"build_type", manifest.build_type},
-          {"libraries", libraries},
-          {"host", manifest.host},
-          {"threads", manifest.threads},
-          {"start_time", manifest.start_time},
-          {"wall_time_s", manifest.wall_time},
-          {"study", record.study},
-          {"complete", record.complete},
-          {"files", files_json(record.files)},
-          {"failures_sha256", record.failures},
-          {"input", manifest.input_text}};
+  nlohmann::ordered_json object{{"input_sha256", manifest.input_sha256},
+                                {"model_version", manifest.model_version},
+                                {"program_version", manifest.program_version},
+                                {"commit", manifest.commit},
+                                {"compiler", manifest.compiler},
+                                {"compiler_flags", manifest.compiler_flags},
+                                {"build_type", manifest.build_type},
+                                {"libraries", libraries},
+                                {"host", manifest.host},
+                                {"threads", manifest.threads},
+                                {"start_time", manifest.start_time},
+                                {"wall_time_s", manifest.wall_time},
+                                {"study", record.study},
+                                {"complete", record.complete},
+                                {"files", files_json(record.files)},
+                                {"failures_sha256", record.failures},
+                                {"input", manifest.input_text}};
+  if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
+  return object;
 }
 
 std::vector<WrittenFile> files_from(const nlohmann::json& list) {
   std::vector<WrittenFile> files;
   for (const auto& each : list) {
-    // A name that leads out of the folder is none of ours.
+    // A name that leads out of the folder, or is one of the store's, is none of a report.
     const std::string name = each.value("name", "");
-    if (name.empty() || name == "." || name == ".." || name == "cases" ||
-        std::filesystem::path(name).filename() != name)
+    if (name.empty() || name == "." || name == ".." || name == "slurm" || name == manifest_name ||
+        is_store_name(name) || fs::path(name).filename() != name)
       continue;
     files.push_back({name, each.value("sha256", "")});
   }
@@ -91,25 +94,58 @@ StudyRecord record_from(const nlohmann::json& object) {
   for (const auto& [name, version] : libraries.items())
     record.manifest.libraries.push_back({name, version.get<std::string>()});
   record.files = files_from(object.value("files", nlohmann::json::array()));
+  record.unfinished = files_from(object.value("unfinished", nlohmann::json::array()));
   record.study = object.value("study", "");
   record.complete = object.value("complete", true);
   record.failures = object.value("failures_sha256", "");
   return record;
 }
 
-std::optional<std::string> digest_of(const std::filesystem::path& path) {
-  const auto bytes = read_file(path);
-  if (!bytes) return std::nullopt;
-  return sha256(*bytes);
+bool is_there(const fs::path& path) {
+  std::error_code failed;
+  return fs::exists(fs::symlink_status(path, failed));
+}
+
+bool has_content(const fs::path& path, const std::string& text) {
+  const Result<std::string> present = read_file(path);
+  return present && *present == text;
+}
+
+/// What both lists know.
+std::vector<WrittenFile> known_files(const StudyRecord& record) {
+  std::vector<WrittenFile> known = record.files;
+  for (const WrittenFile& file : record.unfinished)
+    if (std::ranges::find(known, file) == known.end()) known.push_back(file);
+  return known;
 }
 
 }  // namespace
 
-Result<StudyRecord> read_study_record(const std::filesystem::path& folder) {
-  const auto text = read_file(manifest_path(folder));
+std::vector<std::string> StudyRecord::names() const {
+  std::set<std::string> all;
+  for (const auto* list : {&files, &unfinished})
+    for (const WrittenFile& file : *list) all.insert(file.name);
+  return {all.begin(), all.end()};
+}
+
+FileState state_of(const fs::path& folder, const StudyRecord& record, const std::string& name) {
+  const fs::path path = folder / name;
+  if (!is_there(path)) return FileState::absent;
+  const std::vector<WrittenFile> known = known_files(record);
+  if (std::ranges::find(known, name, &WrittenFile::name) == known.end()) return FileState::foreign;
+  std::error_code failed;
+  if (!fs::is_regular_file(fs::symlink_status(path, failed))) return FileState::edited;
+  const Result<std::string> content = read_file(path);
+  if (!content) return FileState::edited;
+  const WrittenFile present{name, sha256(*content)};
+  return std::ranges::find(known, present) != known.end() ? FileState::ours : FileState::edited;
+}
+
+Result<StudyRecord> read_study_record(const fs::path& folder) {
+  const auto text = read_file((folder / manifest_name));
   if (!text) return text.error();
   const Error corrupt{Error::Kind::corrupt,
-                      fmt::format("{} is no manifest of a study", manifest_path(folder).string())};
+                      fmt::format("{} is no manifest of a study", (folder / manifest_name).string())};
   const auto object = nlohmann::json::parse(*text, nullptr, false);
   if (!object.is_object()) return corrupt;
   try {
@@ -121,22 +157,93 @@ Result<StudyRecord> read_study_record(const std::filesystem::path& folder) {
   }
 }
 
-MaybeError write_study_record(const std::filesystem::path& folder, const StudyRecord& record) {
-  return write_own_file(manifest_path(folder),
-                        json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+Result<StudyRecord> record_of_report(const fs::path& folder) {
+  Result<StudyRecord> record = read_study_record(folder);
+  if (record || record.error().kind == Error::Kind::unreadable) return record;
+  if (record.error().kind == Error::Kind::corrupt)
+    return refusal(folder / manifest_name, "is no manifest of a study");
+  // A link that leads nowhere is there, and somebody's.
+  if (is_there(folder / manifest_name)) return refusal(folder / manifest_name, foreign_file);
+  return StudyRecord{};
 }
 
-std::vector<WrittenFile> record_files(const std::filesystem::path& folder,
-                                      const std::vector<std::string>& names) {
-  std::vector<WrittenFile> files;
-  for (const std::string& name : names)
-    if (auto digest = digest_of(folder / name)) files.push_back({name, std::move(*digest)});
-  return files;
+MaybeError write_study_record(const fs::path& folder, const StudyRecord& record) {
+  const fs::path path = folder / manifest_name;
+  const std::string text =
+      json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const MaybeError error = write_file_atomically(path, text, IfExists::refuse);
+  if (!error || error->kind != Error::Kind::conflict) return error;
+  // Ours of before, or another shard's of a moment ago.
+  if (const auto present = record_of_report(folder); !present) return present.error();
+  return write_file_atomically(path, text, IfExists::replace);
 }
 
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<WrittenFile>& files) {
-  return std::all_of(files.begin(), files.end(),
-                     [&](const WrittenFile& file) { return digest_of(folder / file.name) == file.sha256; });
+Result<fs::path> set_aside(const fs::path& folder, const std::vector<std::string>& names) {
+  if (names.empty()) return fs::path{};
+  fs::path target;
+  for (int number = 1; target.empty() || is_there(target); ++number)
+    target = folder / fmt::format("earlier-{}", number);
+  std::error_code failed;
+  fs::create_directory(target, failed);
+  if (failed) return write_error(target, failed.value());
+  for (const std::string& name : names) {
+    failed = move_to_free_name(folder / name, target / name);
+    // Another shard may be moving the same files.
+    if (failed && failed != std::errc::no_such_file_or_directory)
+      return write_error(target / name, failed.value());
+  }
+  return target;
+}
+
+Result<std::vector<std::string>> write_report_files(const fs::path& folder, StudyRecord record,
+                                                    const std::vector<TextFile>& files) {
+  const Result<StudyRecord> before = record_of_report(folder);
+  if (!before) return before.error();
+  std::set<std::string> stays;
+  for (const TextFile& file : files) {
+    if (has_content(folder / file.name, file.text))
+      stays.insert(file.name);
+    else if (state_of(folder, *before, file.name) == FileState::foreign)
+      return refusal(folder / file.name, foreign_file);
+  }
+  std::vector<std::string> remarks, stale;
+  for (const std::string& name : before->names()) {
+    const FileState state = state_of(folder, *before, name);
+    if (state == FileState::edited && !stays.contains(name)) {
+      const auto aside = move_to_numbered_name(folder / name, folder / (name + ".edited"));
+      if (!aside) return aside.error();
+      remarks.push_back("a file was edited since it was written; it is kept as " + aside->string());
+    } else if (state == FileState::ours && std::ranges::find(files, name, &TextFile::name) == files.end()) {
+      stale.push_back(name);
+    }
+  }
+  std::vector<WrittenFile> written;
+  for (const TextFile& file : files) written.push_back({file.name, sha256(file.text)});
+  record.files = written;
+  record.unfinished = known_files(*before);
+  record.unfinished = known_files(record);
+  record.files.clear();
+  if (MaybeError error = write_study_record(folder, record)) return *error;
+  for (const TextFile& file : files) {
+    if (stays.contains(file.name)) continue;
+    const IfExists if_exists = is_there(folder / file.name) ? IfExists::replace : IfExists::refuse;
+    if (MaybeError error = write_file_atomically(folder / file.name, file.text, if_exists)) return *error;
+  }
+  const Result<fs::path> aside = set_aside(folder, stale);
+  if (!aside) return aside.error();
+  if (!aside->empty())
+    remarks.push_back("files of the earlier report that the new one lacks moved to " + aside->string());
+  record.files = std::move(written);
+  record.unfinished.clear();
+  if (MaybeError error = write_study_record(folder, record)) return *error;
+  return remarks;
+}
+
+bool files_unchanged(const fs::path& folder, const std::vector<WrittenFile>& files) {
+  return std::ranges::all_of(files, [&](const WrittenFile& file) {
+    const Result<std::string> content = read_file(folder / file.name);
+    return content && sha256(*content) == file.sha256;
+  });
 }
 
 }  // namespace launchsafe::store

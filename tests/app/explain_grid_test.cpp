@@ -100,7 +100,6 @@ TEST_F(ExplainedGrid, IsNotDrawnWhereItMayNotBe) {
         Wrong{{"--keys", "--grid", "grid.svg"}, "--grid"},
         Wrong{{"study.toml", "--grid", "grid.svg"}, "study.toml"},
         Wrong{{"shell.toml", "--grid", "grid.png"}, "grid.png"},
-        Wrong{{"shell.toml", "--grid", "none/grid.svg"}, "none is no folder"},
         Wrong{{"shell.toml", "--grid", "shell.toml/grid.svg"}, "shell.toml is no folder"},
         Wrong{{"shell.toml", "--grid", "mine.svg"}, "mine.svg is there"},
         Wrong{{"shell.toml", "--grid", "folder.svg"}, "folder.svg"},

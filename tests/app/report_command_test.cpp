@@ -164,7 +164,7 @@ TEST_F(ReportCommand, WithoutCaseFilesItSaysWhatTheyWouldShow) {
   EXPECT_TRUE(reports("need the case files"));
 }
 
-TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasAreTakenAway) {
+TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasMoveAside) {
   run_critical_gap();
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
   std::vector<std::string> pictures;
@@ -178,10 +178,11 @@ TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasAreTakenAway) {
   std::filesystem::remove_all(folder() / "out/cases");
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.says(pictures[0] + " was edited and stays")) << outcome.err;
-  EXPECT_EQ(read(pictures[0]), "edited");
+  EXPECT_TRUE(outcome.says(pictures[0] + ".edited-1")) << outcome.err;
+  EXPECT_EQ(read(pictures[0] + ".edited-1"), "edited");
   EXPECT_EQ(read("safety/mine.svg"), "mine");
   EXPECT_FALSE(exists(pictures[1]));
+  EXPECT_TRUE(exists(with(pictures[1], "safety/", "safety/earlier-1/")));
   EXPECT_TRUE(exists("safety/section.svg")) << "the new report has it";
 }
 

@@ -4,7 +4,6 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/case_store.hpp"
-#include "launchsafe/store/own_files.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>
@@ -151,8 +150,7 @@ class StoredStudy : public Program {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder() / name)) {
       const std::string file = std::filesystem::relative(entry.path(), folder() / name).string();
-      const bool own = file == "manifest.json" || store::is_store_name(file) ||
-                       file == store::own_files_name || file.starts_with("earlier-");
+      const bool own = file == "manifest.json" || store::is_store_name(file) || file.starts_with("earlier-");
       if (entry.is_regular_file() && !own) files[file] = read(name + "/" + file);
     }
     return files;

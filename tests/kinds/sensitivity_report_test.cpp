@@ -199,17 +199,11 @@ TEST(SensitivityReport, ATotalOrderBelowTheFirstIsCalledSamplingError) {
 }
 
 TEST(SensitivityReport, WritesItsFilesTheSameEveryTime) {
-  const Folder folder;
   SensitivityResult result = made_sensitivity();
-  const auto first = write_report(report_of(result), folder.path / "first");
+  const auto first = render_report(report_of(result)).files;
   result.timing = {99.0, 7, 29, 3e9, 88.0, 16};
-  const auto second = write_report(report_of(result), folder.path / "second");
-  ASSERT_TRUE(first) << first.error().message;
-  ASSERT_TRUE(second) << second.error().message;
-  EXPECT_EQ(first->files, second->files);
-  EXPECT_EQ(first->files.size(), gnuplot_is_there() ? 10u : 6u);
-  for (const std::string& name : first->files)
-    EXPECT_EQ(content_of(folder.path / "first" / name), content_of(folder.path / "second" / name)) << name;
+  EXPECT_EQ(first, render_report(report_of(result)).files);
+  EXPECT_EQ(first.size(), gnuplot_is_there() ? 10u : 6u);
 }
 
 }  // namespace

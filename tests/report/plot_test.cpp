@@ -111,17 +111,6 @@ TEST_F(DrawnPlot, ASinglePointIsEnough) {
   EXPECT_TRUE(to_svg(plot));
 }
 
-TEST_F(DrawnPlot, IsWrittenToAFile) {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("launchsafe-plot-" + std::to_string(::getpid()) + ".svg");
-  EXPECT_FALSE(write_svg(sample(), path));
-  EXPECT_GT(std::filesystem::file_size(path), 1000U);
-  std::filesystem::remove(path);
-  const auto error = write_svg(sample(), path / "in" / "no.svg");
-  ASSERT_TRUE(error);
-  EXPECT_EQ(error->kind, store::Error::Kind::write_failed);
-}
-
 TEST(Plot, AMissingProgramIsAnErrorThatNamesIt) {
   const auto svg = to_svg(sample(), "no-such-gnuplot");
   ASSERT_FALSE(svg);

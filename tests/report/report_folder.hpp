@@ -1,22 +1,21 @@
 // Where reports are written in tests, and what they hold.
 #pragma once
 
-#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/report.hpp"
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace launchsafe::report {
 
-inline std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+/// The text of a file of a report; empty without one of that name.
+inline std::string text_in(const RenderedReport& rendered, const std::string& name) {
+  const auto found = std::ranges::find(rendered.files, name, &TextFile::name);
+  return found == rendered.files.end() ? "" : found->text;
 }
 
 /// study.json of a study's report.

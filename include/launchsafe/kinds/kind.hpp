@@ -93,7 +93,5 @@ StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions&
 
 /// Whether a report of a study of that kind may have a file of that name, whatever the study says.
 bool may_write(const Kind& kind, std::string_view name);
-/// The same of any kind.
-bool may_write(std::string_view name);
 
 }  // namespace launchsafe::kinds

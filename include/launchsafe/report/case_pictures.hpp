@@ -8,7 +8,6 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>

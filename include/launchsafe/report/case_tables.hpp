@@ -41,8 +41,6 @@ Table combustion_history_table(const run::CombustionHistory& combustion, double 
 
 /// What the columns of these tables are.
 std::vector<Column> run_columns();
-std::vector<Column> face_columns();
-std::vector<Column> combustion_columns();
 std::vector<Column> air_energy_columns();
 
 /// The air of one gap of one case.

@@ -22,20 +22,12 @@ struct PageFacts {
   std::map<std::string, Drawing> drawings = {};  ///< by file; facts say which are shown, and where
 };
 
-struct RenderedPage {
-  std::vector<TextFile> files;       ///< report.html, report.md, report.json, and the figures
-  std::vector<std::string> remarks;  ///< why a figure is missing
-};
-
 /// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words
 /// `templates` may replace. `head`: "format", "title", "subject" and "answer" of the page. Whatever facts say
 /// is escaped, so that markup in it is shown. A figure that gnuplot does not draw is a remark, in the page
 /// too. Equal facts make equal files. Errors: corrupt (a template that cannot be rendered).
-store::Result<RenderedPage> render_page(const std::vector<PageText>& order, const PageFacts& all,
-                                        const PageTemplates& templates, const Row& head,
-                                        const DrawingLimits& limits = {});
-
-/// The files of the figures that a report.json names; none where it is no page.
-std::vector<std::string> figures_of(const std::string& report_json);
+store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
+                                          const PageTemplates& templates, const Row& head,
+                                          const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

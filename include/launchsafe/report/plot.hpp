@@ -3,8 +3,6 @@
 
 #include "launchsafe/store/program.hpp"
 
-#include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -103,15 +101,5 @@ std::string to_gnuplot(const Plot& plot);
 /// own complaint).
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot",
                                   const DrawingLimits& limits = {});
-
-/// Draws into a file, whole or not at all. Errors: those of `to_svg`, and those of `store::write_own_file`.
-store::MaybeError write_svg(const Plot& plot, const std::filesystem::path& path,
-                            const DrawingLimits& limits = {});
-
-/// Whether an error is of the drawing, so that the report is merely without the picture; otherwise the file
-/// cannot be written.
-inline bool is_of_drawing(const store::Error& error) {
-  return error.kind == store::Error::Kind::missing || error.kind == store::Error::Kind::failed;
-}
 
 }  // namespace launchsafe::report

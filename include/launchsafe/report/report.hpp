@@ -5,6 +5,7 @@
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/study_record.hpp"
 
 #include <cstddef>
 #include <filesystem>
@@ -38,10 +39,7 @@ struct Picture {
   std::string alternative;  ///< what it shows, for who cannot see it
 };
 
-/// A text in a file of its own, such as a record for other studies.
-struct TextFile {
-  std::string name, text;
-};
+using store::TextFile;
 
 struct Report {
   std::string title;
@@ -54,9 +52,9 @@ struct Report {
   std::string launch = {};                ///< a sentence that stands first: how fast the load makes the shell
 };
 
-/// What a report left in its folder.
-struct WrittenFiles {
-  std::vector<std::string> files;    ///< names in the folder, in the order written
+/// A report as it is written into a folder.
+struct RenderedReport {
+  std::vector<TextFile> files;
   std::vector<std::string> remarks;  ///< what could not be made and why, such as a missing gnuplot
   int pictures_missing = 0;          ///< because they could not be drawn: another time they may be
 };
@@ -70,9 +68,8 @@ std::string to_text(const Report& report, const std::filesystem::path& folder);
 /// The tables of study.json for a results file, by their names there.
 std::vector<store::PlainTable> plain_tables(const Report& report);
 
-/// Writes tables, files, pictures, report.md and study.json into a folder, which is made. A picture that
-/// gnuplot does not draw is a remark, and none after it is tried. Errors: conflict, write_failed.
-store::Result<WrittenFiles> write_report(const Report& report, const std::filesystem::path& folder,
-                                         const DrawingLimits& limits = {});
+/// Tables, files, pictures, report.md and study.json. A picture that gnuplot does not draw is a remark, and
+/// none after it is tried.
+RenderedReport render_report(const Report& report, const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

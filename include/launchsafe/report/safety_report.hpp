@@ -14,9 +14,9 @@ namespace launchsafe::report {
 PageTemplates built_in_templates();
 
 /// Equal evidence and criterion make equal files. Errors: corrupt (a template that cannot be rendered).
-store::Result<RenderedPage> make_safety_report(const SafetyEvidence& evidence,
-                                               const std::optional<GapCriterion>& criterion,
-                                               const PageTemplates& templates,
-                                               const DrawingLimits& limits = {});
+store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
+                                                 const std::optional<GapCriterion>& criterion,
+                                                 const PageTemplates& templates,
+                                                 const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

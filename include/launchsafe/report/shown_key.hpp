@@ -5,7 +5,6 @@
 #include "launchsafe/study/study_file.hpp"
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace launchsafe::report {

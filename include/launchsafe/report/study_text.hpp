@@ -9,10 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::report {
 

@@ -28,6 +28,12 @@ MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene
 
 /// The file beside a case file by which ParaView opens its snapshots.
 std::filesystem::path sidecar_of(const std::filesystem::path& path);
+/// Why the result of an input may not be written there: something else is, such as the result of another one.
+/// Changes nothing. Errors: conflict, unreadable, corrupt.
+MaybeError obstacle_to_case_file(const std::filesystem::path& path, const Manifest& manifest);
+/// Why the file beside it may not be written: one is there that does not follow from the case file. Changes
+/// nothing. Errors: conflict.
+MaybeError obstacle_to_sidecar(const std::filesystem::path& path);
 
 /// The bytes of a whole case file. Errors: failed (a result whose arrays do not fit together).
 Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,

@@ -13,16 +13,22 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/store/database.hpp"
+#include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
+
+struct stat;
 
 namespace launchsafe::store {
 
@@ -68,6 +74,38 @@ struct StoreOptions {
   int model_version = 0;  ///< goes into the records
   /// Called once, from any thread, when something cannot be written: the study has to end.
   std::function<void(const Error&)> on_failure;
+};
+
+/// The newest attempts on all cases.
+const SqlTable<RunRecord>& run_table();
+
+/// The names of a store's files.
+struct StoreNames {
+  std::filesystem::path folder;
+  std::string part;
+
+  std::filesystem::path cases() const { return folder / "cases"; }
+  std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
+  std::filesystem::path results() const { return folder / ("study" + suffix() + ".db"); }
+  std::filesystem::path status() const { return folder / ("status" + suffix() + ".json"); }
+  /// Ends the names of files that this part is writing.
+  std::string mark() const { return part.empty() ? "whole" : part; }
+
+ private:
+  std::string suffix() const { return part.empty() ? "" : "." + part; }
+};
+
+/// Where a writer is and how far.
+struct StoreStatus {
+  std::string host;
+  long process = 0;
+  std::string since;        ///< ISO 8601, UTC
+  std::string time;         ///< of this snapshot
+  bool ended = false;       ///< the writer closed the store
+  std::size_t stored = 0;   ///< runs whose result is in this file
+  std::size_t done = 0;     ///< of the runs that the process was asked for
+  std::size_t running = 0;  ///< of these
+  std::size_t total = 0;
 };
 
 /// A table for other programs: every row has a value for every column, perhaps nothing.
@@ -126,7 +164,7 @@ class CaseStore {
 
   /// Changes tables of the caller's in the results file. What can be drawn again is committed together with
   /// what comes after it, at the latest with the first change after a second, or by `flush`.
-  void write(const std::function<MaybeError(Database&)>& change);
+  void write(const std::function<MaybeError(Database&)>& make);
   /// Looks into them.
   void read(const std::function<void(Database&)>& look) const;
   /// Puts these in the place of all tables for other programs, at once.
@@ -139,12 +177,12 @@ class CaseStore {
   void tell_progress(std::size_t done, std::size_t running, std::size_t total);
   /// What a person should know of what was found, such as damaged files.
   std::vector<std::string> remarks() const;
-  const std::filesystem::path& folder() const;
+  const std::filesystem::path& folder() const { return names_.folder; }
 
   /// Takes over what another folder holds and this one does not: whole case files (as a second name of the
   /// same file where the file system can), their records, answers; of cases that are done in neither, the
   /// newest attempt. Damaged files there are left where they are and named in `remarks`. Errors: conflict (a
-  /// result there is of another model version, or a process writes there; nothing was copied), missing (no
+  /// result there is of another model version, or a process writes there; no record was taken), missing (no
   /// such store), corrupt, unreadable, write_failed.
   struct Imported {
     std::size_t cases = 0, already_there = 0;
@@ -152,9 +190,48 @@ class CaseStore {
   Result<Imported> import_from(const std::filesystem::path& other);
 
  private:
-  struct Content;
-  explicit CaseStore(std::unique_ptr<Content> content);
-  std::unique_ptr<Content> content_;
+  CaseStore(StoreNames names, StoreOptions options, Database database, bool writes);
+
+  /// Makes the table of runs where it is missing, and takes the rows of these files.
+  MaybeError take_over(const std::vector<std::filesystem::path>& others);
+  /// Makes a change, alone among the threads, unless something failed before; the first failure is kept and
+  /// told. `at_once`: it is on disk before this returns.
+  void change(bool at_once, const std::function<MaybeError()>& make);
+  MaybeError make_change(bool at_once, const std::function<MaybeError()>& make);
+  void fail(const Error& error);
+  MaybeError failure() const;
+
+  void put(const RunRecord& record);
+  /// Whether the record states a file of this size and time.
+  bool knows(const std::string& hash, const struct stat& file) const;
+  /// Reads and checks a file of another size or time than its record states; records it if it is whole.
+  bool adopt(const std::string& hash);
+  /// A file that is damaged, unless another thread has replaced it, counts no more. Returns its error.
+  Error give_up(const std::string& hash, const Error& damage);
+  bool is_given_up(const std::string& hash) const;
+  MaybeError write_file(const std::string& hash, std::string_view bytes);
+  void keep(const Result<std::string>& bytes, RunRecord record);
+  /// Takes over the whole result of another folder: a second name of its file where the file system can.
+  MaybeError take_file(const std::filesystem::path& file, const std::string& hash);
+  /// Where and when an attempt ended, and of which model it was.
+  void fill_in(RunRecord& record) const;
+  void remark(const std::string& text);
+  void write_status();
+
+  const StoreNames names_;
+  const StoreOptions options_;
+  const Manifest manifest_;  ///< of every case, without its input
+  const std::string host_;
+  const bool writes_;
+  mutable std::mutex naming_;  ///< held while files get their names; locked before `using_`
+  mutable std::mutex using_;   ///< of all below
+  mutable Database database_;
+  StoreStatus status_;
+  std::vector<std::string> remarks_;
+  MaybeError failure_;
+  std::set<std::string> damaged_;  ///< hashes
+  std::chrono::steady_clock::time_point batch_began_, status_written_;
+  bool has_said_who_ = false;
 };
 
 /// The results files in a folder, of the whole and of parts.

@@ -1,8 +1,5 @@
-#include "case_store_content.hpp"
-
+#include "case_store_files.hpp"
 #include "launchsafe/store/atomic_file.hpp"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -51,29 +48,22 @@ const SqlTable<RunRecord>& run_table() {
   return table;
 }
 
-Manifest common_manifest() {
-  Manifest manifest = make_manifest("", 1);
-  manifest.host.clear();
-  manifest.start_time.clear();
-  return manifest;
-}
-
 std::string to_string(CaseState state) {
   for (const auto& [each, word] : states)
     if (each == state) return word;
   return "unknown";
 }
 
-MaybeError CaseStore::Content::take_over(const std::vector<std::filesystem::path>& others) {
-  if (!database.has_table(run_table().name)) {
-    if (MaybeError error = database.run(run_table().create_statement())) return error;
+MaybeError CaseStore::take_over(const std::vector<std::filesystem::path>& others) {
+  if (!database_.has_table(run_table().name)) {
+    if (MaybeError error = database_.run(run_table().create_statement())) return error;
   }
   for (const std::filesystem::path& other : others)
-    if (MaybeError error = database.take_rows_of(other)) return told_who_writes(*error, other);
+    if (MaybeError error = database_.take_rows_of(other)) return told_who_writes(*error, other);
   return {};
 }
 
-void CaseStore::Content::change(bool at_once, const std::function<MaybeError()>& make) {
+void CaseStore::change(bool at_once, const std::function<MaybeError()>& make) {
   MaybeError failed;
   {
     const std::lock_guard lock(using_);
@@ -82,65 +72,70 @@ void CaseStore::Content::change(bool at_once, const std::function<MaybeError()>&
   if (failed) fail(*failed);
 }
 
-void CaseStore::Content::fail(const Error& error) {
+void CaseStore::fail(const Error& error) {
   {
     const std::lock_guard lock(using_);
     if (failure_) return;
     failure_ = error;
-    if (database.in_transaction()) database.roll_back();
+    if (database_.in_transaction()) database_.roll_back();
   }
-  if (options.on_failure) options.on_failure(error);
+  if (options_.on_failure) options_.on_failure(error);
 }
 
-MaybeError CaseStore::Content::make_change(bool at_once, const std::function<MaybeError()>& make) {
-  if (!database.in_transaction()) {
-    if (MaybeError error = database.run("BEGIN IMMEDIATE")) return error;
+MaybeError CaseStore::make_change(bool at_once, const std::function<MaybeError()>& make) {
+  if (!database_.in_transaction()) {
+    if (MaybeError error = database_.run("BEGIN IMMEDIATE")) return error;
     batch_began_ = Clock::now();
   }
   if (!std::exchange(has_said_who_, true)) {
-    if (MaybeError error = database.run("INSERT INTO stored_events VALUES (?, ?, ?, 'began to write')",
-                                        {utc_now(), host, std::int64_t{::getpid()}}))
+    if (MaybeError error = database_.run("INSERT INTO stored_events VALUES (?, ?, ?, 'began to write')",
+                                         {utc_now(), host_, std::int64_t{::getpid()}}))
       return error;
   }
   if (MaybeError error = make()) return error;
   if (!at_once && Clock::now() - batch_began_ < batch_time) return {};
-  return database.run("COMMIT");
+  return database_.run("COMMIT");
 }
 
-MaybeError CaseStore::Content::failure() const {
+MaybeError CaseStore::failure() const {
   const std::lock_guard lock(using_);
   return failure_;
 }
 
-MaybeError CaseStore::Content::flush() {
+MaybeError CaseStore::flush() {
   bool is_pending = false;
   {
     const std::lock_guard lock(using_);
-    is_pending = database.in_transaction();
+    is_pending = database_.in_transaction();
   }
   if (is_pending) change(true, [] { return MaybeError(); });
   return failure();
 }
 
-std::optional<RunRecord> CaseStore::Content::record_of(const std::string& hash) const {
+std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
   const std::lock_guard lock(using_);
-  auto found = run_table().select(database, {hash});
+  auto found = run_table().select(database_, {hash});
   if (!found || found->empty()) return std::nullopt;
   return std::move(found->front());
 }
 
-void CaseStore::Content::put(const RunRecord& record) {
-  change(true, [&] { return run_table().put(database, {}, record); });
+void CaseStore::put(const RunRecord& record) {
+  change(true, [&] { return run_table().put(database_, {}, record); });
 }
 
-bool CaseStore::Content::knows(const std::string& hash, const struct stat& file) const {
+bool CaseStore::is_given_up(const std::string& hash) const {
+  const std::lock_guard lock(using_);
+  return damaged_.contains(hash);
+}
+
+bool CaseStore::knows(const std::string& hash, const struct stat& file) const {
   const std::optional<RunRecord> record = record_of(hash);
   return record && record->state == CaseState::done && record->file_size == size_of(file) &&
          record->file_time == time_of(file);
 }
 
-bool CaseStore::Content::adopt(const std::string& hash) {
-  const std::filesystem::path path = names.case_file(hash);
+bool CaseStore::adopt(const std::string& hash) {
+  const std::filesystem::path path = names_.case_file(hash);
   struct stat file {};
   if (::stat(path.c_str(), &file) != 0) return false;
   const Result<CheckedFile> checked = read_checked(path, hash);
@@ -156,7 +151,7 @@ bool CaseStore::Content::adopt(const std::string& hash) {
     record.state = CaseState::done;
     record.reason.clear();
     record.wall_time = record.processor_time = 0;  // whatever took them was another attempt
-    record.host = host;
+    record.host = host_;
     record.end_time = utc_now();
   }
   record.model_version = checked->manifest.model_version;
@@ -166,22 +161,22 @@ bool CaseStore::Content::adopt(const std::string& hash) {
   return true;
 }
 
-Error CaseStore::Content::give_up(const std::string& hash, const Error& damage) {
-  const std::lock_guard no_new_names(naming);
-  const Result<CheckedFile> again = read_checked(names.case_file(hash), hash);
+Error CaseStore::give_up(const std::string& hash, const Error& damage) {
+  const std::lock_guard no_new_names(naming_);
+  const Result<CheckedFile> again = read_checked(names_.case_file(hash), hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;
   {
     const std::lock_guard lock(using_);
     damaged_.insert(hash);
   }
-  remark(damage.message +
-         (writes ? "; it does not count, and a new result takes its place" : "; it would be computed again"));
+  remark(damage.message + (writes_ ? "; it does not count, and a new result takes its place"
+                                   : "; it would be computed again"));
   return damage;
 }
 
-MaybeError CaseStore::Content::write_file(const std::string& hash, std::string_view bytes) {
-  const std::filesystem::path path = names.case_file(hash);
-  const std::string name = hash + "." + names.mark();
+MaybeError CaseStore::write_file(const std::string& hash, std::string_view bytes) {
+  const std::filesystem::path path = names_.case_file(hash);
+  const std::string name = hash + "." + names_.mark();
   MaybeError error = write_file_atomically(path, bytes, IfExists::refuse, name);
   if (!error || error->kind != Error::Kind::conflict) return error;
   // Another thread may have stored the same result meanwhile; a damaged one has done its time.
@@ -194,14 +189,14 @@ MaybeError CaseStore::Content::write_file(const std::string& hash, std::string_v
   return write_file_atomically(path, bytes, IfExists::refuse, name);
 }
 
-void CaseStore::Content::keep(const Result<std::string>& bytes, RunRecord record) {
-  const std::lock_guard one_at_a_time(naming);
+void CaseStore::keep(const Result<std::string>& bytes, RunRecord record) {
+  const std::lock_guard one_at_a_time(naming_);
   if (failure()) return;
-  if (!bytes) return fail(of_file(names.case_file(record.hash), bytes.error()));
+  if (!bytes) return fail(of_file(names_.case_file(record.hash), bytes.error()));
   if (const MaybeError error = write_file(record.hash, *bytes)) return fail(*error);
   struct stat file {};
-  if (::stat(names.case_file(record.hash).c_str(), &file) != 0)
-    return fail(write_error(names.case_file(record.hash), errno));
+  if (::stat(names_.case_file(record.hash).c_str(), &file) != 0)
+    return fail(write_error(names_.case_file(record.hash), errno));
   record.file_size = size_of(file);
   record.file_time = time_of(file);
   put(record);
@@ -209,43 +204,43 @@ void CaseStore::Content::keep(const Result<std::string>& bytes, RunRecord record
   damaged_.erase(record.hash);
 }
 
-MaybeError CaseStore::Content::take_file(const std::filesystem::path& file, const std::string& hash) {
-  const std::lock_guard one_at_a_time(naming);
-  if (::link(file.c_str(), names.case_file(hash).c_str()) == 0)
-    return sync_folder(names.cases()) ? MaybeError() : write_error(names.case_file(hash), errno);
+MaybeError CaseStore::take_file(const std::filesystem::path& file, const std::string& hash) {
+  const std::lock_guard one_at_a_time(naming_);
+  if (::link(file.c_str(), names_.case_file(hash).c_str()) == 0)
+    return sync_folder(names_.cases()) ? MaybeError() : write_error(names_.case_file(hash), errno);
   const Result<std::string> bytes = read_file(file);
   return bytes ? write_file(hash, *bytes) : bytes.error();
 }
 
-void CaseStore::Content::fill_in(RunRecord& record) const {
-  if (record.model_version == 0) record.model_version = options.model_version;
-  record.host = host;
+void CaseStore::fill_in(RunRecord& record) const {
+  if (record.model_version == 0) record.model_version = options_.model_version;
+  record.host = host_;
   record.end_time = utc_now();
 }
 
-void CaseStore::Content::remark(const std::string& text) {
+void CaseStore::remark(const std::string& text) {
   const std::lock_guard lock(using_);
-  if (std::find(remarks.begin(), remarks.end(), text) != remarks.end()) return;
-  remarks.push_back(text);
+  if (std::find(remarks_.begin(), remarks_.end(), text) != remarks_.end()) return;
+  remarks_.push_back(text);
 }
 
-void CaseStore::Content::tell_progress(std::size_t done, std::size_t running, std::size_t total) {
+void CaseStore::tell_progress(std::size_t done, std::size_t running, std::size_t total) {
   const std::lock_guard lock(using_);
-  status.done = done;
-  status.running = running;
-  status.total = total;
+  status_.done = done;
+  status_.running = running;
+  status_.total = total;
   if (Clock::now() - status_written_ < batch_time) return;
   status_written_ = Clock::now();
   write_status();
 }
 
-void CaseStore::Content::write_status() {
+void CaseStore::write_status() {
   const std::string done = "SELECT count(*) FROM stored_runs WHERE state = 'done'";
-  if (const auto count = database.rows(done))
-    status.stored = static_cast<std::size_t>(std::get<std::int64_t>(count->front().front()));
-  status.time = utc_now();
+  if (const auto count = database_.rows(done))
+    status_.stored = static_cast<std::size_t>(std::get<std::int64_t>(count->front().front()));
+  status_.time = utc_now();
   // It helps people alone, so a failure to write it is none of the store.
-  write_file_atomically(names.status(), to_text(status), IfExists::replace);
+  write_file_atomically(names_.status(), to_text(status_), IfExists::replace);
 }
 
 }  // namespace launchsafe::store
