@@ -14,6 +14,7 @@ Examples:
   launchsafe merge sweep.toml -o results shard-1 shard-2
   launchsafe emit slurm sweep.toml -o results --shards 20
   launchsafe ask results --set load.peak="510 MPa"
+  launchsafe verify
   launchsafe explain studies/scene_155mm.toml
   launchsafe plot results/scene_155mm.h5
   launchsafe init --calibre "105 mm" -o shell
@@ -22,7 +23,7 @@ Examples:
 
 Results go to stdout, progress and messages to stderr. Nothing is written but what --output names, the
 picture of explain --grid, and the pictures of plot.
-Exit codes: 0 done, 2 bad usage or input, 3 some cases failed, 4 a verdict is indeterminate,
+Exit codes: 0 done, 2 bad usage or input, 3 some cases or checks failed, 4 a verdict is indeterminate,
 70 the machine or the program failed (memory, disk, internal error), 75 interrupted.)";
 
 inline constexpr const char* run_footer = R"(
@@ -71,6 +72,11 @@ Examples:
 
 Nothing is computed: the answer is a prediction, with the error of the fit found at launches that it has not seen. A
 launch beyond those that were computed is refused. A prediction is never SAFE.)";
+
+inline constexpr const char* verify_footer = R"(
+Examples:
+  launchsafe verify                      every check
+  launchsafe verify --filter jwl         those with "jwl" in their name)";
 
 inline constexpr const char* explain_footer = R"(
 Examples:

@@ -116,6 +116,13 @@ void add_ask(CLI::App& app, CommandLine& line) {
   csv->excludes(command.get_option("--gap"));
 }
 
+void add_verify(CLI::App& app, CommandLine& line) {
+  auto [command, verify] = add_command<VerifyArguments>(
+      app, line, "verify", "Test an installed program against known numbers", verify_footer);
+  add_optional(command, "--filter", verify.filter, "TEXT",
+               "Only checks with this in their name, case ignored");
+}
+
 void add_explain(CLI::App& app, CommandLine& line) {
   auto [command, explain] = add_command<ExplainArguments>(
       app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost",
@@ -264,8 +271,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_explain, add_plot, add_init,
-                         add_import_curve, add_report})
+  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
+                         add_init, add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");

@@ -19,7 +19,7 @@ struct UsageError {
 };
 
 using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, ExplainArguments, PlotArguments, InitArguments,
+                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments, InitArguments,
                              ImportCurveArguments, ReportArguments, AskArguments>;
 
 struct CommandLine {

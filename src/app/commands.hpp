@@ -63,6 +63,11 @@ struct AskArguments {
 };
 ExitCode perform(const AskArguments& arguments, Console& console);
 
+struct VerifyArguments {
+  std::string filter;  ///< part of a check's group or name, case ignored
+};
+ExitCode perform(const VerifyArguments& arguments, Console& console);
+
 struct ExplainArguments {
   std::filesystem::path
       file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty

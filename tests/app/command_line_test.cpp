@@ -32,6 +32,7 @@ TEST_F(CommandLineProgram, EveryHelpHasExamples) {
                                              {"study", "--help"},
                                              {"merge", "--help"},
                                              {"emit", "--help"},
+                                             {"verify", "--help"},
                                              {"explain", "--help"},
                                              {"plot", "--help"}}) {
     const Outcome outcome = run(arguments);
@@ -43,8 +44,8 @@ TEST_F(CommandLineProgram, EveryHelpHasExamples) {
 
 TEST_F(CommandLineProgram, TheFirstHelpNamesEverySubcommandAndExitCode) {
   const std::string help = run({"--help"}).out;
-  for (const char* part : {"run ", "study ", "merge ", "emit ", "explain ", "plot ", "0 done", "2 bad",
-                           "3 some", "4 a verdict", "70 ", "75 interrupted"}) {
+  for (const char* part : {"run ", "study ", "merge ", "emit ", "verify ", "explain ", "plot ", "0 done",
+                           "2 bad", "3 some", "4 a verdict", "70 ", "75 interrupted"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part;
   }
 }
@@ -67,7 +68,8 @@ TEST_F(CommandLineProgram, SenselessCommandLinesAreBadUsage) {
                                              {"emit", "slurm", "study.toml", "-o", "out"},
                                              {"explain"},
                                              {"plot"},
-                                             {"explain", "scene.toml", "--keys"}}) {
+                                             {"explain", "scene.toml", "--keys"},
+                                             {"verify", "--quiet", "--filter", "no check has this name"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << (arguments.empty() ? "" : arguments.front());
     EXPECT_TRUE(outcome.out.empty()) << outcome.out;
@@ -88,6 +90,28 @@ TEST_F(CommandLineProgram, AnOutputThatCannotBeWrittenIsAnError) {
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 70);
   EXPECT_NE(read("stderr.txt").find("standard output"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, VerifyPrintsATableThatTheFilterNarrows) {
+  const Outcome outcome = run({"verify", "--filter", "JWL"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.out.find("jwl: pressure at V = 0.95"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("air: "), std::string::npos);
+  EXPECT_EQ(outcome.out.find("FAIL"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, VerifyGivesEveryNumberAsJson) {
+  const Outcome outcome = run({"verify", "--filter", "relaxation", "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  const auto object = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(object["failed"], 0);
+  EXPECT_EQ(object["passed"], object["checks"].size());
+  for (const auto& check : object["checks"]) {
+    for (const char* key : {"name", "computed", "expected", "error", "tolerance", "source"}) {
+      EXPECT_TRUE(check.contains(key)) << key;
+    }
+    EXPECT_TRUE(check["pass"]);
+  }
 }
 
 }  // namespace
