@@ -42,21 +42,31 @@ ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
   const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
   // Where the forecast has some of the runs alone, each stands for so many.
   const double each_for = runs / static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
-  std::vector<double> times;
-  for (const study::ForecastRun& run : whole.runs) times.push_back(repeats * run.time);
-  const std::vector<int> shard_of_run = study::shards_of(times, shards);
+  // All runs of a case are of one shard, as study::case_runs divides them.
+  std::vector<double> costs;
+  for (const study::ForecastRun& run : whole.runs)
+    if (run.cases > 0) costs.push_back(run.time);
+  const std::vector<int> shard_of_case = study::shards_of(costs, shards);
   ShardNeeds needs;
   for (int shard = 1; shard <= shards; ++shard) {
     std::vector<double> own_times, own_memories;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (shard_of_run[i] != shard) continue;
-      own_times.push_back(times[i]);
-      own_memories.push_back(whole.runs[i].given_up ? 0.0 : whole.runs[i].memory);
+    std::size_t next_case = 0, own_cases = 0;
+    for (const study::ForecastRun& run : whole.runs) {
+      next_case += run.cases > 0 ? 1 : 0;
+      if (shard_of_case[next_case - 1] != shard) continue;
+      own_cases += run.cases > 0 ? 1 : 0;
+      own_times.push_back(repeats * run.time);
+      own_memories.push_back(run.given_up ? 0.0 : run.memory);
     }
+    const double share = static_cast<double>(own_cases) / static_cast<double>(costs.size());
     needs.time = std::max(needs.time, each_for * time_on(own_times, jobs));
-    needs.memory = std::max(needs.memory, whole.plan_memory + sum_of_largest(own_memories, jobs));
+    needs.memory = std::max(
+        needs.memory, whole.plan_memory + share * whole.kept_memory + sum_of_largest(own_memories, jobs));
     if (own_times.empty() && whole.runs.size() == whole.run_count) ++needs.idle;
   }
+  // And gnuplot beside it.
+  constexpr double of_plots = 24e6;
+  needs.merge_memory = whole.plan_memory + whole.kept_memory + whole.report_memory + of_plots;
   return needs;
 }
 
@@ -106,6 +116,7 @@ void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts
                       {"shards", study.asked.shards},
                       {"jobs", study.asked.jobs},
                       {"memory_MiB", request.mebibytes},
+                      {"merge_memory_MiB", request.merge_mebibytes},
                       {"time_s", 60 * request.minutes},
                       {"predicted_time_s", study.needs.time},
                       {"predicted_memory_bytes", study.needs.memory}});

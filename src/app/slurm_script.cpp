@@ -17,8 +17,7 @@ namespace {
 
 constexpr double time_factor = 3.0;
 constexpr long least_minutes = 10;
-constexpr double memory_factor = 1.25;
-constexpr long spare_mebibytes = 512;
+constexpr double memory_factor = 1.3;
 constexpr double share_for_cases = 0.9;  ///< of a memory that the user states
 constexpr double mebibyte = 1024.0 * 1024.0;
 constexpr long cases_merged_a_minute = 100;  ///< far fewer than any machine does
@@ -93,10 +92,10 @@ std::string memory_text(const SlurmStudy& study) {
                        size_text(*study.asked.memory));
   }
   return fmt::format(
-      "{:.1f} MiB are predicted for the plan and the cases that run side by side; asked for are a quarter "
-      "more "
-      "and {} MiB.",
-      study.needs.memory / mebibyte, spare_mebibytes);
+      "{:.0f} MiB are predicted for the program, its plan and the cases that run side by side; asked for are "
+      "{} "
+      "times that.",
+      study.needs.memory / mebibyte, memory_factor);
 }
 
 /// The limits of a shard, as options of the program.
@@ -114,8 +113,10 @@ std::string limits_of(const SlurmStudy& study) {
 SlurmRequest request_of(const SlurmStudy& study) {
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
   const long minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
-  if (study.asked.memory) return {minutes, rounded_up(*study.asked.memory / mebibyte)};
-  return {minutes, rounded_up(memory_factor * study.needs.memory / mebibyte) + spare_mebibytes};
+  const auto mebibytes = [&](double bytes) { return rounded_up(bytes / mebibyte); };
+  const double shard = study.asked.memory.value_or(memory_factor * study.needs.memory);
+  const double merge = memory_factor * study.needs.merge_memory;
+  return {minutes, mebibytes(shard), mebibytes(std::max(study.asked.memory.value_or(0.0), merge))};
 }
 
 std::optional<std::string> fault_of(const SlurmStudy& study) {
@@ -157,6 +158,7 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
       {"mebibytes", std::to_string(request.mebibytes)},
       {"memory_text", memory_text(study)},
       {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
+      {"merge_mebibytes", std::to_string(request.merge_mebibytes)},
       {"merge_options", user_options(study, true)},
       {"output", shell_quoted(study.asked.output.string())},
       {"program", shell_quoted(study.program.string())},

@@ -15,9 +15,10 @@ namespace launchsafe::app {
 
 /// What the most demanding of a study's shards is predicted to take.
 struct ShardNeeds {
-  double time = 0;       ///< s of wall time
-  double memory = 0;     ///< bytes
-  std::size_t idle = 0;  ///< shards that have nothing to do
+  double time = 0;          ///< s of wall time
+  double memory = 0;        ///< bytes
+  double merge_memory = 0;  ///< bytes, of the merge of all shards
+  std::size_t idle = 0;     ///< shards that have nothing to do
 };
 
 /// What the scripts are written from. Paths are absolute: a job starts in any folder.
@@ -29,10 +30,10 @@ struct SlurmStudy {
   ShardNeeds needs = {};
 };
 
-/// What a shard asks Slurm for.
+/// What a shard asks Slurm for, and the merge.
 struct SlurmRequest {
   long minutes = 0;
-  long mebibytes = 0;
+  long mebibytes = 0, merge_mebibytes = 0;
 };
 SlurmRequest request_of(const SlurmStudy& study);
 /// Of the slowest shard, for people.

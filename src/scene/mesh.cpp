@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace launchsafe::scene {
@@ -28,6 +29,8 @@ class CellDensity {
         refined_(std::move(refined)) {
     std::sort(refined_.begin(), refined_.end());
   }
+
+  bool operator==(const CellDensity&) const = default;
 
   bool even() const { return !(growth_ > 1.0) || refined_.empty(); }
 
@@ -56,6 +59,14 @@ class CellDensity {
   double log_growth_;
   double reach_;  ///< m, from a refined line to where cells are as long as the largest
   std::vector<double> refined_;
+};
+
+/// What the lines of a grid follow from.
+struct GridInput {
+  std::vector<double> x, r;  ///< m, edges of bodies
+  double tolerance = 0;      ///< m
+  CellDensity along_x, along_r;
+  bool operator==(const GridInput&) const = default;
 };
 
 /// The place between two lines up to which there are so many cells.
@@ -185,10 +196,17 @@ GridLines grid_lines(const Scene& scene) {
   const std::vector<StationExtent> stations = stations_of(scene);
   const double largest_r =
       stations.empty() ? largest_x : std::min(largest_x, stations.front().r_end - stations.front().r_begin);
-  return {lines_through(std::move(x), tolerance,
-                        CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x))),
-          lines_through(std::move(r), tolerance,
-                        CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r)))};
+  GridInput input{std::move(x), std::move(r), tolerance,
+                  CellDensity(smallest, largest_x, scene.numerics.growth_x, std::move(refined_x)),
+                  CellDensity(smallest, largest_r, scene.numerics.growth_r, std::move(refined_r))};
+  // A plan is made several times of every case, and the cases of a study have the same grid as a rule.
+  thread_local std::optional<std::pair<GridInput, GridLines>> last;
+  if (!last || last->first != input) {
+    GridLines lines{lines_through(input.x, tolerance, input.along_x),
+                    lines_through(input.r, tolerance, input.along_r)};
+    last.emplace(std::move(input), std::move(lines));
+  }
+  return last->second;
 }
 
 GridLines lines_at_rest(const Scene& scene) {

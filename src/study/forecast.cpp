@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <queue>
 #include <sstream>
 
@@ -130,8 +131,10 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   run.particles = plan.particles();
   run.steps = plan.steps;
   const run::Cost cost = run::cost_of(needed.scene);
-  run.memory = cost.memory();
+  run.memory = memory_of(needed);
   run.kept = cost.kept_trace;
+  // Each has the trace so far.
+  if (needed.checkpoints) run.kept += scene::parts_of_launch * (cost.particles + 0.5 * cost.kept_trace);
   run.stored = options.store != nullptr && options.store->holds(run.hash);
   if (run.stored) {
     run.why = "stored";
@@ -152,20 +155,23 @@ double confirmation_time(const StudyFile& study, const CaseRuns& runs, double up
   return continued_cost(skin_run(input.scene.scene, study.study.largest_gap, {})) / update_rate;
 }
 
-/// Bytes of a study's cases and of what is kept of them till the report: the answers, or whole outcomes with
-/// the traces of their runs. Measured beside the traces, and 30 % more: of answers on a study of 3000 cases
-/// of two gaps, 4.7 kB each with what the store knows of its runs.
-double memory_of_plan(const StudyFile& study, const Forecast& forecast) {
-  const bool keeps_outcomes = study.in_detail || !study.study.kind.keeps_answers;
-  // A point of a measured curve has a time and a pressure, as they are and as they were given.
-  const double of_answer = 4e3 + 1e3 * static_cast<double>(study.study.gaps.size());
-  const double of_case = keeps_outcomes ? 200e3 : of_answer, of_point = 4 * 8.0;
-  const auto points = static_cast<double>(study.scene.scene.load.curve_time.size());
-  double bytes =
-      static_cast<double>(study.cases.size()) * (of_case + (keeps_outcomes ? of_point * points : 0.0));
-  if (keeps_outcomes)
-    for (const ForecastRun& run : forecast.runs) bytes += run.kept;
-  return bytes;
+/// What a study takes beside its runs, measured: the program on one core and on four, shards of 2 000 and
+/// 10 000 cases of two gaps and of twelve, and their merges.
+void add_memory_of_plan(const StudyFile& study, Forecast& forecast) {
+  constexpr double program = 25e6, of_job = 4e6, of_planned_case = 2e3;
+  const auto all = static_cast<double>(study.cases.size()), own = static_cast<double>(forecast.cases);
+  const auto gaps = static_cast<double>(study.study.gaps.size());
+  forecast.plan_memory = program + of_job * forecast.jobs + of_planned_case * all;
+  forecast.report_memory = (5e3 + 21e3 * gaps) * all;
+  if (!study.in_detail && study.study.kind.keeps_answers) {
+    forecast.kept_memory = (4e3 + 1e3 * gaps) * own;
+    return;
+  }
+  // Whole outcomes. A point of a measured curve has a time and a pressure, as they are and as they were
+  // given.
+  const double of_points = 4 * 8.0 * static_cast<double>(study.scene.scene.load.curve_time.size());
+  forecast.kept_memory = (200e3 + of_points) * own;
+  for (const ForecastRun& run : forecast.runs) forecast.kept_memory += run.kept;
 }
 
 /// Of so many cases, evenly spread over all of them.
@@ -197,7 +203,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   forecast.update_rate = update_rate;
   learn_rate(forecast, options);
   const Reasons reasons(options.store);
-  std::vector<CaseRuns> all = case_runs(study, options.shard.count);
+  std::vector<CaseRuns> all = case_runs(study, options.shard.count, study.confirmations_per_case > 0);
   std::erase_if(all, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
   for (const CaseRuns& each : all) {
     forecast.cases += each.members.size();
@@ -234,9 +240,10 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   forecast.time = share * time_on(times, forecast.jobs) + forecast.confirmation_time;
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));
-  forecast.plan_memory = memory_of_plan(study, forecast);
-  forecast.memory = forecast.plan_memory;
-  for (const double memory : memories) forecast.memory += memory;
+  add_memory_of_plan(study, forecast);
+  const double side_by_side = std::accumulate(memories.begin(), memories.end(), 0.0);
+  forecast.memory = forecast.plan_memory + forecast.kept_memory +
+                    std::max(side_by_side, options.shard.whole() ? forecast.report_memory : 0.0);
   return forecast;
 }
 

@@ -145,9 +145,8 @@ double coupling_share(const CaseOutcome& outcome) {
 GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, const RaisedLaunch& launch,
                            End end) {
   if (launch.trace == nullptr) return not_a_number;
-  const auto state = [&](double gap) {
-    return state_of(surface::ignites(launch.skin, *launch.trace, std::max(0.0, gap + launch.thicker)));
-  };
+  const surface::IgnitionOfGaps ignites(launch.skin, *launch.trace);
+  const auto state = [&](double gap) { return state_of(ignites(std::max(0.0, gap + launch.thicker))); };
   const bool towards = end == End::towards_ignition;
   const double from = towards ? 0.0 : critical.upper;
   const double to = towards ? (critical.kind == CriticalGapKind::value ? critical.upper : critical.lower)
@@ -319,9 +318,9 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
-  outcome.critical = find_critical_gap(
-      [&](double gap) { return state_of(surface::ignites(model, outcome.result.mechanics.trace, gap)); },
-      largest_gap(study), study.tolerance);
+  const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
+  outcome.critical = find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, largest_gap(study),
+                                       study.tolerance);
   if (outcome.evidence->input.has_unaccepted()) {
     const GapOrBound indicative = gap_or_bound(outcome.critical);
     outcome.critical = indeterminate(Code::unaccepted, outcome);

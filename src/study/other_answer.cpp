@@ -37,12 +37,12 @@ OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const
   });
   OtherAnswer answer;
   answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
+  const surface::IgnitionOfGaps ignites(model, trace);
   const bool all_safe =
       std::all_of(states.begin(), states.end(), [](GapState state) { return state == GapState::safe; });
-  answer.critical =
-      all_safe ? none_up_to(gaps.back(), gaps.size())
-               : find_critical_gap([&](double gap) { return state_of(surface::ignites(model, trace, gap)); },
-                                   gaps.back(), study.tolerance);
+  answer.critical = all_safe ? none_up_to(gaps.back(), gaps.size())
+                             : find_critical_gap([&](double gap) { return state_of(ignites(gap)); },
+                                                 gaps.back(), study.tolerance);
   return answer;
 }
 

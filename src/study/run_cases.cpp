@@ -101,7 +101,7 @@ class CaseLoop {
       return {reading_share * cost_of(*run), work, 0.0, {}};
     if (std::string refusal = refusal_of(run->scene, options_); !refusal.empty())
       return {1.0, work, 0.0, std::move(refusal)};
-    return {cost_of(*run), work, run::cost_of(run->scene).memory(), {}};
+    return {cost_of(*run), work, memory_of(*run), {}};
   }
 
   FinishedRun perform(std::size_t i, const CaseRun& run, const Allotment& allotment) {
@@ -235,6 +235,11 @@ PlannedRun planned_run(CaseRun run) {
 }
 
 double cost_of(const CaseRun& run) { return run.cost > 0.0 ? run.cost : cost_of(run.scene); }
+
+double memory_of(const CaseRun& run) {
+  const run::Cost cost = run::cost_of(run.scene);
+  return cost.memory() + (run.skin_gap ? cost.skins : 0.0);
+}
 
 Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
 

@@ -38,7 +38,7 @@ std::optional<double> critical_log_localisation(SkinModel model, const trace::Bo
   const auto ignites_at = [&](double log_localisation) {
     model.surface.localisation = std::exp(log_localisation);
     model.surface.exchange_time = std::exp(log_product - log_localisation);
-    return ignites(model, trace, gap);
+    return IgnitionOfGaps(model, trace)(gap);
   };
   const auto at_start = ignites_at(start);
   if (!at_start) return std::nullopt;

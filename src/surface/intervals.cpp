@@ -43,7 +43,8 @@ Intervals::Intervals(const SkinModel& model, const trace::BottomTrace& trace, do
       pressure_(from_chamber(model) ? trace.chamber_pressure : trace.bottom_pressure),
       mean_(from_chamber(model) ? trace.mean_chamber_pressure : trace.mean_bottom_pressure),
       friction_(friction_of(model, trace)),
-      ratio_(heat_capacity_ratio(model, gap)) {}
+      ratio_(heat_capacity_ratio(model, gap)),
+      rate_of_step_(per_step_rate(ratio_, 1.0, 1.0)) {}
 
 IntervalPressure Intervals::pressure(std::size_t interval) const {
   return {pressure_[interval], pressure_[interval + 1], mean_[interval + 1]};
@@ -51,7 +52,7 @@ IntervalPressure Intervals::pressure(std::size_t interval) const {
 
 double Intervals::exchange_rate(std::size_t interval) const {
   if (model_.surface.exchange == scene::Exchange::per_step) {
-    return per_step_rate(ratio_, trace_.steps[interval + 1] - trace_.steps[interval], length(interval));
+    return rate_of_step_ * (trace_.steps[interval + 1] - trace_.steps[interval]) / length(interval);
   }
   return ratio_ / model_.surface.exchange_time;
 }

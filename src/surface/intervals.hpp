@@ -50,6 +50,7 @@ class Intervals {
   const std::vector<double>& mean_;
   const std::vector<double>* friction_;  ///< nothing for the closure `none`
   double ratio_;                         ///< kappa h
+  double rate_of_step_;                  ///< per_step_rate of one step in a second
 };
 
 /// Rate (1/s) of the printed exchange, a factor 1 - kappa h in each of `steps` steps over `length` seconds.

@@ -23,13 +23,31 @@ detail::SkinEquation equation_of(const SkinModel& model, const detail::Intervals
   return equation;
 }
 
-/// The skins of stations after an interval, each by itself.
-void advance_stations(const SkinModel& model, const detail::Intervals& intervals, std::size_t interval,
-                      const std::vector<std::size_t>& stations, std::vector<SkinPoint>& points) {
+/// Of stations, K/s.
+std::vector<double> heating_of(const detail::Intervals& intervals, std::size_t interval,
+                               const std::vector<std::size_t>& stations) {
   std::vector<double> heating;
   for (const std::size_t station : stations) heating.push_back(intervals.friction_heating(interval, station));
-  detail::advance(model, equation_of(model, intervals, interval), heating, points,
-                  intervals.length(interval));
+  return heating;
+}
+
+/// The stations that tile the bottom, but for those which friction heats in no interval more than another
+/// one.
+std::vector<std::size_t> hottest_stations(const detail::Intervals& intervals,
+                                          const trace::BottomTrace& trace) {
+  const auto is_as_hot = [&](std::size_t station, std::size_t other) {
+    for (std::size_t i = 0; i < intervals.count(); ++i)
+      if (!(intervals.friction_heating(i, station) >= intervals.friction_heating(i, other))) return false;
+    return true;
+  };
+  std::vector<std::size_t> hottest;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    if (trace.stations[station].observation) continue;
+    if (std::ranges::any_of(hottest, [&](std::size_t other) { return is_as_hot(other, station); })) continue;
+    std::erase_if(hottest, [&](std::size_t other) { return is_as_hot(station, other); });
+    hottest.push_back(station);
+  }
+  return hottest;
 }
 
 /// Every station by itself under the given air (AirModel::reservoir).
@@ -47,7 +65,8 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
   std::vector<SkinPoint> points(stations, SkinPoint{model.initial_temperature});
   std::vector<bool> was_ignited(stations, false);
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    advance_stations(model, intervals, interval, all_stations, points);
+    detail::advance(model, equation_of(model, intervals, interval),
+                    heating_of(intervals, interval, all_stations), points, intervals.length(interval));
     for (std::size_t station = 0; station < stations; ++station) {
       const SkinPoint& point = points[station];
       history.temperature[(interval + 1) * stations + station] = point.temperature;
@@ -115,20 +134,31 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
   return history;
 }
 
-std::optional<bool> ignites(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  if (gap > 0.0 && model.surface.air_model == scene::AirModel::film) {
-    const SkinHistory history = integrate_skin(model, trace, gap);
+IgnitionOfGaps::IgnitionOfGaps(const SkinModel& model, const trace::BottomTrace& trace)
+    : model_(model), trace_(trace) {
+  const detail::Intervals intervals(model, trace, 0.0);
+  const std::vector<std::size_t> hottest = hottest_stations(intervals, trace);
+  for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
+    const detail::SkinEquation equation = equation_of(model, intervals, interval);
+    intervals_.push_back({equation.air, equation.air_slope, heating_of(intervals, interval, hottest)});
+  }
+}
+
+std::optional<bool> IgnitionOfGaps::operator()(double gap) const {
+  if (gap > 0.0 && model_.surface.air_model == scene::AirModel::film) {
+    const SkinHistory history = integrate_skin(model_, trace_, gap);
     if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) return std::nullopt;
     return history.ignition.has_value();
   }
-  if (trace.samples() == 0 || trace.stations.empty()) return std::nullopt;
-  const detail::Intervals intervals(model, trace, gap);
-  std::vector<std::size_t> tiles;
-  for (std::size_t station = 0; station < trace.stations.size(); ++station)
-    if (!trace.stations[station].observation) tiles.push_back(station);
-  std::vector<SkinPoint> points(tiles.size(), SkinPoint{model.initial_temperature});
-  for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    advance_stations(model, intervals, interval, tiles, points);
+  if (trace_.samples() == 0 || trace_.stations.empty()) return std::nullopt;
+  const detail::Intervals intervals(model_, trace_, gap);
+  std::vector<SkinPoint> points;
+  if (!intervals_.empty())
+    points.assign(intervals_.front().heating.size(), SkinPoint{model_.initial_temperature});
+  for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    const Interval& interval = intervals_[i];
+    const detail::SkinEquation equation{intervals.exchange_rate(i), interval.air, interval.air_slope, 0.0};
+    detail::advance(model_, equation, interval.heating, points, intervals.length(i));
     const auto is_finite = [](const SkinPoint& point) { return std::isfinite(point.temperature); };
     if (!std::ranges::all_of(points, is_finite)) return std::nullopt;
     if (std::ranges::any_of(points, &SkinPoint::ignited)) return true;

@@ -152,6 +152,8 @@ TEST_F(NeverSafe, TheReasonOfAVerdictNamesARecordThatRings) {
   run_edited(with_curve(ringing_curve()));
   EXPECT_NE(read("out/verdicts.csv").find("the record pressure.csv rings at 3.2 kHz"), std::string::npos)
       << read("out/verdicts.csv");
+  const std::string explained = run({"explain", "shell.toml"}).out;
+  EXPECT_NE(explained.find("of the peak is near the mode at 3.4"), std::string::npos) << explained;
 }
 
 TEST_F(NeverSafe, ALoadThatTheRangeTableContradictsIsRefused) {

@@ -1,7 +1,9 @@
 #!/bin/bash
 # The scripts of `launchsafe emit slurm` on a real Slurm: this machine is its only node, and it listens on the loopback
-# only. A sweep in three shards, one with tasks that are interrupted and queued again, and one with a cancelled task
-# that is submitted twice must each leave the report that one plain `launchsafe study` writes, byte for byte.
+# only. A sweep in three shards, one with tasks that are interrupted and queued again, one with a cancelled task that is
+# submitted twice, and one of 2 000 cases in 20 tasks of which some are killed, with their node too, must each leave the
+# report that one plain `launchsafe study` writes, byte for byte. A job that takes more memory than it asked for is
+# killed by Slurm.
 #
 #     tests/app/slurm.sh build/release/launchsafe
 #
@@ -83,14 +85,16 @@ SlurmctldPidFile=$folder/slurmctld.pid
 SlurmdPidFile=$folder/slurmd.pid
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
+JobAcctGatherType=jobacct_gather/linux
+JobAcctGatherFrequency=1
+JobAcctGatherParams=OverMemoryKill
 AccountingStorageType=accounting_storage/none
 MpiDefault=none
 ReturnToService=2
 SchedulerType=sched/builtin
 SchedulerParameters=sched_interval=1,sched_min_interval=0,batch_sched_delay=0
 SelectType=select/cons_tres
-SelectTypeParameters=CR_Core
+SelectTypeParameters=CR_Core_Memory
 SlurmdParameters=config_overrides
 KillWait=5
 NodeName=localhost NodeAddr=127.0.0.1 CPUs=3 RealMemory=4000
@@ -188,7 +192,7 @@ run_plainly() {
 
 emit() {
   say "emit"
-  "$program" emit slurm "$folder/$1/sweep.toml" -o "$folder/$1/out" --shards 3 --jobs 1 \
+  "$program" emit slurm "$folder/$1/sweep.toml" -o "$folder/$1/out" --shards "${2:-3}" --jobs 1 \
     --sbatch=--comment="of slurm.sh" || fail "emit ended with $?"
 }
 
@@ -203,8 +207,8 @@ submit() {
 }
 
 finish() {
-  squeue --format="%.8i %.28j %.10T %r"
-  wait_until 60 "the end of all jobs" no_jobs
+  squeue --format="%.8i %.28j %.10T %r" | head -n 8
+  wait_until "${1:-60}" "the end of all jobs" no_jobs
 }
 
 exit_code_of() { scontrol --oneliner show job "$1" | sed -n 's/.* ExitCode=\([0-9]*\):.*/\1/p' | sort -u; }
@@ -270,11 +274,78 @@ test_a_cancelled_task_stays_cancelled() {
   expect_equal_reports cancelled
 }
 
+# random_task: one that runs, or nothing.
+random_task() {
+  local tasks
+  mapfile -t tasks < <(squeue --noheader --states=RUNNING --jobs="$shards" --format=%K)
+  ((${#tasks[@]} == 0)) || echo "${tasks[RANDOM % ${#tasks[@]}]}"
+}
+a_task_runs() { [[ -n $(random_task) ]]; }
+processes_with() { pgrep --full -- "$1" || true; }  # a part of their command line
+kill_processes() { [[ -z $1 ]] || kill -KILL $1 2>/dev/null || true; }
+
+# The node's daemon and all that it started die at once; the node comes back empty, once its port is free.
+kill_node() {
+  local scripts
+  mapfile -t scripts < <(processes_with "$folder/spool/job")
+  kill_processes "${servers[-1]} $(ps --no-headers -o ppid= "${scripts[@]}") ${scripts[*]} $(processes_with "$folder/many/out")"
+  wait "${servers[-1]}" 2>/dev/null || true
+  unset 'servers[-1]'
+  scontrol update NodeName=localhost State=DOWN Reason="it does not answer"  # as after SlurmdTimeout
+  wait_until 120 "the node's return" restart_node
+}
+
+restart_node() {
+  start slurmd slurmd -D -N localhost
+  sleep 2
+  kill -0 "${servers[-1]}" || { unset 'servers[-1]' && false; }
+}
+
+kill_at_random() {
+  local kill task
+  RANDOM=33
+  for kill in {1..9}; do
+    sleep "0.$((RANDOM % 9 + 1))"
+    task=$(random_task)
+    [[ -n $task ]] || continue
+    if ((kill == 5)); then
+      say "the node of task $task dies"
+      kill_node
+    elif ((kill % 2 == 0)); then
+      say "the job of task $task is killed"
+      scancel --full --signal=KILL "${shards}_$task" || true
+    else
+      say "the process of task $task is killed"
+      kill_processes "$(processes_with "$folder/many/out --shard $task/20 ")"
+    fi
+  done
+}
+
+test_killed_tasks_of_many() {
+  say "2 000 cases in 20 tasks, killed at random"
+  write_study "$folder/many" "0.2 ms" "5 mm"
+  sed -i "s/^values = .*/values = \"$(seq --separator=", " 31 130) MPa\"/" "$folder/many/sweep.toml"
+  printf '[[vary]]\nkey = "crack_radius"\nvalues = "%s um"\n' "$(seq --separator=", " 10 29)" >>"$folder/many/sweep.toml"
+  run_plainly many
+  say "the plain study is there after $SECONDS s"
+  emit many 20
+  submit many
+  wait_until 30 "the first tasks" a_task_runs
+  kill_at_random
+  finish 240
+  expect_line "$folder/many/out/slurm/launchsafe-sweep-merge.log" "missing: "
+  submit many
+  finish 240
+  [[ $(exit_code_of "$shards") == 0 ]] || fail "a shard ended with $(exit_code_of "$shards")"
+  say "starts of tasks: $(cat "$folder"/many/out/slurm/launchsafe-sweep-[0-9]*.log | grep --count '^task ')"
+  expect_equal_reports many
+}
+
 readonly long_duration="12 ms" long_cell="1.25 mm"
 
 PATH=$PATH:/usr/sbin:/sbin
 ((EUID == 0)) || skip "only root can start Slurm's servers"
-for needed in munged slurmctld slurmd sbatch squeue scancel scontrol sinfo; do
+for needed in munged slurmctld slurmd sbatch squeue scancel scontrol sinfo pgrep; do
   command -v "$needed" >/dev/null || skip "$needed is not there; Debian: slurm-wlm, munge"
 done
 unset "${!SLURM@}" "${!SBATCH@}"
@@ -290,4 +361,6 @@ say "after $SECONDS s"
 test_interrupted_tasks_are_queued_again
 say "after $SECONDS s"
 test_a_cancelled_task_stays_cancelled
+say "after $SECONDS s"
+test_killed_tasks_of_many
 say "all done after $SECONDS s"

@@ -12,7 +12,6 @@ namespace {
 using namespace launchsafe;
 using namespace launchsafe::surface;
 
-
 double last(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station) {
   return history.temperature[(history.time.size() - 1) * trace.stations.size() + station];
 }
@@ -23,7 +22,7 @@ TEST(Ignites, SaysWhatTheWholeHistorySays) {
   int ignited = 0, safe = 0;
   for (int step = 0; step <= 20; ++step) {
     const double gap = 5e-5 * step;
-    const auto found = ignites(model, trace, gap);
+    const auto found = IgnitionOfGaps(model, trace)(gap);
     ASSERT_TRUE(found) << gap;
     EXPECT_EQ(*found, integrate_skin(model, trace, gap).ignition.has_value()) << gap;
     ++(*found ? ignited : safe);
@@ -33,10 +32,12 @@ TEST(Ignites, SaysWhatTheWholeHistorySays) {
 }
 
 TEST(Ignites, SaysNothingWithoutATraceOrWithATemperatureThatIsNone) {
-  EXPECT_FALSE(ignites(plain_model(), {}, 1e-4));
+  const SkinModel plain = plain_model();
+  const trace::BottomTrace empty;
+  EXPECT_FALSE(IgnitionOfGaps(plain, empty)(1e-4));
   trace::BottomTrace trace = smooth_launch(50, 1, friction_energy);
   trace.mean_bottom_pressure[20] = std::nan("");
-  EXPECT_FALSE(ignites(plain_model(), trace, 1e-4));
+  EXPECT_FALSE(IgnitionOfGaps(plain, trace)(1e-4));
 }
 
 TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {

@@ -19,8 +19,8 @@ struct ForecastRun {
   std::size_t cases = 0;  ///< 0 for the run with a raised load that belongs to the run before it
   std::int64_t particles = 0, steps = 0;
   double memory = 0;  ///< bytes
-  double kept = 0;    ///< bytes of its trace, which a study that keeps outcomes has till its end
-  double time = 0;    ///< s on a core, predicted; 0 for one that does not run
+  double kept = 0;  ///< bytes of its trace and checkpoints, of which a study in detail has some till its end
+  double time = 0;  ///< s on a core, predicted; 0 for one that does not run
   int shard = 1;
   bool stored = false;    ///< its result is there
   bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
@@ -39,8 +39,10 @@ struct Forecast {
   std::size_t learned_from = 0;   ///< recorded runs that the rate was learned from; 0: measured now
   double time = 0;                ///< s of wall time, of all that is to run
   double confirmation_time = 0;   ///< s of it, at most, of the confirmations of launches that are to run
-  double plan_memory = 0;         ///< bytes of all cases of the study and what is kept of them till its end
-  double memory = 0;              ///< bytes, of these and of the cases that will run side by side
+  double plan_memory = 0;         ///< bytes of the program with its plan of the whole study
+  double kept_memory = 0;         ///< bytes that are kept till the end of the cases asked for
+  double report_memory = 0;       ///< bytes of the report of all cases, besides
+  double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
   int jobs = 1;
 };
 

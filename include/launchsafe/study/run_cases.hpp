@@ -43,6 +43,8 @@ struct PlannedRun {
 PlannedRun planned_run(CaseRun run);
 /// Predicted particle updates, > 0.
 double cost_of(const CaseRun& run);
+/// Bytes, with the skin of a coupled run.
+double memory_of(const CaseRun& run);
 
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {

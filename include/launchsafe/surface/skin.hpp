@@ -59,9 +59,26 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// alone under every model of the air.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
-/// Whether any station that tiles the bottom ignites: as integrate_skin finds, sooner, as it stops there and
-/// leaves observation points out. Nothing where a temperature is not a number.
-std::optional<bool> ignites(const SkinModel& model, const trace::BottomTrace& trace, double gap);
+/// Whether gaps ignite on one trace, as integrate_skin finds, sooner: a skin is followed up to ignition,
+/// observation points are left out, and so are stations which friction heats in no interval more than
+/// another, as they are nowhere hotter. What does not depend on the gap is found once.
+class IgnitionOfGaps {
+ public:
+  /// Both outlive it.
+  IgnitionOfGaps(const SkinModel& model, const trace::BottomTrace& trace);
+  /// Whether any station that tiles the bottom ignites under a gap (m); nothing where a temperature is not a
+  /// number.
+  std::optional<bool> operator()(double gap) const;
+
+ private:
+  struct Interval {
+    double air = 0, air_slope = 0;  ///< K at its begin, K/s
+    std::vector<double> heating;    ///< K/s, of the stations that count
+  };
+  const SkinModel& model_;
+  const trace::BottomTrace& trace_;
+  std::vector<Interval> intervals_;
+};
 
 /// The same equation for one station over one interval, for run::run_with_skin and for tests: temperature
 /// after `dt` with the air at a temperature that goes linearly from `air_begin` to `air_end` and
