@@ -212,8 +212,14 @@ FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>&
     : process_(std::move(process)) {
   const Rows at = coordinates_of(process_.inputs, points);
   const Kriging of = kriging_of(process_, at, Eigen::Map<const Vector>(values.data(), at.rows()));
-  assert(of.contrast.size() > 0);
   coordinates_.assign(at.data(), at.data() + at.size());
+  if (of.contrast.size() == 0) {  // no process: points that all lie in a plane
+    const auto functions = static_cast<std::size_t>(at.rows() + of.trend.cols());
+    form_.offset = std::numeric_limits<double>::quiet_NaN();
+    form_.weights.assign(functions, form_.offset);
+    form_.matrix.assign(functions * functions, form_.offset);
+    return;
+  }
   variance_ = of.variance;
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
     left_out_errors_.push_back(of.contrasted(i) / of.contrast(i, i));

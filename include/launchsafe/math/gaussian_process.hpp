@@ -13,13 +13,13 @@ namespace launchsafe::math {
 /// Deviations from the line whose correlation falls with the distance of two points: of every input by
 /// Matern's function of order 5/2 with a length of its own, in `coordinate` of the input.
 struct GaussianProcess {
-  std::vector<ChaosBasis> inputs;
-  std::vector<double> lengths;  ///< of the inputs
-  double nugget = 0;            ///< variance of an evaluation by itself, share of that of the deviations
+  std::vector<ChaosBasis> inputs = {};
+  std::vector<double> lengths = {};  ///< of the inputs
+  double nugget = 0;                 ///< variance of an evaluation by itself, share of that of the deviations
   /// Root mean square of what the points miss the prediction from all others by; the output's unit. Lengths
   /// and nugget are those of all points.
   double leave_one_out = 0;
-  std::string reason;  ///< why there is no fit; empty where there is one
+  std::string reason = {};  ///< why there is no fit; empty where there is one
 };
 
 /// No process is fitted to more points: the time goes with their cube.
@@ -41,7 +41,8 @@ struct ProcessLikelihood {
 ProcessLikelihood process_likelihood(const GaussianProcess& process, const std::vector<double>& points,
                                      const std::vector<double>& values);
 
-/// A process with the points that it was fitted to and their values, all finite.
+/// A process with the points that it was fitted to and their values, all finite. Predicts NaN where they
+/// leave the line open.
 class FittedProcess {
  public:
   FittedProcess(GaussianProcess process, const std::vector<double>& points,
