@@ -1,5 +1,6 @@
-// launchsafe ask: what the fit of a sensitivity study predicts of a launch that nobody computed.
+// launchsafe ask: what the fit of a study predicts of a launch that nobody computed.
 #include "commands.hpp"
+#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
@@ -29,13 +30,15 @@ Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
   auto text = scene::read_text_file(file, largest_record);
   if (text) return study::parse_surrogate(*text, file.string());
   if (!text.error().file_missing) return text.error();
-  return InputError{file.string(),
-                    0,
-                    0,
-                    {},
-                    "no such file",
-                    "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"",
-                    {}};
+  return InputError{
+      file.string(),
+      0,
+      0,
+      {},
+      "no such file",
+      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of a "
+      "sweep with surrogate = true",
+      {}};
 }
 
 /// An input of the launches that are asked for.
@@ -122,15 +125,6 @@ std::optional<InputError> check_count(const std::vector<AskedInput>& inputs) {
   return fault_of_set("...", fmt::format("{:.0f} combinations", count), "up to a million");
 }
 
-/// How an output is shown.
-report::Column shown_output(const SurrogateOutput& output, const SurrogateRecord& record) {
-  if (output.name == report::quantity::critical_gap().name)
-    return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
-  std::string heading = "T max at a gap of " + scene::format_quantity(record.gap, scene::Dimension::length);
-  if (output.inert) heading += ", without reaction";
-  return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
-}
-
 /// A launch that is asked for, with a prediction of every output; none where it is farther out than any
 /// launch by which the error of the fit is known.
 struct AskedLaunch {
@@ -173,6 +167,8 @@ report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>&
     report::Column error = outputs[i];
     error.name += "_error";
     error.heading = "+-";
+    error.form.notation = keys::Notation::significant;
+    error.form.digits = 2;
     quantities.emplace_back(outputs[i], of(&study::Prediction::value));
     quantities.emplace_back(std::move(error), of(&study::Prediction::error));
   }
@@ -200,8 +196,7 @@ void predict(const SurrogateRecord& record, std::vector<AskedLaunch>& launches) 
 report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
                        const std::vector<AskedLaunch>& launches) {
   std::vector<report::Column> outputs;
-  for (const SurrogateOutput* output : predicted_outputs(record))
-    outputs.push_back(shown_output(*output, record));
+  for (const SurrogateOutput* output : predicted_outputs(record)) outputs.push_back(kinds::shown(*output));
   report::Table table = report::table_of("Predicted", launch_quantities(inputs, outputs), launches);
   std::vector<std::string> unset;
   for (const AskedInput& each : inputs)
@@ -211,14 +206,14 @@ report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInp
   for (const SurrogateOutput& output : record.outputs)
     if (!output.reason.empty())
       table.notes.push_back(
-          fmt::format("{}: not predicted, {}.", shown_output(output, record).heading, output.reason));
+          fmt::format("{}: not predicted, {}.", kinds::shown(output).heading, output.reason));
   table.notes.push_back(
       fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (+-) on each "
                   "side. Nothing is said "
                   "of a launch that is farther out than these. How far computed ones are off comes on top, "
                   "and only a launch that "
                   "was computed can be SAFE: launchsafe study.",
-                  record.fitted, record.points.size() / record.keys.size() - record.fitted));
+                  record.fitted(), record.held_out.size()));
   return table;
 }
 
@@ -245,6 +240,28 @@ std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& reco
   return fixed;
 }
 
+/// How often a gap (m) would ignite over what the inputs that are not set may be.
+nlohmann::ordered_json print_ignitions(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+                                       const AskedLaunch& launch, double gap, Console& console) {
+  const study::PredictedIgnitions of = study::predicted_ignitions(
+      record, gap, fixed_coordinates(record, inputs, record.inputs.point_of(launch.values)));
+  const auto share = [&of](std::size_t count) {
+    return report::in_words(static_cast<double>(count) / static_cast<double>(of.draws),
+                            keys::significant(3, keys::percent));
+  };
+  if (!std::ranges::all_of(inputs, &AskedInput::is_set))
+    console.print_text(fmt::format(
+        "Over what the other inputs may be: of {} draws {} ignite, {} to {} within the error of the fit; {} "
+        "are farther out than any launch by which it is known.\n",
+        of.draws, share(of.predicted), share(of.at_least), share(of.at_most), share(of.uncovered)));
+  return {{"ignitions",
+           {{"draws", of.draws},
+            {"at_least", of.at_least},
+            {"predicted", of.predicted},
+            {"at_most", of.at_most},
+            {"uncovered", of.uncovered}}}};
+}
+
 /// What a gap (m) does in one launch, and over what its other inputs may be.
 void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
                const AskedLaunch& launch, double gap, Console& console) {
@@ -254,28 +271,10 @@ void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inp
   if (found == outputs.end()) return;
   const std::string word =
       word_on(gap, *launch.predictions[static_cast<std::size_t>(found - outputs.begin())]);
-  const study::PredictedIgnitions of = study::predicted_ignitions(
-      record, gap, fixed_coordinates(record, inputs, record.inputs.point_of(launch.values)));
-  const auto share = [&of](std::size_t count) {
-    return report::in_words(static_cast<double>(count) / static_cast<double>(of.draws),
-                            keys::significant(3, keys::percent));
-  };
-  std::string text = fmt::format("\n{}: {}\n", scene::format_quantity(gap, scene::Dimension::length), word);
-  if (!std::ranges::all_of(inputs, &AskedInput::is_set))
-    text += fmt::format(
-        "Over what the other inputs may be: of {} draws {} ignite, {} to {} within the error of the fit; {} "
-        "are farther "
-        "out than any launch by which it is known.\n",
-        of.draws, share(of.predicted), share(of.at_least), share(of.at_most), share(of.uncovered));
-  console.print_text(text);
-  console.print_json({{"gap_cm", report::shown_gap(gap)},
-                      {"gap", word},
-                      {"ignitions",
-                       {{"draws", of.draws},
-                        {"at_least", of.at_least},
-                        {"predicted", of.predicted},
-                        {"at_most", of.at_most},
-                        {"uncovered", of.uncovered}}}});
+  console.print_text(fmt::format("\n{}: {}\n", scene::format_quantity(gap, scene::Dimension::length), word));
+  nlohmann::ordered_json facts{{"gap_cm", report::shown_gap(gap)}, {"gap", word}};
+  if (record.drawn) facts.update(print_ignitions(record, inputs, launch, gap, console));
+  console.print_json(facts);
 }
 
 }  // namespace

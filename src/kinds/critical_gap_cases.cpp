@@ -4,6 +4,7 @@
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"
+#include "sweep_surrogate.hpp"
 #include "vary.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +23,10 @@ std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
                       "combustion. Of a study with more than {} cases it is false unless stated.",
                       most_cases_in_detail),
           &CriticalGapSettings::confirm),
+      scene::flag_key<CriticalGapSettings>(
+          "surrogate", scene::Standing::assumed,
+          "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
+          &CriticalGapSettings::surrogate),
   };
 }
 
@@ -31,6 +36,8 @@ Fault read_critical_gap(const StudySource& source, StudyFile& study) {
 }
 
 Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
+  if (settings_of<CriticalGapSettings>(study.study).surrogate)
+    if (Fault fault = check_sweep_surrogate(study)) return fault;
   if (Fault fault = make_factorial(study)) return fault;
   const bool few = study.cases.size() <= most_cases_in_detail;
   bool& confirm = settings_of<CriticalGapSettings>(study.study).confirm;
@@ -70,6 +77,8 @@ Kind critical_gap_kind() {
                 {"critical_gaps.md"},
                 {"critical_gap", ".svg"},
                 {"critical_gaps.json"},
+                {"surrogate.json"},
+                {"ask.html"},
                 {"case_", ".h5"},
                 {"case_", ".xdmf"}},
       .results = critical_gap_results,

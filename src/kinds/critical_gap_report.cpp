@@ -5,6 +5,8 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/scene/launch_end.hpp"
+#include "surrogate_text.hpp"
+#include "sweep_surrogate.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -159,6 +161,11 @@ Report report_of(const CriticalGapResult& result) {
   GapPictures drawn = gap_pictures(result);
   for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
+  if (settings_of<CriticalGapSettings>(result.study.study).surrogate) {
+    const SurrogateRecord record = sweep_surrogate(result);
+    report.items.push_back(ReportTable{surrogate_table(record), "", "surrogate"});
+    for (TextFile& file : surrogate_files(record, result.study)) report.files.push_back(std::move(file));
+  }
   report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
   if (in_detail)
     add_details(result, report);

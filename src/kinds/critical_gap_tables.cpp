@@ -10,6 +10,7 @@
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_axes.hpp"
+#include "sweep_surrogate.hpp"
 
 #include <fmt/format.h>
 
@@ -280,6 +281,7 @@ std::vector<ResultTable> critical_gap_results() {
       {"comparison", "", keys::described(comparison_quantities(file.study.early_time))},
       {"cases", "critical_gaps.csv", std::move(cases)},
       {"cited_limits", "", cited_limit_columns()},
+      {"surrogate", "", surrogate_columns()},
       {"axis_effects", "", axis_effect_columns()}};
   for (ResultTable& each : detail_results()) tables.push_back(std::move(each));
   return tables;

@@ -15,4 +15,7 @@ std::vector<std::string> said(const std::string& name, const report::Row& facts 
 /// The same below each other, as part of a page: with a line break behind each.
 std::string said_below(const std::string& name, const report::Row& facts = report::Row::object());
 
+/// The panel of a fit, to be filled: src/kinds/templates/ask.html.
+const std::string& ask_template();
+
 }  // namespace launchsafe::kinds

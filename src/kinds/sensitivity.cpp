@@ -1,9 +1,9 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
+#include "answer_values.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "sensitivity_chaos.hpp"
-
-#include <fmt/format.h>
+#include "surrogate_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,8 @@ using namespace study;
 using namespace report;
 
 bool SensitivityResult::any_indeterminate() const {
-  return std::any_of(outputs.begin(), outputs.end(), [](const auto& each) { return !each.reason.empty(); });
+  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); }) ||
+         !std::ranges::all_of(asked_errors(*this), &AskedError::reached);
 }
 
 std::vector<SensitivityInput> inputs_of(const Study& study) {
@@ -33,31 +34,20 @@ UncertainInputs uncertain_inputs(const Study& study) {
 }
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos ||
-         evaluation % (inputs_of(study).size() + 2) < 2;
+  const SensitivitySettings& own = sensitivity_settings(study);
+  if (own.method == SensitivityMethod::sobol) return evaluation % (inputs_of(study).size() + 2) < 2;
+  return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
 }
 
 namespace {
 
 double number_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
-  if (!answer.completed()) return not_a_number;
-  if (of.output == SensitivityOutput::critical_gap) return answer.critical.value;
-  const double temperature =
-      of.inert ? answer.heated_temperature.front() : answer.verdicts.front().maximum.temperature;
+  if (of.output == SensitivityOutput::critical_gap)
+    return answer.completed() ? answer.critical.value : not_a_number;
+  const double temperature = temperature_of(answer, 0, of.inert);
   return of.output == SensitivityOutput::margin
              ? input.scene.scene.charge().kinetics.ignition_temperature - temperature
              : temperature;
-}
-
-bool any_ignites(const SensitivityResult& result) {
-  return std::any_of(result.answers.begin(), result.answers.end(), [](const CaseAnswer& answer) {
-    return !answer.verdicts.empty() && answer.verdicts.front().ignition.has_value();
-  });
-}
-
-bool is_bound(const CaseAnswer& answer) {
-  return answer.critical.kind == CriticalGapKind::all_safe ||
-         answer.critical.kind == CriticalGapKind::all_ignite;
 }
 
 void summarise(const Study& study, OutputSensitivity& output) {
@@ -73,9 +63,10 @@ void summarise(const Study& study, OutputSensitivity& output) {
   output.deviation = std::sqrt(squares / (count - 1.0));
 }
 
-void estimate(const Study& study, OutputSensitivity& output) {
+void estimate(const SensitivityResult& result, OutputSensitivity& output) {
+  const Study& study = result.study.study;
   const SensitivitySettings& own = sensitivity_settings(study);
-  if (own.method == SensitivityMethod::polynomial_chaos) return estimate_by_chaos(study, output);
+  if (own.method == SensitivityMethod::polynomial_chaos) return estimate_by_chaos(result, output);
   math::SobolOptions options;
   options.level = own.confidence;
   options.resamples = static_cast<std::size_t>(own.resamples);
@@ -85,9 +76,22 @@ void estimate(const Study& study, OutputSensitivity& output) {
 }
 
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
+  OutputSensitivity output = values_of(result, which);
+  summarise(result.study.study, output);
+  if (output.bounds > 0) {
+    output.reason = bounds_reason(output.bounds, output.values.size());
+  } else {
+    estimate(result, output);
+  }
+  return output;
+}
+
+}  // namespace
+
+OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput which) {
   OutputSensitivity output;
   output.output = which;
-  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result);
+  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
     output.values.push_back(number_of(output, answer, result.study.cases[i]));
@@ -95,24 +99,23 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
     ++output.missing;
     if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
   }
-  summarise(result.study.study, output);
-  if (output.bounds > 0) {
-    output.reason =
-        fmt::format("{} of {} critical gaps are bounds, not numbers", output.bounds, output.values.size());
-  } else {
-    estimate(result.study.study, output);
-  }
   return output;
 }
 
-}  // namespace
-
 SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
-  return run_answering<SensitivityResult>(study, options, [](SensitivityResult& result) {
-    for (const auto output :
-         {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap, SensitivityOutput::margin})
-      result.outputs.push_back(sensitivity_of(result, output));
-  });
+  return run_timed<SensitivityResult>(
+      study, options,
+      [&](SensitivityResult& result) {
+        result.answers = answer_cases(study, options, result.timing);
+        if (sensitivity_settings(study.study).method == SensitivityMethod::sobol) return;
+        result.points = chaos_points(study.study);
+        add_launches(result, options);
+      },
+      [](SensitivityResult& result) {
+        for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,
+                                  SensitivityOutput::margin})
+          result.outputs.push_back(sensitivity_of(result, output));
+      });
 }
 
 }  // namespace launchsafe::kinds

@@ -34,8 +34,8 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   return {
       scene::word_key<SensitivitySettings, SensitivityMethod>(
           "method", scene::Standing::assumed,
-          "Sobol's indices by differences, or of a polynomial that is fitted to fewer runs and held against "
-          "others.",
+          "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
+          "runs and held against others.",
           {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
           &SensitivitySettings::method),
       sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
@@ -58,6 +58,16 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
       sensitivity_number("held_out", Dimension::count, scene::between(10, 1e6),
                          "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
                          &SensitivitySettings::held_out),
+      sensitivity_number(
+          "error_of_temperature", Dimension::temperature_difference, scene::above(0),
+          "Of polynomial-chaos: runs are added where the fit is least sure until no prediction "
+          "of T max has a larger error.",
+          &SensitivitySettings::temperature_error),
+      sensitivity_number("error_of_critical_gap", Dimension::length, scene::above(0),
+                         "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
+      sensitivity_number("most_samples", Dimension::count, scene::between(2, 1e6),
+                         "With such an error: samples that are fitted at the most.",
+                         &SensitivitySettings::most_samples),
   };
 }
 
@@ -112,7 +122,25 @@ Fault make_saltelli(StudyFile& study) {
       });
 }
 
-/// The samples that a polynomial is fitted to, and those that it is held against.
+/// Errors are asked of a fit, and leave it room for more samples.
+Fault check_asked_errors(const StudyFile& study) {
+  const SensitivitySettings& own = sensitivity_settings(study.study);
+  const bool is_fit = own.method == SensitivityMethod::polynomial_chaos;
+  for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
+    if (study.places.contains(key) && !is_fit)
+      return fault_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
+  const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
+  if (asks && own.most_samples < own.samples)
+    return fault_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
+                    fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
+                    "most_samples of at least samples");
+  if (!asks && study.places.contains("most_samples"))
+    return fault_at(study, "most_samples", "no error that is asked",
+                    "error_of_temperature or error_of_critical_gap beside it");
+  return std::nullopt;
+}
+
+/// The samples that a fit begins with, and those that it is held against.
 Fault make_chaos_samples(StudyFile& study) {
   const Study& s = study.study;
   const SensitivitySettings& own = sensitivity_settings(s);
@@ -145,6 +173,7 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
     return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
                     fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
+  if (Fault fault = check_asked_errors(study)) return fault;
   return sensitivity_settings(study.study).method == SensitivityMethod::sobol ? make_saltelli(study)
                                                                               : make_chaos_samples(study);
 }
@@ -169,6 +198,7 @@ Kind sensitivity_kind() {
                 {"histogram.csv"},
                 {"histogram.svg"},
                 {"surrogate.json"},
+                {"ask.html"},
                 {"sensitivity_", ".svg"}},
       .results = sensitivity_results,
   };

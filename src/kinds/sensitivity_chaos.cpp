@@ -1,53 +1,126 @@
 #include "sensitivity_chaos.hpp"
 
 #include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "sensitivity_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace launchsafe::kinds {
 
 namespace {
 
-using study::Study, study::Axis, study::SurrogateRecord, study::UncertainInputs;
-
-constexpr std::size_t fewest_held_out = 10;
-constexpr double most_unexplained = 0.1;
-
-/// How far a fit is off the evaluations from `fitted` on.
-void find_error(const std::vector<double>& points, const std::vector<double>& values, std::size_t fitted,
-                SurrogateFit& fit) {
-  double squares = 0.0, largest = 0.0;
-  for (std::size_t row = fitted; row < values.size(); ++row) {
-    if (!std::isfinite(values[row])) continue;
-    const double miss =
-        std::abs(fit.chaos.at(math::point_of_row(points, row, fit.chaos.inputs.size())) - values[row]);
-    squares += miss * miss;
-    largest = std::max(largest, miss);
-    ++fit.held_out;
-  }
-  if (fit.held_out == 0) return;
-  const double mean_square = squares / static_cast<double>(fit.held_out);
-  fit.error = std::sqrt(mean_square);
-  fit.largest_error = largest;
-  fit.unexplained = mean_square / fit.chaos.variance();
-}
-
-std::string why_no_indices(const SurrogateFit& fit) {
-  if (fit.held_out < fewest_held_out)
-    return fmt::format("only {} evaluations that were not fitted have a number, at least {} are needed",
-                       fit.held_out, fewest_held_out);
-  if (fit.unexplained <= most_unexplained) return {};
-  return fmt::format("the fit misses {:.2g} % of the variance at evaluations that it has not seen",
-                     100.0 * fit.unexplained);
-}
+using namespace study;
 
 void widen(math::Estimate& estimate, double by) {
   estimate.lower = std::max(0.0, estimate.lower - by);
   estimate.upper = std::min(1.0, estimate.upper + by);
+}
+
+/// The launches of a result, without outputs.
+SurrogateRecord launches_of(const SensitivityResult& result) {
+  const Study& study = result.study.study;
+  const SensitivitySettings& own = sensitivity_settings(study);
+  SurrogateRecord record{.model_version = run::model_version,
+                         .scene = result.study.scene.scene,
+                         .gap = study.gaps.front(),
+                         .inputs = uncertain_inputs(study),
+                         .points = result.points,
+                         .held_out = std::vector<std::size_t>(static_cast<std::size_t>(own.held_out))};
+  std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
+  scene::clear_remarks(record.scene);
+  for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
+  return record;
+}
+
+SurrogateOutput unfitted(const SensitivityResult& result, const OutputSensitivity& output) {
+  return {.name = shown_output(output.output).column.name,
+          .gap = result.study.study.gaps.front(),
+          .inert = output.inert,
+          .values = output.values};
+}
+
+std::vector<std::size_t> begins_of(const Study& study) {
+  std::vector<std::size_t> begins;
+  for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
+  begins.push_back(study.axes.size());
+  return begins;
+}
+
+/// By differences, as of launches, of as many predictions as it takes.
+math::SobolIndices process_indices(const Study& study, const Surrogate& surrogate,
+                                   const math::SobolOptions& options) {
+  constexpr std::size_t rows = 1024;
+  std::vector<std::size_t> columns;
+  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
+  const math::SaltelliDesign design =
+      math::saltelli_design(math::Design::scrambled_sobol, rows, columns, options.seed);
+  std::vector<double> values;
+  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
+    values.push_back(surrogate.at(design.point(evaluation)).value);
+  return math::sobol_indices(columns.size(), values, options);
+}
+
+/// What is asked of an output.
+double asked_error(const Study& study, SensitivityOutput output) {
+  const SensitivitySettings& own = sensitivity_settings(study);
+  if (output == SensitivityOutput::maximum_temperature) return own.temperature_error;
+  return output == SensitivityOutput::critical_gap ? own.critical_gap_error : not_a_number;
+}
+
+/// The output whose error is the most times what is asked, with launches that would lessen it; none where all
+/// are reached or nothing is predicted.
+std::vector<double> next_points(const SensitivityResult& result, std::size_t count) {
+  const Study& study = result.study.study;
+  const SurrogateRecord record = launches_of(result);
+  double worst = 1.0;
+  SurrogateOutput of;
+  for (const auto which : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap}) {
+    const double asked = asked_error(study, which);
+    const OutputSensitivity output = values_of(result, which);
+    if (std::isnan(asked) || output.bounds > 0) continue;
+    SurrogateOutput fitted = unfitted(result, output);
+    fit_output(record, fitted);
+    if (!fitted.reason.empty()) continue;
+    const double excess = Surrogate(record, fitted).largest_error() / asked;
+    if (!(excess > worst)) continue;
+    worst = excess;
+    of = std::move(fitted);
+  }
+  if (of.values.empty()) return {};
+  return least_sure_points(record, of, count,
+                           math::hashed(sensitivity_settings(study).seed, 2 + result.answers.size()));
+}
+
+/// Computes launches at these points and adds them; false where they are not all there.
+bool add_round(SensitivityResult& result, const std::vector<double>& points, const StudyOptions& options) {
+  const UncertainInputs inputs = uncertain_inputs(result.study.study);
+  const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
+  StudyFile round = result.study;
+  round.cases = {};
+  const Fault fault = add_varied_cases(
+      round, points.size() / axes,
+      [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
+      [&](std::size_t row, const StudyCase&) { return fmt::format("added {}", known - designed + row + 1); });
+  if (fault) return false;
+  const std::vector<CaseAnswer> answers = answer_cases(round, options, result.timing);
+  const bool missing = std::ranges::any_of(
+      answers, [](const CaseAnswer& answer) { return answer.outcome == RunOutcome::not_stored; });
+  if (missing || stop_requested(options)) return false;
+  for (std::size_t row = 0; row < answers.size(); ++row) {
+    result.study.cases.add(round.cases.label(row), round.cases.coordinates(row));
+    result.answers.push_back(answers[row]);
+  }
+  result.points.insert(result.points.end(), points.begin(), points.end());
+  return true;
 }
 
 }  // namespace
@@ -63,47 +136,57 @@ std::vector<double> chaos_points(const Study& study) {
   return points;
 }
 
-void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
+void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output) {
+  const Study& study = result.study.study;
   const SensitivitySettings& own = sensitivity_settings(study);
-  const std::vector<double> points = chaos_points(study);
-  const auto fitted = static_cast<std::size_t>(own.samples);
-  const std::vector<double> fitted_points(
-      points.begin(), points.begin() + static_cast<std::ptrdiff_t>(fitted * study.axes.size()));
-  const std::vector<double> values(output.values.begin(),
-                                   output.values.begin() + static_cast<std::ptrdiff_t>(fitted));
-  std::vector<std::size_t> begins;
-  for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
-  begins.push_back(study.axes.size());
-  SurrogateFit& fit = output.fit.emplace();
-  fit.chaos = math::fit_chaos(uncertain_inputs(study).bases(), fitted_points, values);
-  output.sobol = math::chaos_indices(
-      fit.chaos, fitted_points, values, begins,
-      {.level = own.confidence, .resamples = static_cast<std::size_t>(own.resamples), .seed = own.seed});
-  output.reason = output.sobol.reason;
+  const SurrogateRecord record = launches_of(result);
+  SurrogateOutput& fit = output.fit.emplace(unfitted(result, output));
+  fit_output(record, fit);
+  output.reason = fit.reason;
   if (!output.reason.empty()) return;
-  find_error(points, output.values, fitted, fit);
-  output.reason = why_no_indices(fit);
+  const math::SobolOptions options{
+      .level = own.confidence, .resamples = static_cast<std::size_t>(own.resamples), .seed = own.seed};
+  const math::FiniteRows rows = record.fitted_rows(fit.values);
+  output.sobol = fit.fit.by_process() ? process_indices(study, Surrogate(record, fit), options)
+                                      : math::chaos_indices(fit.fit.chaos, rows.points, rows.values,
+                                                            begins_of(study), options);
+  output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)
-    for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.unexplained);
+    for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.error.unexplained);
+}
+
+void add_launches(SensitivityResult& result, const StudyOptions& options) {
+  constexpr std::size_t round = 8;
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  if (!options.shard.whole()) return;
+  for (;;) {
+    const std::size_t fitted = result.answers.size() - static_cast<std::size_t>(own.held_out);
+    const std::size_t left = static_cast<std::size_t>(own.most_samples) -
+                             std::min(fitted, static_cast<std::size_t>(own.most_samples));
+    if (left == 0 || stop_requested(options)) return;
+    const std::vector<double> points = next_points(result, std::min(round, left));
+    if (points.empty() || !add_round(result, points, options)) return;
+  }
+}
+
+std::vector<AskedError> asked_errors(const SensitivityResult& result) {
+  std::vector<AskedError> errors;
+  for (const OutputSensitivity& output : result.outputs) {
+    const double asked = asked_error(result.study.study, output.output);
+    if (std::isnan(asked)) continue;
+    errors.push_back({output.output, asked});
+    if (output.fit && output.fit->reason.empty())
+      errors.back().found = Surrogate(launches_of(result), *output.fit).largest_error();
+  }
+  return errors;
 }
 
 SurrogateRecord surrogate_record(const SensitivityResult& result) {
-  const Study& study = result.study.study;
-  SurrogateRecord record{.model_version = run::model_version,
-                         .scene = result.study.scene.scene,
-                         .gap = study.gaps.front(),
-                         .inputs = uncertain_inputs(study),
-                         .fitted = static_cast<std::size_t>(sensitivity_settings(study).samples),
-                         .points = chaos_points(study)};
-  scene::clear_remarks(record.scene);
-  for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
+  SurrogateRecord record = launches_of(result);
   for (const OutputSensitivity& output : result.outputs) {
     if (output.output == SensitivityOutput::margin) continue;  // of T max and the ignition temperature
-    record.outputs.push_back({.name = shown_output(output.output).column.name,
-                              .inert = output.inert,
-                              .values = output.values,
-                              .reason = output.reason});
-    if (output.fit) record.outputs.back().fit = output.fit->chaos;
+    record.outputs.push_back(output.fit ? *output.fit : unfitted(result, output));
+    record.outputs.back().reason = output.reason;
   }
   return record;
 }

@@ -1,4 +1,5 @@
-// Sensitivity by polynomial chaos: the points where the launch is computed, the fit, and its error.
+// Sensitivity by a fit: the points where the launch is computed, the fit, its error, and the launches that
+// are added until that is as small as is asked.
 #pragma once
 
 #include "launchsafe/kinds/sensitivity.hpp"
@@ -11,10 +12,18 @@ namespace launchsafe::kinds {
 /// held out.
 std::vector<double> chaos_points(const study::Study& study);
 
-/// The fit to the values of an output, its error at those that are held out, and the indices, whose intervals
-/// are widened by the share of the variance that it does not explain. No indices where that is more than a
-/// tenth, or not known from 10 evaluations at least.
-void estimate_by_chaos(const study::Study& study, OutputSensitivity& output);
+/// Fits an output that has its values, and finds its indices: of a polynomial by its terms, of a process by
+/// differences. Their intervals are widened by the share of the variance that the fit does not explain. None
+/// where nothing is predicted (study::fit_output).
+void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output);
+
+/// The values of an output of all cases, without indices and fit.
+OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput which);
+
+/// Adds launches to a result that has those of its design, until the errors that are asked are reached or
+/// there are as many as may be. None without an error that is asked, of a shard, or where runs are not stored
+/// and may not be computed.
+void add_launches(SensitivityResult& result, const study::StudyOptions& options);
 
 /// What was fitted, for `launchsafe ask`. Of a study that has its outputs.
 study::SurrogateRecord surrogate_record(const SensitivityResult& result);

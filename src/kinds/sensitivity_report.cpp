@@ -9,6 +9,7 @@
 #include "sensitivity_chaos.hpp"
 #include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
+#include "surrogate_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -29,6 +30,13 @@ namespace {
 std::string text_of(math::Design design) {
   constexpr std::array names{"independent random points", "a Latin hypercube", "a scrambled Sobol sequence"};
   return names.at(static_cast<std::size_t>(design));
+}
+
+/// Launches besides those of the design of a fit.
+std::size_t added_launches(const SensitivityResult& result) {
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const std::size_t launches = own.method == SensitivityMethod::sobol ? 0 : result.answers.size();
+  return launches - std::min(launches, static_cast<std::size_t>(own.samples + own.held_out));
 }
 
 /// How indices are found.
@@ -87,6 +95,7 @@ std::string method_text(const SensitivityResult& result) {
   Row facts = method_facts(result);
   facts.update({{"is_fit", own.method == SensitivityMethod::polynomial_chaos},
                 {"held_out", own.held_out},
+                {"added", added_launches(result)},
                 {"design", text_of(own.design)},
                 {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
                 {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
@@ -159,6 +168,24 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
   return what + ": " + said("sensitivity.answer", facts).front();
 }
 
+/// What became of the errors that are asked of the fit.
+std::vector<std::string> asked_text(const SensitivityResult& result) {
+  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  std::vector<std::string> lines;
+  for (const AskedError& error : asked_errors(result)) {
+    const ShownOutput& shown = shown_output(error.output);
+    const keys::Form form = keys::significant(3, {shown.column.form.dimension, shown.column.form.unit});
+    const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
+    Row facts{
+        {"output", shown.phrase},     {"asked", in_words(error.asked, form)},
+        {"reached", error.reached()}, {"fitted", fitted},
+        {"most", own.most_samples},   {"used_up", fitted >= static_cast<std::size_t>(own.most_samples)}};
+    if (std::isfinite(error.found)) facts["found"] = in_words(error.found, form);
+    lines.push_back(said("sensitivity.asked", facts).front());
+  }
+  return lines;
+}
+
 std::vector<std::string> failed_text(const SensitivityResult& result) {
   const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
   const double share = static_cast<double>(failed) / static_cast<double>(all);
@@ -188,6 +215,7 @@ std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
+  for (std::string& line : asked_text(result)) lines.push_back(std::move(line));
   lines.push_back(samples_text(result));
   for (std::string& line : failed_text(result)) lines.push_back(std::move(line));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
@@ -217,7 +245,7 @@ Report report_of(const SensitivityResult& result) {
   report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
                                      most_evaluation_rows});
   if (has_fit(result) && !result.outputs.empty())
-    report.files.push_back({"surrogate.json", to_json_text(surrogate_record(result))});
+    report.files = surrogate_files(surrogate_record(result), result.study);
   report.json = study_json(result.study, report,
                            {{"method", method_json(result)},
                             {"gap_cm", number(shown_gap(result.study.study.gaps.front()))},

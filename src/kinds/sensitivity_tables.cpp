@@ -9,6 +9,7 @@
 #include "launchsafe/report/verdict_text.hpp"
 #include "sensitivity_samples.hpp"
 #include "sensitivity_text.hpp"
+#include "surrogate_text.hpp"
 
 #include <fmt/format.h>
 
@@ -92,37 +93,23 @@ Quantities<OutputRow> output_quantities() {
   const auto shown = [](double OutputSensitivity::*member) {
     return [member](OutputRow row) { return shown_output(row->output).value(row->*member); };
   };
-  const auto of_fit = [](auto get) {
-    return [get](OutputRow row) { return row->fit ? std::invoke(get, *row->fit) : std::nullopt; };
-  };
-  const auto error_of = [](auto get) {
-    return [get](OutputRow row) {
-      return row->fit ? shown_output(row->output).value(std::invoke(get, *row->fit)) : not_a_number;
-    };
-  };
-  return {
-      {quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
-      {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
-      {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
-       shown(&OutputSensitivity::mean)},
-      {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
-       shown(&OutputSensitivity::deviation)},
-      {{"missing", "without a number", count(), "Evaluations without a number."},
-       &OutputSensitivity::missing},
-      {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."}, &OutputSensitivity::bounds},
-      {{"fitted", "fitted", count(), "Evaluations that a polynomial was fitted to."},
-       of_fit([](const SurrogateFit& fit) { return std::optional(fit.chaos.points); })},
-      {{"terms", "terms", count(), "Terms of the polynomial."},
-       of_fit([](const SurrogateFit& fit) { return std::optional(fit.chaos.terms.size()); })},
-      {{"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the fit."},
-       error_of([](const SurrogateFit& fit) { return fit.chaos.leave_one_out; })},
-      {{"held_out", "held out", count(), "Evaluations that were not fitted."},
-       of_fit([](const SurrogateFit& fit) { return std::optional(fit.held_out); })},
-      {{"held_out_error", "error there", significant(2), "Root mean square of the fit's error there."},
-       error_of(&SurrogateFit::error)},
-      {{"held_out_largest", "largest there", significant(2), "Largest error of the fit there."},
-       error_of(&SurrogateFit::largest_error)},
-      {quantity::reason(), &OutputSensitivity::reason}};
+  return keys::joined<OutputRow>(
+      {{{quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
+        {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
+        {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
+         shown(&OutputSensitivity::mean)},
+        {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
+         shown(&OutputSensitivity::deviation)},
+        {{"missing", "without a number", count(), "Evaluations without a number."},
+         &OutputSensitivity::missing},
+        {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."},
+         &OutputSensitivity::bounds}},
+       keys::of_part<OutputRow>(
+           fit_quantities(),
+           [](OutputRow row) {
+             return FitRow{shown_output(row->output).column, row->fit ? &*row->fit : nullptr};
+           }),
+       {{quantity::reason(), &OutputSensitivity::reason}}});
 }
 
 /// One evaluation.
@@ -171,6 +158,7 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
             {"bounds", output.bounds},
             {"method", method_text(result)},
             {"inert", output.inert},
+            {"by_process", output.fit && output.fit->fit.by_process()},
             {"apart", false}};
   // Inputs that show sampling error by their estimates, with their intervals.
   const auto inputs = shown_inputs(result.study.study);

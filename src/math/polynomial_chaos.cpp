@@ -30,8 +30,7 @@ Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 /// Orthonormal polynomials of degree 0 to `degree` of one input at u.
 std::vector<double> polynomials(ChaosBasis basis, int degree, double u) {
   std::vector<double> values{1.0};
-  const double x =
-      basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(boost::math::normal(), u);
+  const double x = coordinate(basis, u);
   double before = 0.0, here = 1.0;
   for (int n = 0; n < degree; ++n) {
     const double next = basis == ChaosBasis::legendre ? ((2 * n + 1) * x * here - n * before) / (n + 1)
@@ -155,24 +154,6 @@ Pursuit pursue(const Matrix& all, const Vector& values) {
   return best;
 }
 
-/// Points and values of the rows whose value is finite.
-struct Rows {
-  std::vector<double> points;
-  Vector values;
-};
-Rows finite_rows(std::size_t inputs, const std::vector<double>& points, const std::vector<double>& values) {
-  Rows rows;
-  std::vector<double> finite;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!std::isfinite(values[row])) continue;
-    finite.push_back(values[row]);
-    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
-    rows.points.insert(rows.points.end(), begin, begin + static_cast<std::ptrdiff_t>(inputs));
-  }
-  rows.values = Eigen::Map<const Vector>(finite.data(), index(finite.size()));
-  return rows;
-}
-
 /// Shares of the variance by the groups that a term has.
 struct Shares {
   std::vector<double> first, total;
@@ -213,7 +194,34 @@ Vector coefficients_of(const PolynomialChaos& chaos) {
   return coefficients;
 }
 
+Vector vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Vector>(values.data(), index(values.size()));
+}
+
 }  // namespace
+
+double coordinate(ChaosBasis basis, double u) {
+  return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(boost::math::normal(), u);
+}
+
+FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
+                       const std::vector<double>& values) {
+  FiniteRows rows;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isfinite(values[row])) continue;
+    rows.values.push_back(values[row]);
+    const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * inputs);
+    rows.points.insert(rows.points.end(), begin, begin + static_cast<std::ptrdiff_t>(inputs));
+  }
+  return rows;
+}
+
+FitValue FittedForm::at(const std::vector<double>& functions) const {
+  assert(functions.size() == weights.size());
+  const Vector of = vector_of(functions);
+  const Eigen::Map<const Matrix> products(matrix.data(), of.size(), of.size());
+  return {of.dot(vector_of(weights)), offset + of.dot(products * of)};
+}
 
 double PolynomialChaos::at(const std::vector<double>& point) const {
   assert(point.size() == inputs.size());
@@ -236,17 +244,18 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
   assert(!inputs.empty() && points.size() == inputs.size() * values.size());
   PolynomialChaos chaos;
   chaos.inputs = inputs;
-  const Rows rows = finite_rows(inputs.size(), points, values);
-  chaos.points = static_cast<std::size_t>(rows.values.size());
+  const FiniteRows rows = finite_rows(inputs.size(), points, values);
+  chaos.points = rows.values.size();
   if (chaos.points < fewest_chaos_points(inputs.size())) {
     chaos.reason = "too few evaluations have a number for a fit";
     return chaos;
   }
+  const Vector values_there = vector_of(rows.values);
   chaos.leave_one_out = std::numeric_limits<double>::infinity();
   for (int degree = 1; degree <= highest_degree; ++degree) {
     const auto candidates = candidates_of(inputs.size(), degree);
     if (candidates.size() > most_candidates_a_point * chaos.points) break;
-    const Pursuit found = pursue(matrix_of(inputs, candidates, degree, rows.points), rows.values);
+    const Pursuit found = pursue(matrix_of(inputs, candidates, degree, rows.points), values_there);
     if (!(found.fit.leave_one_out < chaos.leave_one_out)) continue;
     chaos.leave_one_out = found.fit.leave_one_out;
     chaos.degree = degree;
@@ -263,20 +272,16 @@ FittedChaos::FittedChaos(PolynomialChaos chaos, const std::vector<double>& point
   const Matrix terms = matrix_of(chaos_.inputs, degrees_of(chaos_), chaos_.degree, points);
   const Matrix inverse =
       (terms.transpose() * terms).ldlt().solve(Matrix::Identity(terms.cols(), terms.cols()));
-  inverse_.assign(inverse.data(), inverse.data() + inverse.size());
+  form_.matrix.assign(inverse.data(), inverse.data() + inverse.size());
+  for (const ChaosTerm& term : chaos_.terms) form_.weights.push_back(term.coefficient);
 }
 
-FittedChaos::Value FittedChaos::at(const std::vector<double>& point) const {
+FitValue FittedChaos::at(const std::vector<double>& point) const {
   assert(point.size() == chaos_.inputs.size());
   const auto of_inputs = polynomials_at(chaos_.inputs, chaos_.degree, point.data());
-  Vector terms(index(chaos_.terms.size()));
-  double value = 0.0;
-  for (std::size_t i = 0; i < chaos_.terms.size(); ++i) {
-    terms(index(i)) = product(chaos_.terms[i].degrees, of_inputs);
-    value += chaos_.terms[i].coefficient * terms(index(i));
-  }
-  const Eigen::Map<const Matrix> inverse(inverse_.data(), terms.size(), terms.size());
-  return {value, terms.dot(inverse * terms)};
+  std::vector<double> terms;
+  for (const ChaosTerm& term : chaos_.terms) terms.push_back(product(term.degrees, of_inputs));
+  return form_.at(terms);
 }
 
 SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<double>& points,
@@ -286,7 +291,7 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
   indices.reason = chaos.reason;
   indices.inputs.assign(begins.size() - 1, {no_estimate, no_estimate});
   if (!indices.reason.empty()) return indices;
-  const Rows rows = finite_rows(chaos.inputs.size(), points, values);
+  const FiniteRows rows = finite_rows(chaos.inputs.size(), points, values);
   indices.rows_used = chaos.points;
   indices.rows_left_out = values.size() - chaos.points;
   indices.mean = chaos.mean();
@@ -296,6 +301,7 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
     return indices;
   }
   const Matrix matrix = matrix_of(chaos.inputs, degrees_of(chaos), chaos.degree, rows.points);
+  const Vector fitted_values = vector_of(rows.values);
   const Shares own = shares_of(chaos.terms, coefficients_of(chaos), begins);
   std::vector<std::vector<double>> first(own.first.size()), total(own.first.size());
   SplitMix64 random(options.seed);
@@ -304,7 +310,7 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
     const Vector weights = Eigen::Map<const Vector>(counts.data(), matrix.rows());
     const Eigen::LDLT<Matrix> normal((matrix.transpose() * weights.asDiagonal() * matrix).eval());
     if (normal.info() != Eigen::Success || !(normal.rcond() > 1e-12)) continue;
-    const Vector coefficients = normal.solve(matrix.transpose() * weights.cwiseProduct(rows.values));
+    const Vector coefficients = normal.solve(matrix.transpose() * weights.cwiseProduct(fitted_values));
     const Shares shares = shares_of(chaos.terms, coefficients, begins);
     for (std::size_t group = 0; group < first.size(); ++group) {
       first[group].push_back(shares.first[group]);

@@ -2,6 +2,8 @@
 
 #include "launchsafe/math/statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,15 +18,21 @@ const math::Distribution& standard_normal() {
   return normal;
 }
 
-/// Of the launches that were fitted those that have a number.
-std::vector<double> fitted_points(const SurrogateRecord& record, const SurrogateOutput& output) {
-  std::vector<double> points;
-  for (std::size_t row = 0; row < record.fitted; ++row) {
-    if (!std::isfinite(output.values[row])) continue;
-    const auto point = math::point_of_row(record.points, row, record.keys.size());
-    points.insert(points.end(), point.begin(), point.end());
-  }
-  return points;
+/// The launches that were fitted and have a number, by what was chosen.
+std::variant<math::FittedChaos, math::FittedProcess> fitted(const SurrogateRecord& record,
+                                                            const SurrogateOutput& output) {
+  const math::FiniteRows all = record.fitted_rows(output.values);
+  const math::FiniteRows rows = math::finite_rows(record.keys.size(), all.points, all.values);
+  if (output.fit.by_process()) return math::FittedProcess(output.fit.process, rows.points, rows.values);
+  return math::FittedChaos(output.fit.chaos, rows.points);
+}
+
+double variance_of(const std::vector<double>& values) {
+  const double count = static_cast<double>(values.size());
+  double mean = 0.0, squares = 0.0;
+  for (const double value : values) mean += value / count;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return squares / count;
 }
 
 }  // namespace
@@ -69,32 +77,108 @@ std::vector<math::ChaosBasis> UncertainInputs::bases() const {
   return bases;
 }
 
+math::FiniteRows SurrogateRecord::fitted_rows(const std::vector<double>& values) const {
+  math::FiniteRows rows;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::ranges::binary_search(held_out, row)) continue;
+    const auto point = math::point_of_row(points, row, keys.size());
+    rows.points.insert(rows.points.end(), point.begin(), point.end());
+    rows.values.push_back(values[row]);
+  }
+  return rows;
+}
+
 const SurrogateOutput* SurrogateRecord::predicted(const std::string& name) const {
   const auto found = std::ranges::find(outputs, name, &SurrogateOutput::name);
   return found == outputs.end() || !found->reason.empty() ? nullptr : &*found;
 }
 
+void fit_output(const SurrogateRecord& record, SurrogateOutput& output, std::size_t fewest_held_out) {
+  constexpr double most_unexplained = 0.1;
+  const math::FiniteRows rows = record.fitted_rows(output.values);
+  output.fit = {math::fit_chaos(record.inputs.bases(), rows.points, rows.values),
+                math::fit_process(record.inputs.bases(), rows.points, rows.values)};
+  output.error = {};
+  output.reason = output.fit.chaos.reason;
+  if (!output.reason.empty()) return;
+  const math::FiniteRows known = math::finite_rows(record.keys.size(), rows.points, rows.values);
+  const Surrogate surrogate(record, output);
+  HeldOutError& error = output.error;
+  double squares = 0.0, largest = 0.0;
+  for (const std::size_t row : record.held_out) {
+    if (!std::isfinite(output.values[row])) continue;
+    const double miss = std::abs(
+        surrogate.at(math::point_of_row(record.points, row, record.keys.size())).value - output.values[row]);
+    squares += miss * miss;
+    largest = std::max(largest, miss);
+    ++error.launches;
+  }
+  if (error.launches < fewest_held_out) {
+    output.reason =
+        fmt::format("only {} evaluations that were not fitted have a number, at least {} are needed",
+                    error.launches, fewest_held_out);
+    return;
+  }
+  const double mean_square = squares / static_cast<double>(error.launches);
+  error.root_mean_square = std::sqrt(mean_square);
+  error.largest = largest;
+  error.unexplained = mean_square / variance_of(known.values);
+  if (!(error.unexplained <= most_unexplained))
+    output.reason = fmt::format("the fit misses {:.2g} % of the variance at evaluations that it has not seen",
+                                100.0 * error.unexplained);
+}
+
 Surrogate::Surrogate(const SurrogateRecord& record, const SurrogateOutput& output)
-    : fit_(output.fit, fitted_points(record, output)) {
+    : fit_(fitted(record, output)) {
   constexpr double share = 0.99, confidence = 0.95;
   double sum = 0.0, largest = 0.0;
-  int held_out = 0;
-  for (std::size_t row = record.fitted; row < output.values.size(); ++row) {
+  int launches = 0;
+  for (const std::size_t row : record.held_out) {
     if (!std::isfinite(output.values[row])) continue;
-    const auto [value, leverage] = fit_.at(math::point_of_row(record.points, row, record.keys.size()));
+    const auto [value, leverage] = fitted_at(math::point_of_row(record.points, row, record.keys.size()));
     const double miss = std::abs(value - output.values[row]) / std::sqrt(1.0 + leverage);
     sum += miss;
     largest = std::max(largest, miss);
     largest_leverage_ = std::max(largest_leverage_, leverage);
-    ++held_out;
+    ++launches;
   }
   error_ =
-      std::max(largest, math::exponential_tolerance_factor(held_out, share, confidence) * sum / held_out);
+      std::max(largest, math::exponential_tolerance_factor(launches, share, confidence) * sum / launches);
+}
+
+math::FitValue Surrogate::fitted_at(const std::vector<double>& point) const {
+  return std::visit([&point](const auto& fit) { return fit.at(point); }, fit_);
 }
 
 Prediction Surrogate::at(const std::vector<double>& point) const {
-  const auto [value, leverage] = fit_.at(point);
+  const auto [value, leverage] = fitted_at(point);
   return {value, error_ * std::sqrt(1.0 + leverage), leverage <= largest_leverage_};
+}
+
+double Surrogate::largest_error() const { return error_ * std::sqrt(1.0 + largest_leverage_); }
+
+std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput output, std::size_t count,
+                                      std::uint64_t seed) {
+  constexpr std::size_t draws = 512;
+  const std::size_t inputs = record.keys.size();
+  const std::vector<double> candidates = math::unit_points(math::Design::monte_carlo, draws, inputs, seed);
+  std::vector<double> chosen;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Surrogate surrogate(record, output);
+    std::vector<double> worst;
+    Prediction there{0.0, -1.0};
+    for (std::size_t row = 0; row < draws; ++row) {
+      const auto point = math::point_of_row(candidates, row, inputs);
+      const Prediction prediction = surrogate.at(point);
+      if (prediction.error <= there.error) continue;
+      there = prediction;
+      worst = point;
+    }
+    for (std::vector<double>* points : {&chosen, &record.points})
+      points->insert(points->end(), worst.begin(), worst.end());
+    output.values.push_back(there.value);
+  }
+  return chosen;
 }
 
 InputRange range_of(const SurrogateRecord& record, std::size_t input) {
@@ -102,11 +186,14 @@ InputRange range_of(const SurrogateRecord& record, std::size_t input) {
   if (record.inputs.bases()[input] == math::ChaosBasis::legendre)
     return {distribution.lower, distribution.upper};
   InputRange range;
-  for (std::size_t row = 0; row < record.fitted; ++row) {
+  bool is_first = true;
+  for (std::size_t row = 0; row < record.points.size() / record.keys.size(); ++row) {
+    if (std::ranges::binary_search(record.held_out, row)) continue;
     const double value =
         record.inputs.values_at(math::point_of_row(record.points, row, record.keys.size()))[input];
-    range = row == 0 ? InputRange{value, value}
+    range = is_first ? InputRange{value, value}
                      : InputRange{std::min(range.lower, value), std::max(range.upper, value)};
+    is_first = false;
   }
   return range;
 }

@@ -4,16 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
 namespace launchsafe::study {
 namespace {
 
-constexpr RecordFormat surrogate_format{"launchsafe surrogate 1",
-                                        "surrogate.json",
-                                        "a study of kind sensitivity with method = \"polynomial-chaos\"",
-                                        {"digest", "format"}};
+constexpr RecordFormat surrogate_format{
+    "launchsafe surrogate 2",
+    "surrogate.json",
+    "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with "
+    "surrogate = true",
+    {"digest", "format"}};
 constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
 constexpr int highest_degree = 20;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -105,26 +108,70 @@ void describe_values(RecordObject& object, std::vector<double>& values, std::siz
     object.reader().read(each, object.path_of("values"), values.emplace_back(), OrNone{any_number});
 }
 
+void describe_chaos(RecordObject& object, math::PolynomialChaos& chaos, std::size_t inputs) {
+  object.value("degree", chaos.degree, 0, highest_degree);
+  object.value("leave_one_out", chaos.leave_one_out, OrNone{any_number});
+  object.list(
+      "terms", chaos.terms, 0, most_terms, "terms of a polynomial",
+      [&](RecordObject& own, math::ChaosTerm& term) { describe_term(own, term, inputs, chaos.degree); });
+}
+
+/// Without a reason there is one.
+void describe_process(RecordObject& object, math::GaussianProcess& process, std::size_t inputs) {
+  object.value("reason", process.reason);
+  object.value("lengths", process.lengths, scene::between(1e-6, 1e6), process.reason.empty() ? inputs : 0,
+               inputs);
+  object.value("nugget", process.nugget, scene::between(process.reason.empty() ? 1e-9 : 0.0, 1));
+  object.value("leave_one_out", process.leave_one_out, OrNone{any_number});
+}
+
 void describe_output(RecordObject& object, SurrogateOutput& output, const SurrogateRecord& record) {
   const std::size_t inputs = record.keys.size();
   object.value("name", output.name);
+  object.value("gap_m", output.gap, scene::between(0, 0.01));
   object.value("inert", output.inert);
   object.value("reason", output.reason);
   describe_values(object, output.values, record.points.size() / inputs);
-  output.fit.inputs = record.inputs.bases();
-  object.value("degree", output.fit.degree, 0, highest_degree);
-  object.value("leave_one_out", output.fit.leave_one_out, OrNone{any_number});
-  object.list(
-      "terms", output.fit.terms, output.reason.empty() ? 1 : 0, most_terms, "terms of a polynomial",
-      [&](RecordObject& own, math::ChaosTerm& term) { describe_term(own, term, inputs, output.fit.degree); });
+  auto& [chaos, process] = output.fit;
+  chaos.inputs = process.inputs = record.inputs.bases();
+  object.part("polynomial", chaos,
+              [&](RecordObject& own, math::PolynomialChaos& part) { describe_chaos(own, part, inputs); });
+  object.part("process", process,
+              [&](RecordObject& own, math::GaussianProcess& part) { describe_process(own, part, inputs); });
   if (!object.reading() || object.reader().fault() || !output.reason.empty()) return;
-  const auto middle = output.values.begin() + static_cast<std::ptrdiff_t>(record.fitted);
-  const auto has_number = [](double value) { return std::isfinite(value); };
-  if (std::count_if(output.values.begin(), middle, has_number) <=
-          static_cast<std::ptrdiff_t>(output.fit.terms.size()) ||
-      std::none_of(middle, output.values.end(), has_number))
-    object.reader().refuse(object.path_of("values"),
-                           "too few numbers for its polynomial and the error of that", "those of the study");
+  const auto rows = record.fitted_rows(output.values);
+  const std::size_t known = math::finite_rows(inputs, rows.points, rows.values).values.size();
+  const bool enough =
+      output.fit.by_process() ? known > inputs + 1 : known > chaos.terms.size() && !chaos.terms.empty();
+  if (!enough || std::ranges::none_of(record.held_out,
+                                      [&](std::size_t row) { return std::isfinite(output.values[row]); }))
+    object.reader().refuse(object.path_of("values"), "too few numbers for its fit and the error of that",
+                           "those of the study");
+}
+
+/// As numbers, of launches that there are.
+void describe_held_out(RecordObject& object, SurrogateRecord& record) {
+  const std::size_t launches = record.points.size() / std::max<std::size_t>(record.keys.size(), 1);
+  std::vector<double> rows(record.held_out.begin(), record.held_out.end());
+  object.value("held_out", rows,
+               scene::between(0, static_cast<double>(std::max<std::size_t>(launches, 1) - 1)), 0, launches);
+  record.held_out.clear();
+  for (const double row : rows) record.held_out.push_back(static_cast<std::size_t>(row));
+  if (object.reading() && !object.reader().fault() &&
+      std::ranges::adjacent_find(record.held_out, std::greater_equal{}) != record.held_out.end())
+    object.reader().refuse("held_out", "launches out of their order", "each once, ascending");
+}
+
+/// Whole rows of the cube, whose normal inputs are no end of it.
+void check_points(RecordObject& object, const SurrogateRecord& record) {
+  if (!object.reading() || object.reader().fault()) return;
+  const std::vector<math::ChaosBasis> bases = record.inputs.bases();
+  bool possible = record.points.size() % bases.size() == 0;
+  for (std::size_t i = 0; i < record.points.size(); ++i)
+    possible = possible && (bases[i % bases.size()] == math::ChaosBasis::legendre ||
+                            (record.points[i] > 0.0 && record.points[i] < 1.0));
+  if (!possible)
+    object.reader().refuse("points", "points that are none of the unit cube", "one for every launch");
 }
 
 void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
@@ -141,15 +188,14 @@ void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
   } else {
     object["correlated"] = json_by(correlated, record);
   }
-  int fitted = static_cast<int>(record.fitted);
-  object.value("fitted", fitted, 1, static_cast<int>(most_launches));
-  record.fitted = static_cast<std::size_t>(fitted);
+  object.value("drawn", record.drawn);
   const std::size_t inputs = record.keys.size();
-  object.value("points", record.points, scene::between(1e-300, 1.0), inputs, inputs * most_launches);
-  if (object.reading() &&
-      (record.points.size() % inputs != 0 || record.points.size() < inputs * record.fitted))
-    object.reader().refuse("points", "too few coordinates", "one for every input of every launch");
-  object.list("outputs", record.outputs, 0, 10, "an array of at most 10 outputs",
+  object.value("points", record.points, scene::between(0.0, 1.0), inputs, inputs * most_launches);
+  check_points(object, record);
+  if (object.reading() && object.reader().fault()) return;
+  describe_held_out(object, record);
+  if (object.reading() && object.reader().fault()) return;
+  object.list("outputs", record.outputs, 0, 100, "an array of at most 100 outputs",
               [&](RecordObject& own, SurrogateOutput& output) { describe_output(own, output, record); });
 }
 

@@ -117,5 +117,57 @@ TEST_F(Ask, RefusesAnEditedFit) {
   EXPECT_NE(outcome.err.find("was edited"), std::string::npos) << outcome.err;
 }
 
+/// 9 launches of milliseconds; the exchange time is no matter of the mechanics.
+const std::string fitted_sweep = R"(kind = "critical-gap"
+scene = "shell.toml"
+early_time = "0.03 ms"
+gaps = "0, 0.01 cm"
+surrogate = true
+input_uncertainty = { value = "2 K", because = "for a test" }
+model_form_uncertainty = { value = "1 K", because = "for a test" }
+accept = [ { key = "gap.exchange_time", value = "20 to 40 us", because = "the launch is as much faster" } ]
+
+[[vary]]
+key = "peak_pressure"
+range = "250 to 282 MPa"
+count = 9
+
+[[vary]]
+key = "gap.exchange_time"
+range = "20 to 40 us"
+count = 8
+)";
+
+// The case of the sweep with those values is the judge. Ranges of a sweep are no distributions: nothing is
+// drawn from them.
+TEST_F(StoredStudy, ASweepWithAFitIsAskedBetweenItsCases) {
+  write("sweep.toml", fitted_sweep);
+  const Outcome study = run({"study", "sweep.toml", "-o", "sweep", "-q"});
+  ASSERT_NE(study.code, 2) << study.err;
+  ASSERT_TRUE(exists("sweep/surrogate.json")) << study.err;
+  const auto report = nlohmann::json::parse(read("sweep/study.json"));
+  ASSERT_EQ(report["surrogate"].size(), 3u);
+  EXPECT_EQ(report["surrogate"][0]["held_out"], 30);
+  const Outcome outcome = run({"ask", "sweep", "--set", "gap.exchange_time=33 us", "--json", "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("ignitions"), std::string::npos) << outcome.out;
+  const Outcome at_case = run(
+      {"ask", "sweep", "--set", "peak_pressure=258 MPa", "--set", "gap.exchange_time=40 us", "--json", "-q"});
+  ASSERT_EQ(at_case.code, 0) << at_case.err;
+  const auto predicted = nlohmann::json::parse(at_case.out)["launches"][0];
+  const auto verdicts = report["verdicts"];
+  const auto found = std::find_if(verdicts.begin(), verdicts.end(), [](const auto& row) {
+    return row["gap_cm"] == 0.0 && row["peak_pressure_MPa"] == 258.0 && row["gap_exchange_time_us"] == 40.0;
+  });
+  ASSERT_NE(found, verdicts.end()) << verdicts[0];
+  EXPECT_NEAR(predicted["temperature_max_0cm_K"].get<double>(), (*found)["temperature_max_K"].get<double>(),
+              predicted["temperature_max_0cm_error_K"].get<double>());
+  EXPECT_EQ(run({"ask", "sweep", "--set", "peak_pressure=283 MPa"}).code, 2);
+  EXPECT_EQ(run({"ask", "sweep", "--set", "crack_radius=30 um"}).code, 2);
+  const std::string page = read("sweep/ask.html");
+  EXPECT_EQ(page.find("SAFE"), std::string::npos);
+  EXPECT_NE(page.find("predicted: no ignition"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace launchsafe::app

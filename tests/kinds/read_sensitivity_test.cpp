@@ -316,6 +316,28 @@ TEST(ReadSensitivity, AnotherShapeOfTheLoadHasNotTheConstantsOfTheBell) {
                   {5, "vary.calibration", "a measured curve", "load.shape = \"bell\""});
 }
 
+TEST(ReadSensitivity, ACovarianceThatIsNoneIsNoInput) {
+  CalibrationRecord record = read_shipped_record();
+  record.covariance[0] *= -1.0;
+  const std::string file = ::testing::TempDir() + "read_sensitivity_no_covariance.json";
+  std::ofstream(file) << to_json_text(record);
+  const auto read = parse_calibration_record(*scene::read_text_file(file), file);
+  const std::string found = read ? "not positive definite" : "covariance";
+  expect_input_error("calibration = \"" + file + "\"", {5, "vary.calibration", found, ""});
+}
+
+TEST(ReadSensitivity, ErrorsAreAskedOfAFitThatHasRoomForMoreSamples) {
+  const std::string fit = "method = \"polynomial-chaos\"\n";
+  expect_line_error("error_of_temperature = \"1 K\"",
+                    {4, "error_of_temperature", "fits nothing", "polynomial-chaos"});
+  expect_line_error("error_of_critical_gap = \"0 cm\"",
+                    {4, "error_of_critical_gap", "0 cm", "more than 0 cm"});
+  expect_error_in(sensitivity_start + fit + "most_samples = 80\n" + crack,
+                  {5, "most_samples", "no error that is asked", "error_of_temperature"});
+  expect_error_in(sensitivity_start + fit + "error_of_temperature = \"1 K\"\nmost_samples = 60\n" + crack,
+                  {6, "most_samples", "64 samples, and 60 at the most", "at least samples"});
+}
+
 TEST(ReadSensitivity, AFitNeedsEightSamplesOrTwoAnInput) {
   const std::string fit = "method = \"polynomial-chaos\"\n";
   expect_error_in(sensitivity_start + fit + "samples = 7\n" + crack,

@@ -78,8 +78,8 @@ TEST(Sensitivity, APolynomialFittedToFewLaunchesHasTheIndicesOfALinearMargin) {
   const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
   ASSERT_EQ(margin.reason, "");
   ASSERT_TRUE(margin.fit);
-  EXPECT_EQ(margin.fit->held_out, 10u);
-  EXPECT_LT(margin.fit->largest_error, 1e-3);
+  EXPECT_EQ(margin.fit->error.launches, 10u);
+  EXPECT_LT(margin.fit->error.largest, 1e-3);
   const double friction = 54.6353 * 54.6353, trigger = 20.0 * 20.0, sum = friction + trigger;
   EXPECT_NEAR(margin.sobol.inputs[0].total.value, friction / sum, 1e-3);
   EXPECT_NEAR(margin.sobol.inputs[1].first.value, trigger / sum, 1e-3);
@@ -89,6 +89,77 @@ TEST(Sensitivity, APolynomialFittedToFewLaunchesHasTheIndicesOfALinearMargin) {
   const OutputSensitivity& gap = output_of(result, SensitivityOutput::critical_gap);
   EXPECT_NE(gap.reason.find("are bounds"), std::string::npos);
   EXPECT_FALSE(gap.fit);
+}
+
+/// Launches whose friction swings with the pressure: T max is no polynomial of low degree of it.
+Counted swinging() {
+  Counted counted;
+  counted.options.runners.mechanics = [count = counted.runs](const scene::Scene& scene,
+                                                             const run::RunOptions&) {
+    ++*count;
+    auto result = synthetic_mechanics(scene);
+    const double factor = 1.0 + 0.3 * std::sin(6.0 * (scene.load.peak / 475e6 - 1.0) / 0.05);
+    for (auto& closure : result.trace.friction)
+      for (double& energy : closure) energy *= factor;
+    return result;
+  };
+  return counted;
+}
+
+const std::string few_samples =
+    no_search + "method = \"polynomial-chaos\"\nsamples = 16\nheld_out = 12\nseed = 3\n";
+
+// The errors of unseen launches are the judge: 1 of 100 is beyond on each side, of 200 no more than 8.
+TEST(Sensitivity, LaunchesAreAddedUntilTheErrorIsWhatIsAsked) {
+  const StudyFile study = study_of(linear_text(few_samples + "error_of_temperature = \"6 K\"\n"));
+  const Counted counted = swinging();
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  const std::size_t added = result.answers.size() - 28;
+  EXPECT_GT(added, 0u);
+  EXPECT_EQ(result.study.cases.size(), result.answers.size());
+  EXPECT_EQ(result.study.cases.label(28), "added 1");
+  EXPECT_TRUE(samples_inputs(result.study.study, 27));
+  EXPECT_FALSE(samples_inputs(result.study.study, 28));
+  const auto errors = asked_errors(result);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_TRUE(errors[0].reached()) << errors[0].found;
+  EXPECT_NE(answer(result).find("6 K is asked"), std::string::npos) << answer(result);
+  const report::Report written = report_of(result);
+  ASSERT_FALSE(written.files.empty());
+  const SurrogateRecord record = parse_surrogate(written.files.front().text, "surrogate.json").value();
+  ASSERT_NE(record.predicted("temperature_max"), nullptr);
+  EXPECT_EQ(record.held_out.size(), 12u);
+  const Surrogate surrogate(record, *record.predicted("temperature_max"));
+  int beyond = 0;
+  const std::vector<double> unseen = math::unit_points(math::Design::monte_carlo, 200, 3, 99);
+  for (std::size_t row = 0; row < 200; ++row) {
+    const auto point = math::point_of_row(unseen, row, 3);
+    const auto values = record.inputs.values_at(point);
+    const double swing = 1.0 + 0.3 * std::sin(6.0 * (values[2] / 475e6 - 1.0) / 0.05);
+    const Prediction prediction = surrogate.at(point);
+    const double truth = 300.0 + 116.1 * values[0] / 1700.0 * swing;
+    if (prediction.covered && std::abs(prediction.value - truth) > prediction.error) ++beyond;
+  }
+  EXPECT_LE(beyond, 8);
+}
+
+TEST(Sensitivity, AnErrorThatIsOutOfReachUsesUpTheLaunchesAndSaysSo) {
+  const StudyFile study =
+      study_of(linear_text(few_samples + "error_of_temperature = \"0.0001 K\"\nmost_samples = 26\n"));
+  const SensitivityResult result = run_sensitivity(study, swinging().options);
+  EXPECT_EQ(result.answers.size(), 26u + 12u);
+  EXPECT_FALSE(asked_errors(result).at(0).reached());
+  EXPECT_TRUE(result.any_indeterminate());
+  EXPECT_NE(answer(result).find("the 26 launches that may be fitted are used up"), std::string::npos)
+      << answer(result);
+}
+
+TEST(Sensitivity, AShardRunsTheDesignAlone) {
+  const StudyFile study = study_of(linear_text(few_samples + "error_of_temperature = \"0.0001 K\"\n"));
+  Counted counted = swinging();
+  counted.options.shard = {1, 2};
+  const SensitivityResult result = run_sensitivity(study, counted.options);
+  EXPECT_EQ(result.answers.size(), 28u);
 }
 
 TEST(Sensitivity, APolynomialThatMissesWhatItHasNotSeenGivesNoIndices) {

@@ -3,6 +3,7 @@
 #include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "launchsafe/study/stored_answer.hpp"
+#include "launchsafe/study/surrogate.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -40,9 +41,9 @@ std::string constants_beside(const Varied& varied) {
 
 /// A sweep, answered as one of many cases however few it has.
 StudyFile sweep_of(const std::string& gaps, const Varied& varied, const std::string& largest_gap = "0.2 cm",
-                   const std::string& more = {}) {
+                   const std::string& more = {}, const std::string& first = {}) {
   return lean_study_of(
-      "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
+      first + "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
       "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
       "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
       "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
@@ -365,6 +366,57 @@ TEST_F(StoredSweep, NamesTheKeyThatMakesARunNecessary) {
     EXPECT_FALSE(each.stored);
     EXPECT_NE(each.why.find("cell_size"), std::string::npos) << each.why;
   }
+}
+
+// --- a fit over the cases ---
+
+const std::string asks_fit = "surrogate = true\n";
+
+Varied nine_by_eight() {
+  return {{"initial_temperature", "290, 292, 294, 296, 298, 300, 302, 304, 306 K"},
+          {"kinetics.ignition_temperature", "505, 510, 515, 520, 525, 530, 535, 540 K"}};
+}
+
+// The launch is the one of sweep_of: what it computes between the fitted values is the judge, those of the
+// third, sixth, ... value of each key: 2 of 9 and 2 of 8, 72 - 7 x 6 cases.
+TEST(Sweep, AFitOverItsCasesIsHeldAgainstThoseBetweenOthers) {
+  StudyOptions options;
+  options.runners = synthetic_runners();
+  const CriticalGapResult result =
+      run_critical_gap(sweep_of("0, 0.02 cm", nine_by_eight(), "0.2 cm", {}, asks_fit), options);
+  const report::Report written = report_of(result);
+  const auto file = std::ranges::find(written.files, "surrogate.json", &report::TextFile::name);
+  ASSERT_NE(file, written.files.end());
+  const auto record = parse_surrogate(file->text, file->name);
+  ASSERT_TRUE(record) << record.error().message();
+  EXPECT_FALSE(record->drawn);
+  EXPECT_EQ(record->fitted(), 42u);
+  EXPECT_EQ(record->held_out.size(), 30u);
+  EXPECT_DOUBLE_EQ(range_of(*record, 0).lower, 290.0);
+  EXPECT_DOUBLE_EQ(range_of(*record, 0).upper, 306.0);
+  const SurrogateOutput* critical = record->predicted("critical_gap");
+  ASSERT_NE(critical, nullptr);
+  ASSERT_NE(record->predicted("temperature_max_0.02cm"), nullptr);
+  const Surrogate surrogate(*record, *critical);
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const auto prediction = surrogate.at(record->inputs.point_of(result.study.cases.coordinates(i)));
+    EXPECT_NEAR(prediction.value, result.answers[i].critical.value, prediction.error) << i;
+  }
+  EXPECT_NE(std::ranges::find(written.files, "ask.html", &report::TextFile::name), written.files.end());
+}
+
+TEST(Sweep, CriticalGapsThatAreBoundsAreNotFitted) {
+  StudyOptions options;
+  options.runners = synthetic_runners();
+  const CriticalGapResult result =
+      run_critical_gap(sweep_of("0 cm", nine_by_eight(), "0.038 cm", {}, asks_fit), options);
+  const report::Report written = report_of(result);
+  const auto file = std::ranges::find(written.files, "surrogate.json", &report::TextFile::name);
+  ASSERT_NE(file, written.files.end());
+  const auto record = parse_surrogate(file->text, file->name).value();
+  EXPECT_EQ(record.predicted("critical_gap"), nullptr);
+  EXPECT_NE(record.outputs.back().reason.find("are bounds, not numbers"), std::string::npos)
+      << record.outputs.back().reason;
 }
 
 }  // namespace

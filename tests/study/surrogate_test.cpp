@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -36,17 +37,15 @@ SurrogateRecord some_record(std::uint64_t seed = 1) {
                          .gap = 2e-4,
                          .keys = {"load.peak", "friction.localisation", "gap.exchange_time"},
                          .inputs = some_inputs(),
-                         .fitted = 64,
                          .points = math::unit_points(Design::scrambled_sobol, 64, 3, seed)};
   const std::vector<double> held_out = math::unit_points(Design::monte_carlo, 32, 3, math::hashed(seed, 1));
   record.points.insert(record.points.end(), held_out.begin(), held_out.end());
+  for (std::size_t row = 64; row < 96; ++row) record.held_out.push_back(row);
   SurrogateOutput output{.name = "critical_gap"};
   for (std::size_t row = 0; row < 96; ++row)
     output.values.push_back(
         critical_gap_at(record.inputs.values_at(math::point_of_row(record.points, row, 3))));
-  output.fit = math::fit_chaos(record.inputs.bases(),
-                               {record.points.begin(), record.points.begin() + std::ptrdiff_t{64 * 3}},
-                               {output.values.begin(), output.values.begin() + std::ptrdiff_t{64}});
+  fit_output(record, output);
   record.outputs = {output};
   return record;
 }
@@ -94,6 +93,62 @@ TEST(Surrogate, ItsErrorHoldsForLaunchesThatItHasNotSeen) {
   EXPECT_GT(covered / (studies * static_cast<double>(launches)), 0.9);
 }
 
+/// With a critical gap of this function of the pressure's place from -1 to 1 and of the others in it.
+SurrogateRecord record_of(double (*output)(double place)) {
+  SurrogateRecord record = some_record();
+  for (std::size_t row = 0; row < 96; ++row)
+    record.outputs.front().values[row] =
+        4e-4 * output(2.0 * math::point_of_row(record.points, row, 3)[0] - 1.0);
+  fit_output(record, record.outputs.front());
+  return record;
+}
+
+// A step of a width of 0.1 is no polynomial of degree 6; a parabola is one, and no process is nearer.
+TEST(Surrogate, TheProcessIsTakenWhereItMissesLessOfWhatIsLeftOut) {
+  const SurrogateRecord steep = record_of([](double x) { return 1.0 + 0.5 * std::tanh(6.0 * x); });
+  const SurrogateOutput& output = steep.outputs.front();
+  ASSERT_EQ(output.reason, "");
+  EXPECT_TRUE(output.fit.by_process());
+  EXPECT_LT(output.fit.leave_one_out(), output.fit.chaos.leave_one_out);
+  EXPECT_EQ(output.error.launches, 32u);
+  const Surrogate surrogate(steep, output);
+  for (const std::size_t row : steep.held_out) {
+    const Prediction prediction = surrogate.at(math::point_of_row(steep.points, row, 3));
+    EXPECT_NEAR(prediction.value, output.values[row], prediction.error);
+    EXPECT_LE(prediction.error, surrogate.largest_error());
+    EXPECT_TRUE(prediction.covered);
+  }
+  const auto read = parse_surrogate(to_json_text(steep), "surrogate.json");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(Surrogate(*read, read->outputs.front()).at({0.4, 0.5, 0.6}).value,
+            surrogate.at({0.4, 0.5, 0.6}).value);
+  EXPECT_FALSE(record_of([](double x) { return 1.0 + x * x; }).outputs.front().fit.by_process());
+}
+
+// Further launches lessen the error where they are: the largest leverage of the same draws falls.
+TEST(Surrogate, FurtherLaunchesAreThoseWithTheLargestErrorOneAfterTheOther) {
+  const SurrogateRecord record = some_record();
+  const SurrogateOutput& output = record.outputs.front();
+  const std::vector<double> points = least_sure_points(record, output, 4, 17);
+  ASSERT_EQ(points.size(), 4u * 3u);
+  const std::vector<double> draws = math::unit_points(Design::monte_carlo, 512, 3, 17);
+  const auto largest_error = [&](const Surrogate& surrogate) {
+    double largest = 0.0;
+    for (std::size_t row = 0; row < 512; ++row)
+      largest = std::max(largest, surrogate.at(math::point_of_row(draws, row, 3)).error);
+    return largest;
+  };
+  const Surrogate before(record, output);
+  EXPECT_EQ(before.at(math::point_of_row(points, 0, 3)).error, largest_error(before));
+  SurrogateRecord more = record;
+  more.points.insert(more.points.end(), points.begin(), points.end());
+  for (std::size_t row = 0; row < 4; ++row)
+    more.outputs.front().values.push_back(
+        critical_gap_at(more.inputs.values_at(math::point_of_row(points, row, 3))));
+  EXPECT_EQ(more.fitted(), 68u);
+  EXPECT_LT(largest_error(Surrogate(more, more.outputs.front())), largest_error(before));
+}
+
 TEST(Surrogate, IsLessSureFartherOut) {
   const SurrogateRecord record = some_record();
   const Surrogate surrogate(record, record.outputs.front());
@@ -121,9 +176,7 @@ TEST(Surrogate, CountsTheDrawsWhoseCriticalGapIsBelowAGap) {
     auto values = record.inputs.values_at(math::point_of_row(record.points, row, 3));
     output.values[row] = 4e-4 * std::exp(-2.0 * (values[0] / 496e6 - 1.0));
   }
-  output.fit = math::fit_chaos(record.inputs.bases(),
-                               {record.points.begin(), record.points.begin() + std::ptrdiff_t{64 * 3}},
-                               {output.values.begin(), output.values.begin() + std::ptrdiff_t{64}});
+  fit_output(record, output);
   const PredictedIgnitions free = predicted_ignitions(record, 3e-4, {{}, {}, {}});
   EXPECT_NEAR(static_cast<double>(free.predicted) / static_cast<double>(free.draws), 0.1633, 0.002);
   EXPECT_LE(free.at_least, free.predicted);
@@ -161,6 +214,15 @@ TEST(SurrogateRecord, OfAnotherVersionEditedOrWithoutWhatItsErrorNeedsIsRefused)
   for (std::size_t row = 64; row < 96; ++row)
     without_error.outputs.front().values[row] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(fault_of(to_json_text(without_error)).find("too few numbers"), std::string::npos);
+  SurrogateRecord no_correlation = some_record();
+  no_correlation.inputs.correlated->factor = {0.05, 0.0, -0.08, 0.0};
+  EXPECT_NE(fault_of(to_json_text(no_correlation)).find("no factor of log-normal inputs"), std::string::npos);
+  SurrogateRecord out_of_order = some_record();
+  std::swap(out_of_order.held_out[3], out_of_order.held_out[4]);
+  EXPECT_NE(fault_of(to_json_text(out_of_order)).find("out of their order"), std::string::npos);
+  SurrogateRecord at_infinity = some_record();
+  at_infinity.points[4] = 1.0;
+  EXPECT_NE(fault_of(to_json_text(at_infinity)).find("none of the unit cube"), std::string::npos);
   SurrogateRecord no_distribution = some_record();
   no_distribution.inputs.distributions[0] = Distribution::uniform(2.0, 1.0);
   EXPECT_NE(fault_of(to_json_text(no_distribution)).find("no uniform distribution"), std::string::npos);

@@ -39,8 +39,8 @@ TEST(IgnitionBoundary, SeparatesWhatIgnitesFromWhatDoesNot) {
          {SurfaceConstants{300.0, 3.6e-4, 525.0}, SurfaceConstants{120.0, 2.1e-4, 471.0},
           SurfaceConstants{900.0, 1.3e-4, 619.0}, SurfaceConstants{700.0, 2e-3, 433.0}}) {
       const double heat = std::exp(boundary->log_heat_margin(constants));
-      EXPECT_EQ(does_ignite(with(model, constants, 0.98 * heat), trace, gap), false) << gap << ' ' << heat;
-      EXPECT_EQ(does_ignite(with(model, constants, 1.02 * heat), trace, gap), true) << gap << ' ' << heat;
+      EXPECT_FALSE(does_ignite(with(model, constants, 0.98 * heat), trace, gap)) << gap << ' ' << heat;
+      EXPECT_TRUE(does_ignite(with(model, constants, 1.02 * heat), trace, gap)) << gap << ' ' << heat;
     }
   }
 }

@@ -18,7 +18,8 @@ inline constexpr std::size_t most_cases_in_detail = 6;
 
 /// What a study file of this kind says besides.
 struct CriticalGapSettings {
-  bool confirm = true;  ///< coupled runs on both sides of the bracket
+  bool confirm = true;     ///< coupled runs on both sides of the bracket
+  bool surrogate = false;  ///< a fit over the cases
 };
 
 struct CriticalGapResult {

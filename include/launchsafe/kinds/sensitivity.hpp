@@ -21,15 +21,20 @@ namespace launchsafe::kinds {
 /// How indices of first and total order follow from evaluations.
 enum class SensitivityMethod {
   sobol,            ///< differences (Saltelli 2010, Jansen 1999): samples x (inputs + 2) evaluations
-  polynomial_chaos  ///< a polynomial fitted to the samples, whose error is that at as many more as held out
+  polynomial_chaos  ///< a fit to the samples, whose error is that at as many more as held out
 };
 
 /// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
 struct SensitivitySettings {
   SensitivityMethod method = SensitivityMethod::sobol;
   math::Design design = math::Design::latin_hypercube;
-  int samples = 64;        ///< N: rows of the matrices A and B, or evaluations that are fitted
-  int held_out = 32;       ///< evaluations that are not
+  int samples = 64;   ///< N: rows of the matrices A and B, or evaluations that are fitted
+  int held_out = 32;  ///< evaluations that are not
+  // Of a fit that is to err less: the error of a prediction (Surrogate::largest_error), NaN where none is
+  // asked, and up to how many evaluations are fitted for it.
+  double temperature_error = study::not_a_number;   ///< K
+  double critical_gap_error = study::not_a_number;  ///< m
+  int most_samples = 256;
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
@@ -50,18 +55,9 @@ std::vector<SensitivityInput> inputs_of(const study::Study& study);
 study::UncertainInputs uncertain_inputs(const study::Study& study);
 
 /// Whether an evaluation is a draw from the distributions of the inputs, rather than one made for
-/// differences: the blocks A and B of a Saltelli design, and all that a polynomial is fitted to or held
-/// against.
+/// differences, or where a fit was least sure: the blocks A and B of a Saltelli design, and the samples that
+/// a fit begins with or is held against.
 bool samples_inputs(const study::Study& study, std::size_t evaluation);
-
-/// A polynomial in the place of the computation, and how far it is off evaluations that it has not seen.
-struct SurrogateFit {
-  math::PolynomialChaos chaos;
-  std::size_t held_out = 0;  ///< evaluations with a number
-  /// Root mean square and largest of the differences there, the output's unit.
-  double error = study::not_a_number, largest_error = study::not_a_number;
-  double unexplained = study::not_a_number;  ///< its mean square as a share of the fit's variance
-};
 
 /// One output of a case as a number.
 enum class SensitivityOutput {
@@ -81,9 +77,9 @@ struct OutputSensitivity {
   std::size_t missing = 0;  ///< evaluations without a number: failed runs, or a critical gap that is a bound
   std::size_t bounds = 0;   ///< of these, critical gaps that are bounds
   double mean = study::not_a_number,
-         deviation = study::not_a_number;  ///< over the evaluations that sample the inputs
-  math::SobolIndices sobol;                ///< where there are indices, of every input
-  std::optional<SurrogateFit> fit = {};    ///< of polynomial chaos
+         deviation = study::not_a_number;          ///< over the evaluations that sample the inputs
+  math::SobolIndices sobol;                        ///< where there are indices, of every input
+  std::optional<study::SurrogateOutput> fit = {};  ///< of polynomial chaos
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;
@@ -93,10 +89,23 @@ struct SensitivityResult {
   study::StudyFile study;
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   std::vector<OutputSensitivity> outputs;
+  /// Of polynomial chaos: points of the unit cube, a row a case. Behind those of the design are those that
+  /// were added, where the fit was least sure, for the errors that are asked of it.
+  std::vector<double> points = {};
   study::Timing timing;
   bool interrupted = false;
-  bool any_indeterminate() const;
+  bool any_indeterminate() const;  ///< an output without indices, or with a larger error than is asked
 };
+
+/// An error that is asked of a fit, and what it came to.
+struct AskedError {
+  SensitivityOutput output;
+  double asked = study::not_a_number;  ///< K or m
+  double found = study::not_a_number;  ///< NaN where nothing is predicted
+  bool reached() const { return found <= asked; }
+};
+/// Of a study that has its outputs.
+std::vector<AskedError> asked_errors(const SensitivityResult& result);
 
 SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options = {});
 

@@ -18,6 +18,32 @@ enum class ChaosBasis {
   hermite    ///< of the standard normal at u, for normal and log-normal ones
 };
 
+/// Where an input stands in its polynomials: 2 u - 1, or the standard normal at u.
+double coordinate(ChaosBasis basis, double u);
+
+/// Points and values of the rows whose value is finite.
+struct FiniteRows {
+  std::vector<double> points, values;
+};
+FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
+                       const std::vector<double>& values);
+
+/// A fit at a point.
+struct FitValue {
+  double value = 0;  ///< the output's unit
+  /// How far the point lies from those that were fitted, as the fit weighs them.
+  double leverage = 0;
+};
+
+/// A fit as a sum of functions of a point.
+struct FittedForm {
+  std::vector<double> weights;  ///< of the functions
+  std::vector<double> matrix;   ///< symmetric: of their products in the leverage
+  double offset = 0;            ///< of the leverage
+
+  FitValue at(const std::vector<double>& functions) const;
+};
+
 /// A product of polynomials, one of each input, with its coefficient in the output's unit.
 struct ChaosTerm {
   std::vector<int> degrees;
@@ -57,18 +83,15 @@ class FittedChaos {
   /// Of the points, row by row. Their values do not matter.
   FittedChaos(PolynomialChaos chaos, const std::vector<double>& points);
 
-  struct Value {
-    double value = 0;  ///< the output's unit
-    /// How far the point lies from those that were fitted, as the fit weighs them: where fitted values err
-    /// independently by s the fit errs by s sqrt(leverage). Each fitted point has less than 1, all together
-    /// have the number of terms.
-    double leverage = 0;
-  };
-  Value at(const std::vector<double>& point) const;
+  /// Where fitted values err independently by s the fit errs by s sqrt(leverage). Each fitted point has less
+  /// than 1, all together have the number of terms.
+  FitValue at(const std::vector<double>& point) const;
+  /// The terms make the value.
+  const FittedForm& form() const { return form_; }
 
  private:
   PolynomialChaos chaos_;
-  std::vector<double> inverse_;  ///< of the sums of products of the terms, symmetric
+  FittedForm form_;  ///< with the inverse of the sums of products of the terms
 };
 
 /// Sobol indices of groups of inputs, `begins` holding the first input of each and behind them their number:

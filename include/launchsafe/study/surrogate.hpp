@@ -1,14 +1,18 @@
-// What a sensitivity study fitted in the place of launches, and what that predicts of one that nobody
+// What a study fitted in the place of launches, and what that predicts of one that nobody
 // computed.
 #pragma once
 
+#include "launchsafe/math/gaussian_process.hpp"
 #include "launchsafe/math/polynomial_chaos.hpp"
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::study {
@@ -34,28 +38,55 @@ struct UncertainInputs {
   std::vector<math::ChaosBasis> bases() const;
 };
 
-/// A number of each launch, and the polynomial that stands for it.
+/// What stands for a number of launches: the polynomial, or the process where that misses less of what is
+/// left out.
+struct SurrogateFit {
+  math::PolynomialChaos chaos = {};
+  math::GaussianProcess process = {.reason = "none was fitted"};
+  bool by_process() const { return process.reason.empty() && process.leave_one_out < chaos.leave_one_out; }
+  double leave_one_out() const { return by_process() ? process.leave_one_out : chaos.leave_one_out; }
+};
+
+/// How far a fit is off launches that it has not seen; the output's unit.
+struct HeldOutError {
+  std::size_t launches = 0;  ///< with a number
+  double root_mean_square = std::numeric_limits<double>::quiet_NaN(), largest = root_mean_square;
+  double unexplained = root_mean_square;  ///< the mean square as a share of the variance of what was fitted
+};
+
+/// A number of each launch, and the fit that stands for it.
 struct SurrogateOutput {
-  std::string name;                 ///< "critical_gap", m, or "temperature_max", K
-  bool inert = false;               ///< of a skin that air and friction heat and that does not react
+  std::string name;    ///< "critical_gap", m, or "temperature_max", K, of several gaps with the gap behind it
+  double gap = 0;      ///< m, of T max
+  bool inert = false;  ///< of a skin that air and friction heat and that does not react
   std::vector<double> values = {};  ///< SI, of every launch; NaN where there is none
-  math::PolynomialChaos fit = {};
+  SurrogateFit fit = {};
+  HeldOutError error = {};
   std::string reason = {};  ///< why nothing is predicted; empty where something is
 };
 
 struct SurrogateRecord {
   int model_version = 0;
   scene::Scene scene;                  ///< of the launches, but for the inputs
-  double gap = 0;                      ///< m, of T max
+  double gap = 0;                      ///< m, which a question is about that names none
   std::vector<std::string> keys = {};  ///< of the scene: the inputs
-  UncertainInputs inputs;
-  std::size_t fitted = 0;      ///< so many launches, the first, are fitted; the others tell the error
-  std::vector<double> points;  ///< of the unit cube, a row a launch
+  UncertainInputs inputs = {};
+  bool drawn = true;                       ///< from the inputs; else these are ranges and say nothing of how
+                                           ///< often
+  std::vector<double> points = {};         ///< of the unit cube, a row a launch
+  std::vector<std::size_t> held_out = {};  ///< rows that are not fitted and tell the error, ascending
   std::vector<SurrogateOutput> outputs = {};
 
+  std::size_t fitted() const { return points.size() / keys.size() - held_out.size(); }
+  /// Points of the rows that are fitted, and the values there, NaN too.
+  math::FiniteRows fitted_rows(const std::vector<double>& values) const;
   /// The output of that name if something is predicted of it, or else nullptr.
   const SurrogateOutput* predicted(const std::string& name) const;
 };
+
+/// Fits an output that has its values, and finds its error. Nothing is predicted of one without a fit, or
+/// where the fit misses more than a tenth of the variance, or where fewer launches tell.
+void fit_output(const SurrogateRecord& record, SurrogateOutput& output, std::size_t fewest_held_out = 10);
 
 std::string to_json_text(const SurrogateRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.
@@ -67,9 +98,9 @@ struct Prediction {
   bool covered = false;         ///< no farther out than some launch that tells the error
 };
 
-/// The polynomial of an output with its error, which grows with the distance from the launches that were
+/// The fit of an output with its error, which grows with the distance from the launches that were
 /// fitted, and is found at those that were not: math::exponential_tolerance_factor times the mean magnitude
-/// of what the polynomial misses there, or the largest where that is more, each over sqrt(1 + leverage),
+/// of what the fit misses there, or the largest where that is more, each over sqrt(1 + leverage),
 /// times that of the point.
 class Surrogate {
  public:
@@ -77,12 +108,26 @@ class Surrogate {
   Surrogate(const SurrogateRecord& record, const SurrogateOutput& output);
 
   Prediction at(const std::vector<double>& point) const;
+  /// The largest error of a point that is covered.
+  double largest_error() const;
+
+  // What others need to predict the same.
+  const std::variant<math::FittedChaos, math::FittedProcess>& fit() const { return fit_; }
+  double error_without_leverage() const { return error_; }
+  double largest_leverage() const { return largest_leverage_; }
 
  private:
-  math::FittedChaos fit_;
+  math::FitValue fitted_at(const std::vector<double>& point) const;
+
+  std::variant<math::FittedChaos, math::FittedProcess> fit_;
   double error_ = 0;             ///< at a leverage of 0
   double largest_leverage_ = 0;  ///< of the launches that were not fitted
 };
+
+/// Points of the unit cube where further launches would tell most of an output that is predicted: the draws
+/// with the largest error, one after the other, each taken for computed before the next is chosen.
+std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput output, std::size_t count,
+                                      std::uint64_t seed);
 
 /// From where to where an input may be asked for, SI: all of a distribution that ends, and of a normal as far
 /// as launches were fitted.
