@@ -79,6 +79,8 @@ struct FiringResult {
       contradicting;  ///< firings that no constants make probable; then there is no record
   study::Timing timing;
   bool interrupted = false;
+  /// Whether what was asked for, a record, is not there.
+  bool any_indeterminate() const { return !record; }
 };
 
 /// The keys of such a study, and its table.
