@@ -40,10 +40,10 @@ set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
 install(FILES ${told_files} DESTINATION "${data_dir}/schema" COMPONENT program)
 # Studies rest on the records of others, which they name by their place beside them; pages link to each other likewise.
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.md" PATTERN "*.cpp")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
   FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy*.json" PATTERN "model_form.json"
-  PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
+  PATTERN "*.md" PATTERN "*.html" PATTERN "*.svg" PATTERN "*.png")
 foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)
 endforeach()

@@ -20,7 +20,7 @@ using namespace report;
 report::Column shown(const SurrogateOutput& output) {
   if (output.name == quantity::critical_gap().name)
     return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
-  std::string heading = "T max at a gap of " + scene::format_quantity(output.gap, scene::Dimension::length);
+  std::string heading = "T max at a gap of " + centimetres(output.gap);
   if (output.inert) heading += ", without reaction";
   return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
 }
