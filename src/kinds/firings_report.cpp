@@ -20,7 +20,7 @@ Column initial_temperature() {
 }
 
 Column probability(const char* name, const char* heading, const char* meaning) {
-  return {name, heading, keys::significant(2, percent), meaning};
+  return {name, heading, keys::significant(3, percent), meaning};
 }
 
 Quantities<FiringRow> row_quantities() {
