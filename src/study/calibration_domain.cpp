@@ -51,11 +51,17 @@ double calibrated_gap(const std::vector<Firing>& firings, double pressure, doubl
   for (const Firing& each : firings)
     if (each.ignited && at_least(pressure, each.pressure) && at_least(temperature, each.temperature))
       ignites = std::min(ignites, each.gap);
+  const auto is_as_severe = [&](const Firing& each) {
+    return !each.ignited && at_least(each.pressure, pressure) && at_least(each.temperature, temperature) &&
+           each.gap < ignites;
+  };
   double largest = -1.0;
-  for (const Firing& each : firings)
-    if (!each.ignited && at_least(each.pressure, pressure) && at_least(each.temperature, temperature) &&
-        each.gap < ignites)
-      largest = std::max(largest, each.gap);
+  for (const Firing& candidate : firings) {
+    int rounds = 0;
+    for (const Firing& each : firings)
+      if (is_as_severe(each) && each.gap >= candidate.gap) rounds += each.rounds;
+    if (is_as_severe(candidate) && rounds >= fewest_rounds) largest = std::max(largest, candidate.gap);
+  }
   return largest;
 }
 

@@ -120,6 +120,17 @@ bool CaseStatements::has_unaccepted() const {
 
 bool CaseStatements::is_beyond(double gap) const { return gap > calibrated_gap * (1.0 + 1e-9); }
 
+namespace {
+
+/// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
+/// peak pressure and the temperature of charge and air, which were held against them.
+bool no_firing_speaks_of(const scene::Implausible& foreign) {
+  return foreign.key != "load.peak" && foreign.key != "initial_temperature" &&
+         foreign.key != "gap.air_temperature" && foreign.key != "gap.air_density";
+}
+
+}  // namespace
+
 CaseStatements statements_of(const Study& study, const StudyCase& input) {
   const scene::Scene& scene = input.scene.scene;
   scene::RigidMotion launch;
@@ -135,6 +146,8 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   all.implausible = implausible_in(study, input, launch);
   all.extrapolated = extrapolated_in(all.distance, scene.load);
   all.calibrated_gap = calibrated_gap(study.calibration, scene);
+  if (study.calibration.firings && std::ranges::any_of(all.distance.foreign, no_firing_speaks_of))
+    all.calibrated_gap = -1.0;
   all.calibrated_by_firings = study.calibration.firings != nullptr;
   all.demonstration = all.calibrated_by_firings && study.calibration.firings->demonstration;
   return all;

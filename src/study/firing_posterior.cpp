@@ -33,10 +33,13 @@ std::vector<Node> nodes_of(int count) {
 
 double total_spread(double scatter, double log_heat_spread) { return std::hypot(scatter, log_heat_spread); }
 
-/// Of all rounds of a launch, whose heat has to grow by that margin until it ignites.
+/// Of all rounds of a launch, whose heat has to grow by that margin until it ignites. A round that did not
+/// ignite may have been an average one or a cold one: what it shows less by counts, so that a larger spread
+/// never proves more.
 double log_likelihood(const FiredLaunch& launch, double log_heat_margin, double scatter) {
   const double z = log_heat_margin / total_spread(scatter, launch.log_heat_spread);
-  return launch.rounds * std::log(below(launch.ignited ? -z : z));
+  if (launch.ignited) return launch.rounds * std::log(below(-z));
+  return launch.rounds * std::log(below(std::max(z, log_heat_margin / scatter)));
 }
 
 /// Equally probable points of weighted ones: those at the middles of equal parts of the cumulated weight.

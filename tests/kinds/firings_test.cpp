@@ -34,7 +34,7 @@ std::string refusal(const std::string& text) {
 
 TEST(Firings, GiveConstantsAndTheLaunchesThatWereFired) {
   const FiringResult result =
-      fire(firing("no ignition", 20, "0.2 mm") + firing("no ignition", 5, "0.3 to 0.4 mm"));
+      fire(firing("no ignition", 20, "0.2 mm") + firing("no ignition", 60, "0.3 to 0.4 mm"));
   ASSERT_TRUE(result.record) << answer(result);
   const auto& firings = *result.record->calibration.firings;
   ASSERT_EQ(firings.firings.size(), 2u);
@@ -44,8 +44,8 @@ TEST(Firings, GiveConstantsAndTheLaunchesThatWereFired) {
   EXPECT_DOUBLE_EQ(result.record->calibration.evidence.largest_gap, 0.3e-3);
   EXPECT_DOUBLE_EQ(firings.firings[0].pressure, 496e6);  // the scene's
   EXPECT_EQ(result.conditions.size(), 1u);
-  // 0 of 5 rounds: at most 1 - 0.05^(1/5) = 45 % (Clopper and Pearson).
-  EXPECT_NEAR(result.rows[1].shown_highest, 1.0 - std::pow(0.05, 0.2), 1e-9);
+  // 0 of 60 rounds: at most 1 - 0.05^(1/60) (Clopper and Pearson).
+  EXPECT_NEAR(result.rows[1].shown_highest, 1.0 - std::pow(0.05, 1.0 / 60.0), 1e-9);
   EXPECT_NE(answer(result).find("a bound, and no fit"), std::string::npos) << answer(result);
 }
 
@@ -138,8 +138,21 @@ TEST_F(StudyOnFirings, IsSafeForThinGapsAfterManyRoundsWithThickOnes) {
 }
 
 TEST_F(StudyOnFirings, IsNeverSafeAfterFewRounds) {
-  record(firing("no ignition", 1, "0.6 mm"));
-  EXPECT_EQ(count_safe(verdicts()), 0);
+  for (const int rounds : {1, 5, 58}) {
+    record(firing("no ignition", rounds, "0.6 mm") +
+           firing("no ignition", 100'000, "0.6 mm", "pressure = \"400 MPa\"\n"));
+    EXPECT_EQ(count_safe(verdicts()), 0) << rounds;
+  }
+}
+
+TEST_F(StudyOnFirings, WorseDefectsCannotBeAccepted) {
+  record(firing("no ignition", 1000, "0.6 mm"));
+  const auto rows = verdicts(
+      "accept = [{ key = \"charge.crack_radius\", value = \"45 um\", because = \"it is hardly more\" }]\n"
+      "[set]\ncharge.crack_radius = \"45 um\"\n");
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(count_safe(rows), 0);
+  EXPECT_EQ(rows[0].judgement.code, ReasonCode::beyond_firings) << reason_text(rows[0]);
 }
 
 TEST_F(StudyOnFirings, IsNotSafeBeyondTheGapsThatDidNotIgnite) {

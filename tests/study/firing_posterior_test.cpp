@@ -107,6 +107,18 @@ TEST(FiringPosterior, HeatFactorLeavesOneOfAHundredRounds) {
   EXPECT_NEAR(closer, firing_risk, 1e-6);
 }
 
+// Rounds that may have been colder than stated prove less, not more.
+TEST(FiringPosterior, ALargerSpreadOfQuietRoundsNeverNeedsLessHeat) {
+  const auto& boundary = boundary_at(2e-4);
+  double before = 0.0;
+  for (const double spread : {0.0, 0.05, 0.2, 0.8}) {
+    const Posterior posterior = posterior_of(some_prior(), {{boundary_at(4e-4), spread, 20, false}});
+    const double factor = heat_factor(posterior, boundary, some_prior().centre);
+    EXPECT_GE(factor, before * (1.0 - 1e-3)) << spread;
+    before = factor;
+  }
+}
+
 TEST(FiringPosterior, WiderPriorNeedsMoreHeat) {
   const auto boundary = boundary_at(2e-4);
   const std::vector<FiredLaunch> launches{fired(boundary_at(4e-4), 10, false)};

@@ -15,6 +15,10 @@ namespace launchsafe::study {
 
 inline constexpr int most_rounds = 100'000;  ///< of one firing
 
+/// Rounds as severe as a launch without which nothing is SAFE: where none of so many ignites, one does with
+/// less than 5 %, by 95 % (Clopper and Pearson, 1 - 0.05^(1/59)).
+inline constexpr int fewest_rounds = 59;
+
 /// Rounds of one kind that ended alike.
 struct Firing {
   std::string name;
