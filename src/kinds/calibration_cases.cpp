@@ -127,9 +127,6 @@ Fault check_firings(const StudyFile& study) {
           any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
           any ? "either [[firing]] or published rows" : "at least one [[firing]]");
   }
-  if (any && study.study.calibration.firings)
-    return fault_at(study, "calibration", "a calibration that is itself on firings",
-                    "the record of a calibration on published results, and all firings here");
   return std::nullopt;
 }
 

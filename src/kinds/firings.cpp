@@ -22,8 +22,9 @@ using study::Firing, study::Posterior, study::PosteriorPoint, study::StudyOption
 
 namespace {
 
-constexpr int nodes = 25, fewer_nodes = 13;  ///< of the lattice of a posterior
-constexpr double least_tail = 0.01;          ///< of study::tail_probability
+constexpr int nodes = 25, fewer_nodes = 13;   ///< of the lattice of a posterior
+constexpr double least_above_hottest = 20.0;  ///< K, of an ignition temperature above the hottest charge
+constexpr double least_tail = 0.01;           ///< of study::tail_probability
 
 bool are_alike(const Firing& a, const Firing& b) {
   return a.pressure == b.pressure && a.temperature == b.temperature && a.gap == b.gap;
@@ -223,8 +224,10 @@ void calibrate_on_firings(FiringResult& result) {
     return;
   }
   const FiringSettings& settings = study::settings_of<CalibrationSettings>(result.study.study).firings;
-  const study::FiringPrior prior =
+  study::FiringPrior prior =
       settings.prior_about(surface::constants_of(surface::skin_model(result.study.scene.scene)));
+  prior.least_ignition_temperature =
+      std::ranges::max(settings.firings, {}, &Firing::temperature).temperature + least_above_hottest;
   const study::FiringPrior doubled = prior.widened(2.0);
   result.rows = rows_of(settings.firings);
   const auto launches = launches_of(result, doubled);

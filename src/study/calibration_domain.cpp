@@ -76,12 +76,11 @@ RecordDistance distance_to_calibration(const scene::Scene& scene, const Calibrat
   const std::vector<Firing>& firings = calibration.firings->firings;
   const double pressure = fired_pressure(scene.load);
   if (is_between(pressure, firings, &Firing::pressure)) recorded.load.peak = scene.load.peak;
-  if (is_between(scene.initial_temperature, firings, &Firing::temperature)) {
-    // The air of the gap has the temperature of the charge.
-    recorded.surface.air =
-        materials::warmed(recorded.surface.air, scene.initial_temperature - recorded.initial_temperature);
+  // The air of the gap has the temperature of the charge.
+  recorded.surface.air =
+      materials::warmed(recorded.surface.air, scene.initial_temperature - recorded.initial_temperature);
+  if (is_between(scene.initial_temperature, firings, &Firing::temperature))
     recorded.initial_temperature = scene.initial_temperature;
-  }
   return distance_to_record(RecordKind::firings, scene, recorded);
 }
 

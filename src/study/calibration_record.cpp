@@ -1,5 +1,6 @@
 #include "launchsafe/study/calibration_record.hpp"
 
+#include "launchsafe/study/firing_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
 
 namespace launchsafe::study {
@@ -57,6 +58,9 @@ std::string to_json_text(const CalibrationRecord& record) {
 
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text,
                                                             const std::string& file) {
+  if (is_firing_record(text))
+    return scene::error_at({file}, "format", "the record of a calibration on firings",
+                           "the record of a calibration on published results");
   return parse_record<CalibrationRecord>(text, file, calibration_format, describe_calibration);
 }
 

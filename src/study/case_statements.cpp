@@ -49,6 +49,12 @@ bool is_of_firings(const Study& study, const std::string& key) {
   return study.calibration.firings && scene::role_of(key).part == keys::Part::calibrated;
 }
 
+/// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
+/// peak pressure and the temperature, which were held against them.
+bool no_firing_speaks_of(const scene::Implausible& foreign) {
+  return foreign.key != "load.peak" && foreign.key != "initial_temperature";
+}
+
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
@@ -119,17 +125,6 @@ bool CaseStatements::has_unaccepted() const {
 }
 
 bool CaseStatements::is_beyond(double gap) const { return gap > calibrated_gap * (1.0 + 1e-9); }
-
-namespace {
-
-/// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
-/// peak pressure and the temperature of charge and air, which were held against them.
-bool no_firing_speaks_of(const scene::Implausible& foreign) {
-  return foreign.key != "load.peak" && foreign.key != "initial_temperature" &&
-         foreign.key != "gap.air_temperature" && foreign.key != "gap.air_density";
-}
-
-}  // namespace
 
 CaseStatements statements_of(const Study& study, const StudyCase& input) {
   const scene::Scene& scene = input.scene.scene;

@@ -33,13 +33,14 @@ std::vector<Node> nodes_of(int count) {
 
 double total_spread(double scatter, double log_heat_spread) { return std::hypot(scatter, log_heat_spread); }
 
-/// Of all rounds of a launch, whose heat has to grow by that margin until it ignites. A round that did not
-/// ignite may have been an average one or a cold one: what it shows less by counts, so that a larger spread
-/// never proves more.
+/// Of all rounds of a launch, whose heat has to grow by that margin until it ignites. A larger spread of
+/// pressure and temperature must not speak for safety. A round that did not ignite may have been an average
+/// or a cold one: the one that shows less counts. One that ignited counts as an average one.
 double log_likelihood(const FiredLaunch& launch, double log_heat_margin, double scatter) {
+  const double as_average = log_heat_margin / scatter;
+  if (launch.ignited) return launch.rounds * std::log(below(-as_average));
   const double z = log_heat_margin / total_spread(scatter, launch.log_heat_spread);
-  if (launch.ignited) return launch.rounds * std::log(below(-z));
-  return launch.rounds * std::log(below(std::max(z, log_heat_margin / scatter)));
+  return launch.rounds * std::log(below(std::max(z, as_average)));
 }
 
 /// Equally probable points of weighted ones: those at the middles of equal parts of the cumulated weight.
@@ -68,7 +69,8 @@ FiringPrior FiringPrior::widened(double factor) const {
 
 surface::Extent FiringPrior::ignition_temperatures() const {
   const double half = reach * ignition_temperature;
-  return {centre.ignition_temperature - half, centre.ignition_temperature + half};
+  return {std::max(least_ignition_temperature, centre.ignition_temperature - half),
+          centre.ignition_temperature + half};
 }
 
 surface::Extent FiringPrior::log_products() const {
@@ -90,6 +92,7 @@ Posterior posterior_of(const FiringPrior& prior, const std::vector<FiredLaunch>&
             prior.centre.localisation * std::exp(localisation.deviations * prior.log_localisation),
             prior.centre.exchange_time * std::exp(exchange.deviations * prior.log_exchange_time),
             prior.centre.ignition_temperature + temperature.deviations * prior.ignition_temperature};
+        if (constants.ignition_temperature < prior.least_ignition_temperature) continue;
         std::vector<double> margins;
         for (const FiredLaunch& launch : launches)
           margins.push_back(launch.boundary.log_heat_margin(constants));

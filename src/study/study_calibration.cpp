@@ -92,9 +92,13 @@ scene::Expected<Record> read_named(StudyFile& study, const std::filesystem::path
 Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;
   if (name.empty()) return std::nullopt;
-  const auto record = read_named(study, folder, "calibration", name, "the calibration.json of a calibration",
-                                 parse_either);
+  const auto record =
+      read_named(study, folder, "calibration", name, "the calibration.json of a calibration", parse_either);
   if (!record) return record.error();
+  if (record->calibration.firings && !study.study.kind.gives_verdicts)
+    return fault_at(study, "calibration",
+                    "a calibration on firings, of whose constants a study of this kind would take one value",
+                    "the record of a calibration on published results");
   if (!record->failure.empty()) {
     return fault_at(study, "calibration", "a record without constants: " + record->failure,
                     "the record of a calibration that meets its rows");

@@ -62,6 +62,14 @@ TEST(Firings, ThatContradictEachOtherGiveNoRecord) {
   EXPECT_NE(answer(result).find("would hardly have ended so"), std::string::npos) << answer(result);
 }
 
+// With the doubled prior the ignition temperature may lie 240 K lower, below that of a hot charge.
+TEST(Firings, TakeTheWidestPriorThatIsAllowed) {
+  const FiringResult result =
+      fire(firing("no ignition", 5, "0.2 mm", "temperature = \"340 K\"\n"),
+           "prior.localisation = 4\nprior.exchange_time = 4\nprior.ignition_temperature = \"40 K\"\n");
+  EXPECT_TRUE(result.record) << answer(result);
+}
+
 TEST(Firings, NameTheRoundThatTellsMost) {
   const FiringResult result = fire(firing("no ignition", 5, "0.4 mm"), "next_gaps = \"0.4, 0.8, 4 mm\"\n");
   ASSERT_EQ(result.next.size(), 3u);
@@ -86,16 +94,8 @@ TEST(Firings, RefuseWhatTheyCannotRestOn) {
 }
 
 /// A study of the made-up shell on the record of its firings.
-class StudyOnFirings : public ::testing::Test {
+class StudyOnFirings : public FolderWithScene {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-    std::filesystem::copy(studies_folder / "scene_155mm.toml", folder_ / "scene_155mm.toml",
-                          std::filesystem::copy_options::overwrite_existing);
-  }
-
   void record(const std::string& firings, const std::string& head = {}) {
     const FiringResult result = fire(firings, head);
     ASSERT_TRUE(result.record) << answer(result);
@@ -117,7 +117,6 @@ class StudyOnFirings : public ::testing::Test {
     return run_critical_gap(*study, synthetic_options()).answers.front().verdicts;
   }
 
-  std::filesystem::path folder_;
   const std::string statements_ =
       "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
       "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
@@ -205,6 +204,27 @@ TEST_F(StudyOnFirings, AcceptingAHigherPressureMakesNothingSafe) {
   EXPECT_EQ(rows[0].judgement.code, ReasonCode::beyond_firings) << reason_text(rows[0]);
 }
 
+TEST_F(StudyOnFirings, OtherAirThanThatOfTheChargeCannotBeAccepted) {
+  record(firing("no ignition", 1000, "0.6 mm"));
+  const auto rows = verdicts(
+      "accept = [{ key = \"gap.air_density\", value = \"1.3 kg/m3\", because = \"it is hardly more\" }]\n"
+      "[set]\ngap.air_density = \"1.3 kg/m3\"\n");
+  EXPECT_EQ(count_safe(rows), 0);
+}
+
+TEST_F(StudyOnFirings, IsRefusedWhereNoVerdictCarriesItsPosterior) {
+  record(firing("no ignition", 60, "0.2 mm"));
+  const auto study = kinds::parse_study(
+      "kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ncalibration = \"calibration.json\"\nsamples = "
+      "8\n" +
+          std::string("vary = [{ key = \"initial_temperature\", distribution = \"uniform\", range = \"290 to "
+                      "310 K\" }]\n"),
+      folder_ / "sensitivity.toml");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().message().find("a calibration on firings"), std::string::npos)
+      << study.error().message();
+}
+
 TEST_F(StudyOnFirings, SaysThatInventedFiringsAreADemonstration) {
   record(firing("no ignition", 1000, "0.6 mm"), "demonstration = true\n");
   EXPECT_NE(reason_text(verdicts().front()).find("a demonstration"), std::string::npos);
@@ -229,7 +249,8 @@ TEST_F(StudyOnFirings, RefusesFiringsThatStartFromFirings) {
       firing_text + "calibration = \"calibration.json\"\n" + firing("no ignition", 5, "0.2 mm"),
       folder_ / "again.toml");
   ASSERT_FALSE(study);
-  EXPECT_NE(study.error().message().find("itself on firings"), std::string::npos) << study.error().message();
+  EXPECT_NE(study.error().message().find("a calibration on firings"), std::string::npos)
+      << study.error().message();
 }
 
 // A record that is read says what the one that was written said.

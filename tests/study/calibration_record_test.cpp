@@ -103,22 +103,14 @@ TEST(CalibrationRecord, AFailedCalibrationGivesAReasonAndNoConstants) {
 }
 
 /// A study beside a record in a folder of its own.
-class StudyWithRecord : public ::testing::Test {
+class StudyWithRecord : public FolderWithScene {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-    std::filesystem::copy(studies_folder / "scene_155mm.toml", folder_ / "scene_155mm.toml",
-                          std::filesystem::copy_options::overwrite_existing);
-  }
   scene::Expected<StudyFile> study(const std::string& more) {
     return parse_study(critical_kind + "calibration = \"calibration.json\"\n" + more, folder_ / "study.toml");
   }
   void write(const CalibrationRecord& record) {
     std::ofstream(folder_ / "calibration.json") << to_json_text(record);
   }
-  std::filesystem::path folder_;
 };
 
 TEST_F(StudyWithRecord, TakesLoadAndConstants) {

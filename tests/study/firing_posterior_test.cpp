@@ -119,6 +119,17 @@ TEST(FiringPosterior, ALargerSpreadOfQuietRoundsNeverNeedsLessHeat) {
   }
 }
 
+// Nor do ignitions that may have been of hot rounds speak for safety.
+TEST(FiringPosterior, ALargerSpreadOfIgnitionsNeverNeedsLessHeat) {
+  const auto& boundary = boundary_at(2e-4);
+  const auto factor_with = [&](double spread) {
+    const Posterior posterior = posterior_of(
+        some_prior(), {{boundary_at(3e-4), 0.05, 60, false}, {boundary_at(8e-4), spread, 3, true}});
+    return heat_factor(posterior, boundary, some_prior().centre);
+  };
+  EXPECT_GE(factor_with(0.8), factor_with(0.0) * (1.0 - 1e-12));
+}
+
 TEST(FiringPosterior, WiderPriorNeedsMoreHeat) {
   const auto boundary = boundary_at(2e-4);
   const std::vector<FiredLaunch> launches{fired(boundary_at(4e-4), 10, false)};

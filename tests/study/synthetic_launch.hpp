@@ -30,6 +30,19 @@ inline StudyFile study_of(const std::string& text) {
   return study ? *study : StudyFile{};
 }
 
+/// Studies of the shipped scene in a folder of their own.
+class FolderWithScene : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(::testing::TempDir()) /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+    std::filesystem::copy(studies_folder / "scene_155mm.toml", folder_ / "scene_155mm.toml",
+                          std::filesystem::copy_options::overwrite_existing);
+  }
+  std::filesystem::path folder_;
+};
+
 /// What a study varies, in one line: keys and their values, "400, 496 MPa" or [1.4, 1.5].
 inline std::string vary(const std::vector<std::pair<std::string, std::string>>& varied) {
   std::string text;

@@ -50,8 +50,10 @@ struct FiringPrior {
   double log_localisation = 0.4;       ///< standard deviation
   double log_exchange_time = 0.7;      ///< likewise
   double ignition_temperature = 30.0;  ///< K, likewise
-  double scatter = 0.05;               ///< median
-  double log_scatter = 0.7;            ///< standard deviation
+  /// K: a charge of a lower one would have ignited where it lay.
+  double least_ignition_temperature = 0.0;
+  double scatter = 0.05;     ///< median
+  double log_scatter = 0.7;  ///< standard deviation
   /// With all standard deviations so many times as large.
   FiringPrior widened(double factor) const;
   /// Over which the posterior is sought: this many standard deviations on both sides.
