@@ -98,7 +98,7 @@ void add_emit(CLI::App& app, CommandLine& line) {
 
 void add_ask(CLI::App& app, CommandLine& line) {
   auto [command, ask] = add_command<AskArguments>(
-      app, line, "ask", "Ask the fit of a sensitivity study about a launch, in no time", ask_footer);
+      app, line, "ask", "Ask the fit of a study about a launch that nobody computed", ask_footer);
   add_required(command, "study", ask.study, "STUDY_DIR",
                "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
   add_optional(command, "--set", ask.settings, "KEY=VALUE",

@@ -40,6 +40,14 @@ const std::string& stored_word(const KeyDescription& key, const std::string& wor
   return word;
 }
 
+/// That of the dimension; of a number without a unit that may not be this, the end of its range.
+std::string example_of_number(const KeyDescription& key) {
+  const std::string usual(example_of(key.dimension));
+  const auto value = parse_quantity(usual, key.dimension);
+  if (!units_of(key.dimension).empty() || !value || key.limits.contain(*value)) return usual;
+  return fmt::format("{:g}", key.limits.contain(key.limits.lowest) ? key.limits.lowest : key.limits.highest);
+}
+
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
 std::string string_as_toml(const std::string& string) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; };
@@ -76,7 +84,7 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::range:
       return fmt::format("\"0 to 2.5{}\"", first_unit(key.dimension));
     case KeyKind::number:
-      return std::string(example_of(key.dimension));
+      return example_of_number(key);
   }
   return {};
 }

@@ -187,4 +187,18 @@ TEST(ReadStudy, ACalibrationNeedsItsRows) {
   EXPECT_EQ(error.line, 3);
 }
 
+// A message that names what is allowed must not give an example that is not.
+TEST(ReadStudy, TheExampleOfANumberWithoutUnitIsOneThatTheKeyAllows) {
+  int checked = 0;
+  for (const scene::DocumentedKey& each : kinds::describe_study_keys()) {
+    const scene::KeyDescription& key = each.description;
+    if (key.kind != scene::KeyKind::number || !scene::units_of(key.dimension).empty()) continue;
+    const auto value = scene::parse_quantity(scene::example_of(key), key.dimension);
+    ASSERT_TRUE(value) << key.name;
+    EXPECT_TRUE(key.limits.contain(*value)) << key.name << ": " << scene::example_of(key);
+    ++checked;
+  }
+  EXPECT_GT(checked, 10);
+}
+
 }  // namespace
