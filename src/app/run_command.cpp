@@ -241,7 +241,8 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
   std::string text = launch_text(scene);
   if (!result.gaps.empty()) {
     text += report::to_text(gap_table(scene, result)) + "\n";
-    text += report::to_text(air_table(scene, result)) + "\n";
+    const bool closes = scene.surface.model == scene::GapModel::closing;
+    text += report::to_text(closes ? report::closing_table(result) : air_table(scene, result)) + "\n";
     text += combustion_text(scene, result);
   }
   if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
@@ -266,6 +267,7 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
   object["combustion"] = report::to_json(report::combustion_table(scene, result))["rows"];
   object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
+  object["closing"] = report::to_json(report::closing_table(result))["rows"];
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},

@@ -3,6 +3,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 #include "study_outcome.hpp"
@@ -113,6 +114,22 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
 }
 
+/// The launches of gaps that close, for the cases that ask for them.
+void run_closing_gaps(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
+  const RunBatch run = [&](std::vector<CaseRun> runs) {
+    std::vector<FinishedRun> all(runs.size());
+    std::vector<CaseRuns> tasks;
+    for (CaseRun& each : runs) tasks.push_back({{}, {planned_run(std::move(each))}, options.shard.index});
+    run_cases(tasks, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+      all[i] = std::move(finished.front());
+    });
+    return all;
+  };
+  for (CaseOutcome& outcome : result.details)
+    if (outcome.input.closing && outcome.completed())
+      outcome.closing = find_closing_gaps(result.study.study, outcome.input, run);
+}
+
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
   const bool confirm = study.confirmations_per_case > 0;
@@ -126,6 +143,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
     }
   });
   if (confirm) run_confirmations(result, options, tracker);
+  run_closing_gaps(result, options, tracker);
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);

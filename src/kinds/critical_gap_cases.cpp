@@ -44,6 +44,9 @@ Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
   if (!study.places.contains("confirm")) confirm = few;
   study.in_detail = few || confirm;
   study.confirmations_per_case = confirm ? 2 : 0;
+  if (study.scene.scene.surface.model == scene::GapModel::closing && !study.in_detail)
+    return fault_at(study, "vary", fmt::format("{} cases of a gap that closes", study.cases.size()),
+                    fmt::format("at most {}, or gap.model = \"reservoir\"", most_cases_in_detail));
   return std::nullopt;
 }
 
@@ -61,7 +64,7 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
 
 Kind critical_gap_kind() {
   return {
-      .traits = {.name = "critical-gap", .keeps_answers = true},
+      .traits = {.name = "critical-gap", .keeps_answers = true, .judges_closing_gaps = true},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
                       calibration_record_keys(), uncertainty_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},
@@ -71,6 +74,9 @@ Kind critical_gap_kind() {
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
       // Reports of older programs had files of cases too, and critical_gaps.json.
       .files = {{"verdicts.csv"},
+                {"closing.csv"},
+                {"closing_bounds.csv"},
+                {"closing.svg"},
                 {"verdicts.md"},
                 {"temperature.svg"},
                 {"critical_gaps.csv"},

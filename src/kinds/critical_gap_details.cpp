@@ -183,7 +183,8 @@ Table air_energy_table(const CriticalGapResult& result) {
     const std::string label = result.details.size() > 1 ? outcome.input.label : std::string{};
     for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
   }
-  return air_energy_table(result.study.scene.scene.surface.air_model, gaps);
+  const scene::Surface& surface = result.study.scene.scene.surface;
+  return air_energy_table(surface.air_model, gaps, surface.model == scene::GapModel::closing);
 }
 
 /// Answers on other terms, where a case has them.
@@ -307,6 +308,11 @@ std::string limiter_remark(const CriticalGapResult& result) {
 }
 
 void add_details(const CriticalGapResult& result, Report& report) {
+  for (ReportTable table : {ReportTable{closing_bound_table(result), "closing_bounds.csv", "closing_bounds"},
+                            ReportTable{closing_table(result), "closing.csv", "closing"}})
+    if (!table.table.rows.empty()) report.items.push_back(std::move(table));
+  if (auto plot = closing_plot(result))
+    report.items.push_back(Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
   for (ReportTable table : {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
                             ReportTable{without_exit_table(result), "", "without_exit"},
                             ReportTable{air_model_table(result), "", "air_models"},
@@ -329,14 +335,16 @@ void add_runs(const CriticalGapResult& result, Report& report) {
 }
 
 std::vector<ResultTable> detail_results() {
-  return {{"coupled_runs", "", keys::described(coupled_quantities())},
-          {"as_calibrated", "", keys::described(calibrated_quantities())},
-          {"without_exit", "", keys::described(longer_launch_quantities())},
-          {"air_models", "", keys::described(film_quantities())},
-          {"air_energy", "", air_energy_columns()},
-          {"gap_shares", "", gap_share_columns()},
-          {"fit", "", keys::described(line_quantities({}))},
-          {"runs", "", run_columns()}};
+  std::vector<ResultTable> all{{"coupled_runs", "", keys::described(coupled_quantities())},
+                               {"as_calibrated", "", keys::described(calibrated_quantities())},
+                               {"without_exit", "", keys::described(longer_launch_quantities())},
+                               {"air_models", "", keys::described(film_quantities())},
+                               {"air_energy", "", air_energy_columns()},
+                               {"gap_shares", "", gap_share_columns()},
+                               {"fit", "", keys::described(line_quantities({}))},
+                               {"runs", "", run_columns()}};
+  std::ranges::move(closing_results(), std::back_inserter(all));
+  return all;
 }
 
 }  // namespace launchsafe::kinds

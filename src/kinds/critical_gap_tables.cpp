@@ -148,7 +148,8 @@ std::string air_energy_note(const CriticalGapResult& result, const std::vector<S
         worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
     }
   }
-  return air_energy_statement(result.study.scene.scene.surface.air_model, worst);
+  const scene::Surface& surface = result.study.scene.scene.surface;
+  return air_energy_statement(surface.air_model, worst, surface.model == scene::GapModel::closing);
 }
 
 /// What the published temperature at the early time was used for.

@@ -4,6 +4,7 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ report::Table comparison_table(const CriticalGapResult& result);
 /// What the complete coupled runs came to that confirm critical gaps.
 report::Table coupled_run_table(const CriticalGapResult& result);
 std::vector<report::Column> axis_effect_columns();
+
+/// T max and the critical gap where the gap closes, and a picture of one case; nothing where no gap does.
+report::Table closing_table(const CriticalGapResult& result);
+report::Table closing_bound_table(const CriticalGapResult& result);
+std::optional<report::Plot> closing_plot(const CriticalGapResult& result);
+std::vector<ResultTable> closing_results();
 
 /// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided.
 void add_details(const CriticalGapResult& result, report::Report& report);

@@ -47,7 +47,7 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   std::vector<Change> changes;
   for (const Leaf& leaf : leaves_as_written(*overrides.node->as_table()))
     if (Fault fault = add_override(leaf, overrides.name, study, changes)) return fault;
-  auto changed = with_changes(study.scene, changes);
+  auto changed = with_changes(study.scene, changes, study.study.kind.judges_closing_gaps);
   if (!changed) return changed.error();
   study.scene = std::move(*changed);
   return std::nullopt;
@@ -57,6 +57,8 @@ Fault check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
+  if (scene.surface.model == scene::GapModel::closing && !study.study.kind.judges_closing_gaps)
+    return fault_at(study, "scene", "a scene whose gap closes", only_reservoir);
   if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load)) {
     return fault_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
                     "a time within the load's duration, " +

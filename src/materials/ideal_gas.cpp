@@ -4,10 +4,14 @@
 
 namespace launchsafe::materials {
 
-double adiabatic_temperature(const AirParameters& air, double pressure) {
-  if (pressure <= air.initial_pressure) return air.initial_temperature;  // false for NaN, which goes through
+double isentropic_temperature(const AirParameters& air, double pressure) {
   const double exponent = (air.heat_ratio - 1.0) / air.heat_ratio;
   return air.initial_temperature * std::pow(pressure / air.initial_pressure, exponent);
+}
+
+double adiabatic_temperature(const AirParameters& air, double pressure) {
+  if (pressure <= air.initial_pressure) return air.initial_temperature;  // false for NaN, which goes through
+  return isentropic_temperature(air, pressure);
 }
 
 double air_density(double temperature, double pressure) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::mpm {
 namespace {
@@ -34,7 +35,7 @@ void Contact::reset(const std::vector<Nodes>& nodes) {
   pair(nodes);
   last_dt_ = 0.0;
   damping_factor_ = 1.0;
-  for (Row& row : rows_) row.normal = row.slide = row.last_slide = 0.0;
+  for (Row& row : rows_) row.normal = row.slide = row.from_gas = row.last_slide = row.last_from_gas = 0.0;
 }
 
 ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double damping_factor) {
@@ -139,32 +140,72 @@ void Contact::solve_impulses(double dt) {
   begin_impulses(same_pairs ? step_ratio : 0.0);
   for (Row& row : rows_) {
     row.last_slide = row.slide;
+    row.last_from_gas = row.from_gas;
     row.normal *= step_ratio;
+    row.from_gas *= step_ratio;
     row.slide *= step_ratio;
     row.target = row.bonded ? 0.0 : least_opening(row.gap) / dt;
     if (!same_pairs) push(row, row.normal, row.slide);
   }
   const auto settle = [&] {
     for (int count = 0; count < most_sweeps; ++count)
-      if (sweep() <= settled) return;
+      if (sweep(dt) <= settled) return;
   };
   settle();
   while (has_bonds_ && break_bonds(dt)) settle();
 }
 
+/// kg m/s, of a row's gas in a step at whose end the faces part with a speed (m/s). As forces do, it acts
+/// before damping.
+double Contact::gas_impulse(const Row& row, double speed, double dt) const {
+  const double mean = row.gap + row.floor + 0.25 * (dt * speed - last_dt_ * row.opening);
+  return (row.gas.at(mean) - row.gas.outside) * row.area * dt * damping_factor_;
+}
+
+/// The impulse of a row's gas where the faces would part with a speed (m/s) without it: that of the speed v
+/// at which v = speed + impulse(v)/inertia. The right side falls with v, so there is one; Newton's method,
+/// and bisection where it leaves the interval in which that lies.
+double Contact::push_by_gas(const Row& row, double speed, double dt) const {
+  constexpr double exact = 1e-12;
+  constexpr int most = 100;
+  const double mobility = 1.0 / row.normal_inertia,
+               suction = row.gas.outside * row.area * dt * damping_factor_;
+  const double free = row.gap + row.floor - row.gas.covolume - 0.25 * last_dt_ * row.opening;
+  // Between the larger of the speeds that close the covolume and that the strongest suction leaves, and none.
+  double low = std::max(-4.0 * free / dt, speed - mobility * suction);
+  double high = std::numeric_limits<double>::infinity(), reach = 4.0 * std::abs(free) / dt;
+  double v = speed + mobility * row.from_gas;
+  if (!(v > low)) v = low + reach;
+  double impulse = gas_impulse(row, v, dt);
+  for (int count = 0; count < most; ++count) {
+    const double excess = v - speed - mobility * impulse;
+    if (std::abs(excess) <= exact * (std::abs(v) + std::abs(speed))) break;
+    (excess < 0.0 ? low : high) = v;
+    const double stiffness = row.gas.exponent * (impulse + suction) / (free + 0.25 * dt * v);
+    double next = v - excess / (1.0 + 0.25 * dt * mobility * stiffness);
+    if (!(next > low && next < high)) next = std::isfinite(high) ? 0.5 * (low + high) : low + (reach *= 2.0);
+    if (!(next > low && next < high)) break;  // neighbouring numbers
+    v = next;
+    impulse = gas_impulse(row, v, dt);
+  }
+  return impulse;
+}
+
 /// One pass over all rows; the largest change of an impulse over the largest impulse.
-double Contact::sweep() {
+double Contact::sweep(double dt) {
   double changed = 0.0, largest = 0.0;
   for (Row& row : rows_) {
     const Velocity v = relative(row, velocity_);
     const double opening = v.x * row.normal_x + v.r * row.normal_r;
-    if (!row.bonded && row.normal <= 0.0 && opening >= row.target) continue;
+    const bool has_gas = row.gas.pressure > 0.0 && row.normal_inertia > 0.0;
+    if (has_gas) row.from_gas = push_by_gas(row, opening - row.normal / row.normal_inertia, dt);
+    if (!has_gas && !row.bonded && row.normal <= 0.0 && opening >= row.target) continue;
     const double sliding = v.r * row.normal_x - v.x * row.normal_r;
     double normal = row.normal - (opening - row.target) * row.normal_inertia;
     double slide = row.slide - sliding * row.slide_inertia;
     if (!row.bonded) {
-      normal = std::max(normal, 0.0);
-      const double limit = row.friction * normal;
+      normal = std::max(normal, row.from_gas);
+      const double limit = row.friction * (normal - row.from_gas);
       slide = std::clamp(slide, -limit, limit);
     }
     const double more_normal = normal - row.normal, more_slide = slide - row.slide;
@@ -245,8 +286,12 @@ void Contact::advance_rows(double dt) {
         -0.5 * (row.last_slide / damping_factor_before_ + row.slide / damping_factor_) * row.sliding;
     row.friction_work += work;
     row.friction_heat += work / row.area;
+    row.gas_work -=
+        0.5 * (row.last_from_gas / damping_factor_before_ + row.from_gas / damping_factor_) * row.opening;
     set_speeds(row);
+    const double before = row.gap + row.floor;
     row.gap += dt * row.opening;
+    row.gas.exchange_heat(before, row.gap + row.floor, dt);
     row.largest_gap = std::max(row.largest_gap, row.gap);
     row.overlap = std::max(row.overlap, -row.gap);
     row.slid += dt * std::abs(row.sliding);
@@ -254,6 +299,49 @@ void Contact::advance_rows(double dt) {
     fastest = std::max(fastest, std::abs(row.sliding));
   }
   slid_ += dt * fastest;
+}
+
+void Contact::hold(std::size_t face) {
+  for (std::size_t i = 0; i < faces_[face].own.indices.size(); ++i) {
+    Row& row = rows_[faces_[face].first_row + i];
+    if (row.bonded) continue;
+    row.bonded = row.held = has_bonds_ = true;
+  }
+}
+
+void Contact::let_go() {
+  for (Row& row : rows_) {
+    if (!row.held) continue;
+    row.bonded = row.held = false;
+    row.normal = std::max(row.normal, 0.0);
+    row.slide = std::clamp(row.slide, -row.friction * row.normal, row.friction * row.normal);
+  }
+  steps_ = 0;  // the points' impulses are no longer those of the rows
+}
+
+void Contact::part(std::size_t face, double opening, double floor) {
+  const Face& f = faces_[face];
+  for (std::size_t i = 0; i < f.own.indices.size(); ++i) {
+    Row& row = rows_[f.first_row + i];
+    row.gap += opening - floor;
+    row.parted = opening;
+    row.floor = floor;
+    row.largest_gap = std::max(row.largest_gap, row.gap);
+  }
+}
+
+void Contact::set_gas(std::size_t face, std::size_t node, const GapGas& gas) {
+  rows_[faces_[face].first_row + node].gas = gas;
+}
+
+double Contact::opening(std::size_t face, std::size_t node) const {
+  const Row& row = rows_[faces_[face].first_row + node];
+  return row.gap + row.floor;
+}
+
+double Contact::gas_work(std::size_t face, std::size_t node) const {
+  const Row& row = rows_[faces_[face].first_row + node];
+  return row.area > 0.0 ? row.gas_work / row.area : 0.0;
 }
 
 double Contact::friction_work(std::size_t face) const {

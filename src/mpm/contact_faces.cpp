@@ -157,14 +157,14 @@ void Contact::pair_face(Face& face, const std::vector<Nodes>& nodes) {
 void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row) {
   row.area = paired.area;
   row.begin = row.end = static_cast<std::uint32_t>(shares_.size());
-  row.gap = 0.0;
+  row.gap = row.parted - row.floor;
   // A node tied to the other body, as at the corner where sliding faces end at bonded ones, does not move
   // against it: the tie holds its part of the face. Its row would turn round-off of places into any impulse.
   const bool tied = std::any_of(paired.other.begin(), paired.other.end(), [&](const PairShare& each) {
     return face.other.points[each.node] == face.own.points[node];
   });
   if (!(paired.area > 0.0) || tied) {
-    row.normal = row.slide = row.normal_inertia = row.slide_inertia = 0.0;
+    row.normal = row.slide = row.from_gas = row.normal_inertia = row.slide_inertia = 0.0;
     row.free_normal_inertia = row.free_slide_inertia = 0.0;
     return;
   }

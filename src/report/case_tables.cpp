@@ -151,6 +151,43 @@ Quantities<BurntGap> combustion_quantities() {
            &run::GapResult::combustion)});
 }
 
+Quantities<const run::GapResult*> closing_quantities() {
+  using keys::significant, run::ClosingHistory, surface::FilmEnergy;
+  const auto heat = [](const char* name, const char* label, const char* meaning, double FilmEnergy::*part) {
+    return keys::Quantity<ClosingHistory>(
+        {name, label, significant(4, kilojoule_per_area), meaning},
+        [part](const ClosingHistory& closing) { return closing.energy.*part; });
+  };
+  return keys::joined<const run::GapResult*>(
+      {{{quantity::gap(), &run::GapResult::gap}},
+       of_part<const run::GapResult*>(
+           Quantities<ClosingHistory>{
+               {{"contact_time", "contact", significant(4, millisecond), "When the faces first met."},
+                &ClosingHistory::contact_time},
+               {{"approach_speed", "approach", significant(3, metre_per_second),
+                 "Largest speed at which the faces came together until then."},
+                &ClosingHistory::approach_speed},
+               {{"contacts", "contacts", significant(6), "How often the faces met."},
+                &ClosingHistory::contacts},
+               {{"smallest_opening", "smallest opening", significant(3, micrometre), "Anywhere."},
+                &ClosingHistory::smallest_opening},
+               {{"air_pressure_max", "p air", significant(4, megapascal), "Highest pressure of the air."},
+                &ClosingHistory::largest_gas_pressure},
+               {{"air_temperature_max", "T air", significant(4, kelvin),
+                 "Highest temperature of the air, mean over its mass at one place."},
+                &ClosingHistory::largest_gas_temperature},
+               {{"work_on_air", "work on air", significant(4, kilojoule_per_area),
+                 "Work of the faces on the air beyond the surrounding pressure, mean over the bottom."},
+                &ClosingHistory::work_on_gas},
+               heat("heat_to_base", "to base", "Heat that the base gained, mean over the bottom.",
+                    &FilmEnergy::base),
+               heat("friction_heat", "friction", "Heat of friction in the charge, as deep as it is resolved.",
+                    &FilmEnergy::friction),
+               heat("heat_to_charge", "in charge", "Heat that the charge gained, with that of friction.",
+                    &FilmEnergy::charge)},
+           &run::GapResult::closing)});
+}
+
 Quantities<BurningRow> burning_quantities() {
   using run::CombustionHistory;
   return {{quantity::time(3), at_sample(&CombustionHistory::time)},
@@ -223,6 +260,15 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
   return table;
 }
 
+Table closing_table(const run::CaseResult& result) {
+  std::vector<const run::GapResult*> closed;
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.closing) closed.push_back(&gap);
+  Table table = table_of("How the gap closed", closing_quantities(), closed);
+  if (!table.rows.empty()) table.notes = noted("closing", {});
+  return table;
+}
+
 Table combustion_history_table(const run::CombustionHistory& c, double gap, std::size_t rows) {
   std::vector<BurningRow> samples;
   const std::size_t stride = rows == 0 ? 0 : std::max<std::size_t>(1, (c.time.size() + rows - 1) / rows);
@@ -231,8 +277,8 @@ Table combustion_history_table(const run::CombustionHistory& c, double gap, std:
   return table_of("History of the combustion at " + centimetres(gap), burning_quantities(), samples);
 }
 
-std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
-  Row facts{{"film", model == scene::AirModel::film}};
+std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
+  Row facts{{"film", model == scene::AirModel::film}, {"closing", closing}};
   // Where the skin took most against what can be supplied.
   double most = -HUGE_VAL;
   for (const AuditedGap& gap : gaps) {
@@ -247,13 +293,13 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
   return noted("air", facts).front();
 }
 
-Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps) {
+Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
   if (gaps.empty()) return {};
   const bool labelled =
       std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
   Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
   table.notes = noted("air_energy");
-  table.notes.push_back(air_energy_statement(model, gaps));
+  table.notes.push_back(air_energy_statement(model, gaps, closing));
   return table;
 }
 

@@ -63,6 +63,12 @@ const char* key_of_memory(const Cost& cost, double skins) {
   return largest == cost.snapshots ? "output.snapshots" : "numerics.cell_size";
 }
 
+/// Of what a gap is run for by itself.
+double work_of_gap(const scene::Scene& scene, const scene::Plan& plan) {
+  constexpr double with_columns = 1.3;
+  return scene.surface.model == scene::GapModel::closing ? with_columns * plan.work : plan.coupled_work;
+}
+
 }  // namespace
 
 Cost cost_of(const scene::Scene& scene) {
@@ -70,7 +76,7 @@ Cost cost_of(const scene::Scene& scene) {
   const TraceSize size = trace_size(scene, plan);
   const double snapshots = scene.output.asks_for_snapshots() ? copies * snapshot_size(scene).bytes() : 0.0;
   return {.work = plan.work,
-          .coupled = plan.coupled_work * static_cast<double>(scene.surface.gaps.size()),
+          .coupled = work_of_gap(scene, plan) * static_cast<double>(scene.surface.gaps.size()),
           .particles = plan.memory,
           .trace = trace_memory(size),
           .kept_trace = trace_memory(size) / copies,

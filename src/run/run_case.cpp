@@ -27,8 +27,19 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
   result.gap = skin.gap;
   result.at_stations = surface::maximum_at_stations(skin, trace);
   result.at_points = surface::maximum_at_observation_points(skin, trace);
-  result.air = surface::audit_air(model, trace, skin);
+  if (!scene::closes(model.surface, skin.gap)) result.air = surface::audit_air(model, trace, skin);
   result.skin = std::move(skin);
+  return result;
+}
+
+/// A launch in which the gap closes.
+CaseResult run_closing(const scene::Scene& scene, double gap, const RunOptions& options) {
+  CaseResult result;
+  Runner runner(scene, options, gap);
+  result.mechanics = runner.run();
+  std::optional<ClosingHistory> closing = runner.take_closing();
+  result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
+  result.gaps.back().closing = std::move(closing);
   return result;
 }
 
@@ -77,6 +88,12 @@ CaseResult continue_with_skin(const scene::Scene& scene, double gap, const Mecha
   result.gaps.back().combustion = runner.take_combustion(result.mechanics);
   result.gaps.back().with_mechanics = true;
   return result;
+}
+
+/// What is missing of a case says nothing of its launch.
+void note_broken_off(CaseResult& result, double gap, const MechanicsResult& broken, const char* when) {
+  result.mechanics.status = broken.status;
+  result.mechanics.reason = fmt::format("{} {:.6g} cm: {}", when, 100.0 * gap, broken.reason);
 }
 
 /// Snapshots of a run that burnt; those before are the launch's.
@@ -154,6 +171,13 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   own.launch = &result.mechanics;
   if (!scene::has_charge(scene)) return result;
   for (const double gap : scene.surface.gaps) {
+    if (scene::closes(scene.surface, gap)) {
+      CaseResult closed = run_with_skin(scene, gap, options);
+      result.gaps.push_back(std::move(closed.gaps.front()));
+      if (closed.mechanics.status != RunStatus::completed)
+        note_broken_off(result, gap, closed.mechanics, "while the gap closes from");
+      continue;
+    }
     result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
     GapResult& traced = result.gaps.back();
     if (!burns || !traced.skin.ignition || result.mechanics.status != RunStatus::completed) continue;
@@ -161,10 +185,7 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
     traced.combustion = std::move(burnt.gaps.front().combustion);
     if (traced.combustion) traced.combustion->snapshots = from_ignition_on(std::move(burnt));
     if (!was_cut_short(burnt.mechanics.status)) continue;
-    // What is missing of the case says nothing of the launch.
-    result.mechanics.status = burnt.mechanics.status;
-    result.mechanics.reason =
-        fmt::format("after ignition at {:.6g} cm: {}", 100.0 * gap, burnt.mechanics.reason);
+    note_broken_off(result, gap, burnt.mechanics, "after ignition at");
   }
   if (looks_at_ignition) add_snapshot_of_ignition(scene, result, options);
   add_skins(scene, result);
@@ -191,7 +212,9 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     return continue_with_skin(scene, gap, run_mechanics(scene, own), options);
   }
   CaseResult result;
-  if (scene.surface.air_model != scene::AirModel::reservoir) {
+  if (scene::closes(scene.surface, gap)) {
+    result = run_closing(scene, gap, options);
+  } else if (scene.surface.air_model != scene::AirModel::reservoir) {
     // A film has a profile of its own at each station: they are integrated on a trace with a sample every few
     // steps.
     scene::Scene fine = scene;

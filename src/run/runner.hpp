@@ -3,6 +3,7 @@
 
 #include "bulk_heat.hpp"
 #include "burning_bottom.hpp"
+#include "closing_gap.hpp"
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/judged_energy.hpp"
 #include "launchsafe/run/run_case.hpp"
@@ -20,7 +21,7 @@
 namespace launchsafe::run {
 
 /// With a gap (m), the skin is integrated at every step, and with two-way coupling the run goes on through
-/// combustion.
+/// combustion; or the gap closes, where the scene says so.
 class Runner {
  public:
   Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap);
@@ -40,7 +41,11 @@ class Runner {
   MechanicsResult run();
 
   std::shared_ptr<const Checkpoints> take_checkpoints() { return std::move(checkpoints_); }
-  surface::SkinHistory take_skin() { return surface_->take(); }
+  surface::SkinHistory take_skin() { return closing_ ? closing_->take_skin() : surface_->take(); }
+  /// Of a gap that closes, before its skin.
+  std::optional<ClosingHistory> take_closing() {
+    return closing_ ? std::optional(closing_->take_history(simulation_)) : std::nullopt;
+  }
   /// Of a run with two-way coupling that ignited, and ended as `mechanics` says.
   std::optional<CombustionHistory> take_combustion(const MechanicsResult& mechanics);
 
@@ -71,6 +76,7 @@ class Runner {
   BulkHeat heat_;
   std::optional<double> skin_gap_;  ///< m
   std::optional<SteppedSkin> surface_;
+  std::optional<ClosingGap> closing_;
   std::optional<BurningBottom> burning_;  ///< from ignition on
   bool couples_back_ = false;
   CombustionEnd combustion_end_ = CombustionEnd::time;

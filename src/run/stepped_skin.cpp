@@ -10,6 +10,7 @@ SteppedSkin::SteppedSkin(const scene::Scene& scene, double gap, const TraceRecor
       closure_(static_cast<std::size_t>(scene.surface.friction)) {
   after_ignition_.kinetics.ignition_temperature = model_.kinetics.burnt_temperature;
   history_.gap = gap;
+  air_gap_ = scene.surface.model == scene::GapModel::closing ? 0.0 : gap;
   const std::size_t stations = recorder.trace().stations.size();
   points_.assign(stations, surface::SkinPoint{model_.initial_temperature});
   unburnt_ = points_;
@@ -37,12 +38,11 @@ void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder
     const double friction = heating(recorder, s, dt);
     surface::SkinPoint& point = points_[s];
     if (point.ignited) {
-      unburnt_[s] =
-          surface::advance_skin(after_ignition_, history_.gap, unburnt_[s], dt, begin, end, friction);
-      point = surface::advance_skin(model_, history_.gap, point, dt, begin, end, friction);
+      unburnt_[s] = surface::advance_skin(after_ignition_, air_gap_, unburnt_[s], dt, begin, end, friction);
+      point = surface::advance_skin(model_, air_gap_, point, dt, begin, end, friction);
       continue;
     }
-    point = surface::advance_skin(model_, history_.gap, point, dt, begin, end, friction);
+    point = surface::advance_skin(model_, air_gap_, point, dt, begin, end, friction);
     unburnt_[s] = point;
     if (!point.ignited) continue;
     unburnt_[s].temperature =

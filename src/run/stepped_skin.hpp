@@ -49,6 +49,7 @@ class SteppedSkin {
   surface::SkinHistory history_;
   std::vector<surface::SkinPoint> points_, unburnt_;  ///< by station
   std::vector<double> friction_;
+  double air_gap_ = 0;  ///< m; a gap that would close and is not wider than its roughness has no air
   double air_pressure_ = 0;
 };
 

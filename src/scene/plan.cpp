@@ -72,7 +72,9 @@ Term plan_bulk_reaction(const Scene& scene) {
 Term plan_surface(const Scene& scene) {
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
   if (!has_charge(scene)) return {false, false, "no charge", gaps, 0.0};
-  return {true, false, fmt::format("{:.0f} gaps on one bottom trace", gaps), gaps, 0.0};
+  const bool closes = scene.surface.model == GapModel::closing;
+  return {true, false, fmt::format("{:.0f} gaps {}", gaps, closes ? "that close" : "on one bottom trace"),
+          gaps, 0.0};
 }
 
 Term plan_air(const Scene& scene) {
@@ -81,6 +83,12 @@ Term plan_air(const Scene& scene) {
   if (!has_charge(scene)) return {false, false, "no charge", largest, 0.0};
   if (!(largest > 0.0)) return {false, false, "no gap above 0 cm", largest, 0.0};
   const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
+  if (scene.surface.model == GapModel::closing)
+    return {true, false,
+            fmt::format("{}, that close down to {} on a base that {}; each has a launch of its own", gaps,
+                        length_text(scene.surface.roughness),
+                        scene.surface.base == GapBase::insulated ? "takes no heat" : "takes heat"),
+            largest, 0.0};
   if (scene.surface.air_model != AirModel::film) return {true, false, gaps, largest, 0.0};
   return {true, false,
           gaps +

@@ -94,6 +94,17 @@ std::vector<Material> used_materials(const Scene& scene) {
 
 bool is_charge(const Scene& scene, const Body& body) { return is_explosive(law_of(scene, body)); }
 
+const Body* body_under_charge(const Scene& scene) {
+  constexpr double same_place = 1e-6;  // m
+  const double bottom = charge_extent(scene).x_end;
+  const Body* under = nullptr;
+  for (const Body& body : scene.bodies) {
+    if (is_charge(scene, body) || std::abs(body.x_begin - bottom) > same_place) continue;
+    if (under == nullptr || body.r_begin < under->r_begin) under = &body;
+  }
+  return under;
+}
+
 bool has_charge(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(),
                      [&](const Body& body) { return is_charge(scene, body); });

@@ -44,7 +44,8 @@ double usual_selective_inertia(const Scene& scene) {
   const bool is_possible =
       numerics.formulation == Formulation::total_lagrangian && scene.frame == Frame::co_moving;
   const bool was_measured = has_charge(scene) && scene.coupling == Coupling::one_way &&
-                            scene.load.curve_time.empty() && !(numerics.inertial_scaling > 1.0) &&
+                            scene.surface.model == GapModel::reservoir && scene.load.curve_time.empty() &&
+                            !(numerics.inertial_scaling > 1.0) &&
                             !changes_too_fast_for_selective_inertia(scene);
   return is_possible && was_measured ? 4.0 : 1.0;
 }

@@ -8,6 +8,38 @@
 namespace launchsafe::scene {
 namespace {
 
+bool is_closing(const Surface& surface) { return surface.model == GapModel::closing; }
+
+/// Written where the gap closes alone, so that what was stored before there was such a gap stays what it is.
+std::vector<Key<Surface>> closing_keys() {
+  const Role of_motion{ActsOn::mechanics, Part::constant};
+  std::vector<Key<Surface>> keys{
+      always_plausible(
+          word_key("model", Standing::assumed,
+                   "As published, with air that stays on its adiabat and a charge that rests; or a gap that "
+                   "closes: the charge flies across it, compresses its air and meets the base.",
+                   {{"reservoir", GapModel::reservoir}, {"closing", GapModel::closing}}, &Surface::model),
+          "both are models of the gap; constants are calibrated for the reservoir", of_motion),
+      plausibly(number_key("roughness", Dimension::length, above_to(0, 1e-3), Standing::assumed,
+                           "Least opening of a closing gap, at which the faces meet; a gap no wider is none.",
+                           &Surface::roughness),
+                between(1e-6, 3e-5), "pressed and machined faces have 1 to 30 um", of_motion),
+      always_plausible(
+          word_key("base", Standing::assumed,
+                   "Whether the base takes heat from the air of a closing gap: the two bounds.",
+                   {{"conducting", GapBase::conducting}, {"insulated", GapBase::insulated}}, &Surface::base),
+          "both are bounds of the same gap", of_motion),
+      always_plausible(
+          number_key("release", Dimension::time, between(0, 1), Standing::assumed,
+                     "Until when nose and wall hold the charge over a closing gap where they slide; "
+                     "then all of it lets go at once. 0: it is free from the start.",
+                     &Surface::release),
+          "when a charge lets go is not known, and the worst instant has to be looked for", of_motion),
+  };
+  for (Key<Surface>& key : keys) key = written_where(std::move(key), is_closing);
+  return keys;
+}
+
 std::vector<Key<Surface>> gap_keys() {
   return {
       always_plausible(list_key("thickness", Dimension::length, between(0, 0.01), Standing::paper,
@@ -131,6 +163,7 @@ std::vector<Key<Surface>> station_keys() {
 std::vector<Key<Scene>> surface_keys() {
   using keys::in_role, keys::keys_of_part;
   return keys::joined({keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
+                       keys_of_part("gap.", &Scene::surface, closing_keys()),
                        keys_of_part<Scene>(
                            "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },
                            in_role({ActsOn::surface}, air_keys())),

@@ -1,6 +1,7 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
 #include "launchsafe/scene/interfaces.hpp"
 #include "scene_fault.hpp"
+#include "validate_gap.hpp"
 #include "validate_geometry.hpp"
 #include "validate_load.hpp"
 
@@ -195,22 +196,6 @@ Fault check_crack_friction(const SceneFile& file) {
       on ? "true with a face_friction above 0" : "false with a face_friction of 0, or without one");
 }
 
-Fault check_gaps(const SceneFile& file) {
-  std::vector<double> gaps = file.scene.surface.gaps;
-  std::sort(gaps.begin(), gaps.end());
-  const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
-                                        [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
-  if (twice != gaps.end()) {
-    return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
-  }
-  if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
-    return fault_at(file, "gap.thickness",
-                    fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),
-                    "gaps only under a body of material \"charge\"");
-  }
-  return std::nullopt;
-}
-
 /// Of stations: more are no place that anybody looks at, and take minutes to plan.
 constexpr double most_stations = 1000;
 
@@ -330,7 +315,7 @@ std::optional<InputError> validate(const SceneFile& file) {
        {check_names,          fault_of_near_edges, check_charge_fits,        check_overlaps,
         fault_of_support,     check_interfaces,    check_stations,           check_cell_size,
         fault_of_load,        check_kinetics,      check_equation_of_state,  check_steel,
-        check_crack_friction, check_gaps,          check_observation_points, check_formulation,
+        check_crack_friction, fault_of_gap,        check_observation_points, check_formulation,
         check_inertia,        check_refinement,    check_coupling,           check_output}) {
     if (Fault fault = check(file)) return fault;
   }

@@ -103,7 +103,7 @@ void lay_out_energy(Archive& archive, Rows& rows) {
   energy("damping_loss", &EnergyBalance::damping, "taken out by damping and the PIC share");
   if (is_stored(archive, "contact_loss"))
     energy("contact_loss", &EnergyBalance::contact,
-           "taken out by friction between bodies, and where their faces close");
+           "taken out by friction between bodies, where their faces close, and by gas between them");
   energy("plastic_dissipation", &EnergyBalance::plastic, "dissipated in steel");
   energy("viscous_dissipation", &EnergyBalance::viscous, "dissipated in the charge's Maxwell elements");
   energy("crack_dissipation", &EnergyBalance::crack, "dissipated by crack growth");
@@ -245,6 +245,37 @@ void lay_out_combustion(Archive& archive, auto& combustion, const trace::BottomT
 }
 
 template <class Archive>
+void lay_out_closing(Archive& archive, auto& closing) {
+  if constexpr (Archive::reading) {
+    if (!archive.has("closing")) return;
+    closing.emplace();
+  } else {
+    if (!closing) return;
+  }
+  archive.group("closing", "How the gap closed; absent where it does nothing to the mechanics", [&] {
+    auto& c = *closing;
+    archive.value("smallest_opening", c.smallest_opening, {"m", "anywhere on the bottom"});
+    archive.value("contact_time", c.contact_time, {"s", "when the faces first met; none if they did not"});
+    archive.value("approach_speed", c.approach_speed, {"m/s", "largest until then"});
+    integer(archive, "contacts", c.contacts, {"1", "how often the faces met after touching nowhere"});
+    archive.value("largest_gas_pressure", c.largest_gas_pressure, {"Pa", "anywhere"});
+    archive.value("largest_gas_temperature", c.largest_gas_temperature,
+                  {"K", "mean over the air at a place"});
+    archive.value("work_on_gas", c.work_on_gas,
+                  {"J/m2", "of the faces, beyond the surrounding pressure; mean over the bottom, as below"});
+    archive.value("heat_to_charge", c.energy.charge, {"J/m2", "gained by the charge"});
+    archive.value("heat_to_base", c.energy.base, {"J/m2", "gained by the base"});
+    archive.value("gas_enthalpy", c.energy.gas, {"J/m2", "gained by the air"});
+    archive.value("compression", c.energy.work, {"J/m2", "integral of V dp over the air"});
+    archive.value("friction_heat", c.energy.friction, {"J/m2", "in the charge"});
+    archive.value("reaction_heat", c.energy.reaction, {"J/m2", "in the charge"});
+    archive.array("time", c.time, {"s", "time"});
+    history(archive, "opening", c.opening, c.time.size(), {"m", "mean over the bottom"});
+    history(archive, "gas_pressure", c.gas_pressure, c.time.size(), {"Pa", "mean over the bottom"});
+  });
+}
+
+template <class Archive>
 void lay_out_maximum(Archive& archive, const std::string& name, const std::string& description, auto& maximum,
                      const trace::BottomTrace& trace) {
   archive.group(name, description, [&] {
@@ -275,6 +306,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
   lay_out_ignition(archive, "ignition", skin.ignition, trace);
+  lay_out_closing(archive, gap.closing);
   lay_out_combustion(archive, gap.combustion, trace);
   if (is_stored(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {

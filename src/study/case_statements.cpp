@@ -134,6 +134,7 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   all.uncovered_load = run::uncovered_load(scene.load);
   all.optimistic = optimistic_by_input(study, scene, launch);
   all.ring = scene::ring_text(scene.load);
+  all.closes = input.closing.has_value();
   if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
   // No stress case of a stability study may pass because its input is called implausible.
   if (!study.kind.gives_verdicts) return all;

@@ -41,9 +41,13 @@ const Change& change_at_fault(const scene::SceneFile& scene, const std::vector<C
 }  // namespace
 
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
-                                               const std::vector<Change>& changes) {
+                                               const std::vector<Change>& changes, bool may_close) {
   if (changes.empty()) return scene;
   auto changed = with_all(scene, changes);
+  const auto model = std::ranges::find(changes, "gap.model", &Change::key);
+  if (!may_close && changed && changed->scene.surface.model == scene::GapModel::closing &&
+      model != changes.end())
+    return scene::error_at(model->place, model->study_key, model->text, only_reservoir);
   if (changed) return changed;
   scene::InputError error = changed.error();
   const Change& change = change_at_fault(scene, changes, error);

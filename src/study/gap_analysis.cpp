@@ -2,6 +2,7 @@
 
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/raised_launch.hpp"
 #include "launchsafe/study/study_uncertainty.hpp"
 
@@ -402,6 +403,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     row.evidence.when_over = when_launch_is_over(outcome, i);
+    row.evidence.closing = closing_evidence(outcome.closing, row.gap, row.margin + row.maximum.temperature);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

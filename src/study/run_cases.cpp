@@ -252,7 +252,9 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::clear_remarks(own);
   own.accepted.clear();
   own.surface.gaps = {gap};
-  if (own.surface.air_model == scene::AirModel::reservoir) own.coupling = scene::Coupling::two_way;
+  const bool confirms = own.surface.model == scene::GapModel::reservoir;
+  if (confirms && own.surface.air_model == scene::AirModel::reservoir)
+    own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
 }
 

@@ -53,6 +53,8 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
       const std::string unaccepted = unaccepted_text(evidence.of_case->input);
       return unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted;
     }
+    case ReasonCode::closing_ignition:
+      return "ignition where the gap closes";
     case ReasonCode::unaccepted:
       return "validity warning: " + unaccepted_text(evidence.of_case->input);
     case ReasonCode::no_margin:
@@ -80,6 +82,13 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
       return "the launch may ignite without a gap";
     case ReasonCode::not_below_bound:
       return "the critical gap may be as small as " + bound_text(judgement.at_least);
+    case ReasonCode::closing_unknown:
+      return "what a gap that closes does is not known here";
+    case ReasonCode::closing_corner:
+      return "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) " +
+             (std::isfinite(evidence.closing.corner_margin)
+                  ? fmt::format("the margin is {:.1f} K", evidence.closing.corner_margin)
+                  : std::string("it ignites"));
     case ReasonCode::below_bound:
       return fmt::format("below {}, the least that the critical gap can be", bound_text(judgement.at_least));
   }

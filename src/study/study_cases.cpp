@@ -100,6 +100,15 @@ StudyCase case_of(std::string label, SceneFile scene) {
   made.cell_size = s.numerics.cell_size;
   made.own_conditions = false;
   made.scene = std::move(scene);
+  scene::Surface& surface = made.scene.scene.surface;
+  if (surface.model == scene::GapModel::closing) {
+    const scene::Surface usual;
+    made.closing = surface;
+    surface.model = usual.model;
+    surface.base = usual.base;
+    surface.roughness = usual.roughness;
+    surface.release = usual.release;
+  }
   return made;
 }
 

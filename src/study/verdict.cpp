@@ -1,5 +1,8 @@
 #include "launchsafe/study/verdict.hpp"
 
+#include "launchsafe/study/cases.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,6 +19,7 @@ std::string to_string(ReasonCode code) {
                              "no-temperature",
                              "validity-warning",
                              "ignition",
+                             "closing-ignition",
                              "unaccepted",
                              "no-margin",
                              "optimistic",
@@ -29,6 +33,8 @@ std::string to_string(ReasonCode code) {
                              "no-lower-bound",
                              "may-ignite-without-gap",
                              "not-below-bound",
+                             "closing-unknown",
+                             "closing-corner",
                              "below-bound"};
   return words.at(static_cast<std::size_t>(code));
 }
@@ -72,6 +78,17 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   return {Verdict::safe, ReasonCode::below_bound, at_least};
 }
 
+/// A gap that is SAFE by the reservoir, where it closes. Nobody has measured how wrong a closing gap is, so
+/// that no less than what is assumed without a record has to be left.
+Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, Judgement by_reservoir) {
+  if (by_reservoir.verdict != Verdict::safe) return by_reservoir;
+  if (!evidence.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
+  // Written so that NaN is never safe.
+  if (!(evidence.closing.corner_margin > std::max(evidence.uncertainty, assumed_numerical_uncertainty)))
+    return indeterminate(ReasonCode::closing_corner, critical);
+  return by_reservoir;
+}
+
 }  // namespace
 
 Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
@@ -83,6 +100,8 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (!of_case.validity_warnings.empty() || std::isfinite(evidence.when_over))
     return indeterminate(ReasonCode::validity_warning, critical);
   if (evidence.ignited) return {Verdict::unsafe, ReasonCode::ignition};
+  if (of_case.input.closes && evidence.closing.ignited)
+    return {Verdict::unsafe, ReasonCode::closing_ignition};
   if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
   // Written so that NaN is never safe.
   if (!(evidence.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
@@ -90,7 +109,8 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
     return indeterminate(ReasonCode::optimistic, critical);
   if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(evidence.gap))
     return indeterminate(ReasonCode::beyond_firings, critical);
-  return judge_in_gap(evidence, critical);
+  const Judgement by_reservoir = judge_in_gap(evidence, critical);
+  return of_case.input.closes ? judge_closing(evidence, critical, by_reservoir) : by_reservoir;
 }
 
 }  // namespace launchsafe::study

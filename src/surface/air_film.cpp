@@ -40,7 +40,8 @@ FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& tra
       detail::film_grid(model, gap, trace.time.back() - trace.time.front(), numerics);
   const std::vector<double> shares = detail::area_shares(trace);
   std::vector<detail::FilmStation> stations(
-      trace.stations.size(), detail::FilmStation(model, grid, numerics, intervals.pressure_at(0)));
+      trace.stations.size(), detail::FilmStation(model, grid, numerics, intervals.pressure_at(0),
+                                                 model.surface.air.initial_pressure));
   record(stations, shares, result.skin);
   // Before anything conducts the surface is as warm as the charge, whatever air it then meets.
   std::fill(result.skin.temperature.begin(), result.skin.temperature.end(), model.initial_temperature);

@@ -45,7 +45,7 @@ FilmColumn::FilmColumn(const FilmGrid& grid, const materials::AirParameters& air
 double FilmColumn::step(double h, const StagePressures& pressures, double heating) {
   const double weight = own_weight * h;
   const std::array<double, 3> factors{factor(pressures[0]), factor(pressures[1]), factor(pressures[2])};
-  const auto heat_of = [&](std::size_t i) { return i < grid_->air_begin ? heating : 0.0; };
+  const auto friction_of = [&](std::size_t i) { return i < grid_->air_begin ? heating : 0.0; };
 
   find_excess(state_, factors[0], excess_);
   find_conductances(excess_, pressures[0]);
@@ -55,7 +55,7 @@ double FilmColumn::step(double h, const StagePressures& pressures, double heatin
   find_excess(guess_, factors[1], excess_);
   find_conductances(excess_, pressures[1]);
   for (std::size_t i = 0; i < state_.size(); ++i)
-    known_[i] = state_[i] + weight * (rate_begin_[i] + 2.0 * heat_of(i));
+    known_[i] = state_[i] + weight * (rate_begin_[i] + 2.0 * friction_of(i));
   solve_stage(known_, weight, factors[1], inner_);
   for (std::size_t i = 0; i < state_.size(); ++i) rate_inner_[i] = (inner_[i] - known_[i]) / weight;
 
@@ -63,7 +63,7 @@ double FilmColumn::step(double h, const StagePressures& pressures, double heatin
   find_excess(guess_, factors[2], excess_);
   find_conductances(excess_, pressures[2]);
   for (std::size_t i = 0; i < state_.size(); ++i)
-    known_[i] = state_[i] + h * (outer_weight * (rate_begin_[i] + rate_inner_[i]) + heat_of(i));
+    known_[i] = state_[i] + h * (outer_weight * (rate_begin_[i] + rate_inner_[i]) + friction_of(i));
   solve_stage(known_, weight, factors[2], end_);
   for (std::size_t i = 0; i < state_.size(); ++i) rate_end_[i] = (end_[i] - known_[i]) / weight;
 
@@ -91,7 +91,7 @@ void FilmColumn::restore(const Kept& kept) {
 }
 
 double FilmColumn::factor(double pressure) const {
-  return materials::adiabatic_temperature(air_, pressure) / air_.initial_temperature;
+  return materials::isentropic_temperature(air_, pressure) / air_.initial_temperature;
 }
 
 double FilmColumn::excess_of(std::size_t cell) const {
@@ -160,8 +160,8 @@ void FilmColumn::solve_stage(const Cells& known, double weight, double factor, C
     state[i] = (state[i] + reference_) / factor;
 }
 
-/// W/m2.
-double FilmColumn::heat_into_air(const Cells& rates, double factor) const {
+/// W/m2, that enters the air at rates of its potential temperature.
+double FilmColumn::heat_of(const Cells& rates, double factor) const {
   double sum = 0.0;
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) sum += grid_->capacity[i] * rates[i];
   return factor * sum;
@@ -174,9 +174,8 @@ void FilmColumn::account(double h, const std::array<double, 3>& factors, double 
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
     potential += grid_->capacity[i] * state_[i];
   const double rise = factors[2] - factors[0];
-  heat_.work =
-      potential * rise + outer_weight * h * heat_into_air(rate_begin_, factors[0]) * rise / factors[0] +
-      outer_weight * h * heat_into_air(rate_inner_, factors[1]) * (factors[2] - factors[1]) / factors[1];
+  heat_.work = potential * rise + outer_weight * h * heat_of(rate_begin_, factors[0]) * rise / factors[0] +
+               outer_weight * h * heat_of(rate_inner_, factors[1]) * (factors[2] - factors[1]) / factors[1];
   double charge = 0.0;  // J/(m2 K)
   for (std::size_t i = 0; i < grid_->air_begin; ++i) charge += grid_->capacity[i];
   heat_.friction = charge * heating * h;
@@ -215,14 +214,24 @@ double FilmColumn::base_surface() const {
   return std::isfinite(through) ? reference_ + (solid + through * gas) / (1.0 + through) : reference_ + solid;
 }
 
-double FilmColumn::mean_air() const {
-  double sum = 0.0, capacity = 0.0;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) {
-    sum += grid_->capacity[i] * state_[i];
-    capacity += grid_->capacity[i];
-  }
-  return factor(pressure_) * sum / capacity;
+double FilmColumn::compress_to(double pressure) {
+  const double before = air_enthalpy();
+  pressure_ = pressure;
+  return air_enthalpy() - before;
 }
+
+/// Of an ideal gas, sum m R T/p, with R/c_p times the enthalpy c_p m T.
+double FilmColumn::air_volume() const {
+  return (air_.heat_ratio - 1.0) / air_.heat_ratio * air_enthalpy() / pressure_;
+}
+
+double FilmColumn::air_heat_capacity() const {
+  double capacity = 0.0;
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) capacity += grid_->capacity[i];
+  return capacity;
+}
+
+double FilmColumn::mean_air() const { return air_enthalpy() / air_heat_capacity(); }
 
 double FilmColumn::charge_heat() const {
   double sum = 0.0;

@@ -8,7 +8,7 @@
 
 namespace launchsafe::surface::detail {
 
-/// Pressures (Pa, at least that at rest) at the begin of a step, at its inner stage and at its end.
+/// Pressures (Pa) at the begin of a step, at its inner stage and at its end.
 using StagePressures = std::array<double, 3>;
 /// Where the inner stage of a step lies, as a share of the step: 2 - sqrt 2.
 inline constexpr double inner_stage = 0.585786437626904951;
@@ -43,8 +43,11 @@ class FilmColumn {
   void keep(Kept& kept) const;
   void restore(const Kept& kept);
 
-  /// Compresses the air from rest, without conduction.
-  void start_at(double pressure) { pressure_ = pressure; }
+  /// Compresses the air without conduction to a pressure (Pa); the work V dp that it takes, J/m2.
+  double compress_to(double pressure);
+  double pressure() const { return pressure_; }  ///< Pa
+  double air_volume() const;                     ///< m3/m2
+  double air_heat_capacity() const;              ///< J/(m2 K), at constant pressure
 
   double temperature(std::size_t cell) const { return reference_ + excess_of(cell); }
   /// For heat of reaction in a cell of the charge.
@@ -73,7 +76,7 @@ class FilmColumn {
   void factorise(double weight);
   void solve(Cells& values) const;
   void solve_stage(const Cells& known, double weight, double factor, Cells& state);
-  double heat_into_air(const Cells& rates, double factor) const;
+  double heat_of(const Cells& rates, double factor) const;
   double error_of(const Cells& excess, double h, double factor);
   void account(double h, const std::array<double, 3>& factors, double heating);
 

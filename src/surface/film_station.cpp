@@ -16,8 +16,8 @@ constexpr double shortest_share = 1e-7;
 constexpr double largest_ratio = 1.1;
 
 /// The length h (s) from `begin` (s) on, shortened until the pressure changes little enough in it.
-double shortened(const IntervalPressure& pressure, double rest, double length, double begin, double h) {
-  const auto at = [&](double time) { return std::max(rest, pressure.at(time / length)); };
+double shortened(const IntervalPressure& pressure, double lowest, double length, double begin, double h) {
+  const auto at = [&](double time) { return std::max(lowest, pressure.at(time / length)); };
   const double from = at(begin);
   while (h > shortest_share * length) {
     const double middle = at(begin + inner_stage * h), to = at(begin + h);
@@ -31,16 +31,17 @@ double shortened(const IntervalPressure& pressure, double rest, double length, d
 }  // namespace
 
 FilmStation::FilmStation(const SkinModel& model, const FilmGrid& grid, const FilmNumerics& numerics,
-                         double start_pressure)
+                         double start_pressure, double lowest_pressure)
     : model_(&model),
       numerics_(numerics),
       grid_(&grid),
+      lowest_pressure_(lowest_pressure),
       trigger_(trigger_of(model)),
       reacts_(model.kinetics.heat_of_reaction * model.kinetics.frequency > 0.0),
       column_(grid, model.surface.air, model.initial_temperature, model.initial_temperature),
       warmed_(grid.air_begin, 0.0) {
   failed_ = !std::isfinite(start_pressure);
-  column_.start_at(std::max(start_pressure, model.surface.air.initial_pressure));
+  column_.compress_to(std::max(start_pressure, lowest_pressure));
   start_.gas = column_.air_enthalpy();
   point_.temperature = model.initial_temperature;
 }
@@ -55,7 +56,7 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
   for (double at = 0.0; at < length && !point_.ignited && !failed_;) {
     const double left = length - at;
     double h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
-    if (!fixed) h = shortened(pressure, model_->surface.air.initial_pressure, length, at, h);
+    if (!fixed) h = shortened(pressure, lowest_pressure_, length, at, h);
     column_.keep(kept_);
     const bool finite = try_step(pressure, length, at, h, heating);
     const bool shortest = h <= shortest_share * length;
@@ -83,9 +84,8 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
 /// Half the reaction, conduction, half the reaction: of second order. False where a state is not finite.
 bool FilmStation::try_step(const IntervalPressure& pressure, double length, double begin, double h,
                            double heating) {
-  const double rest = model_->surface.air.initial_pressure;
   const auto at = [&](double share) {
-    return std::max(rest, pressure.at(std::min(1.0, (begin + share * h) / length)));
+    return std::max(lowest_pressure_, pressure.at(std::min(1.0, (begin + share * h) / length)));
   };
   reaction_ = error_ = 0.0;
   react(begin, 0.5 * h);

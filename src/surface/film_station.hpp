@@ -11,8 +11,9 @@ namespace launchsafe::surface::detail {
 
 class FilmStation {
  public:
+  /// No pressure below `lowest_pressure` (Pa) acts.
   FilmStation(const SkinModel& model, const FilmGrid& grid, const FilmNumerics& numerics,
-              double start_pressure);
+              double start_pressure, double lowest_pressure);
 
   /// Over an interval of `length` s with friction heating (K/s). Nothing happens once it has ignited.
   void advance(const IntervalPressure& pressure, double length, double heating);
@@ -22,6 +23,13 @@ class FilmStation {
   /// Of the hottest depth below it, K; 0 once it has ignited.
   double hottest_depth() const;
   double mean_air() const;  ///< K
+  bool failed() const { return failed_; }
+  /// Compresses the air without conduction, by work that enters the account.
+  void compress_to(double pressure) {
+    energy_.work += column_.compress_to(pressure);
+    close_account();
+  }
+  const FilmColumn& column() const { return column_; }
   bool ignited() const { return point_.ignited; }
   double ignition_time() const { return point_.ignition_time; }  ///< s after the begin of its interval
   double chemical_share() const { return point_.chemical_share; }
@@ -38,6 +46,7 @@ class FilmStation {
   const SkinModel* model_;
   FilmNumerics numerics_;
   const FilmGrid* grid_;
+  double lowest_pressure_;  // Pa
   Trigger trigger_;
   bool reacts_;
   FilmColumn column_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace launchsafe::surface {
@@ -83,19 +84,18 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// The body that the charge's bottom rests on, nearest to the axis; the scene's steel where there is none.
-materials::Law base_under_charge(const scene::Scene& scene) {
-  constexpr double same_place = 1e-6;  // m
-  const double bottom = scene::charge_extent(scene).x_end;
-  const scene::Body* under = nullptr;
-  for (const scene::Body& body : scene.bodies) {
-    if (scene::is_charge(scene, body) || std::abs(body.x_begin - bottom) > same_place) continue;
-    if (under == nullptr || body.r_begin < under->r_begin) under = &body;
-  }
-  return under != nullptr ? scene::law_of(scene, *under) : materials::Law{scene.steel()};
+/// What is not known: a trace of another launch says nothing of a gap that closes.
+SkinHistory unknown(const trace::BottomTrace& trace) {
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  SkinHistory history;
+  history.air_temperature.assign(trace.samples(), not_a_number);
+  history.temperature.assign(trace.samples() * trace.stations.size(), not_a_number);
+  return history;
 }
 
 SkinHistory integrate(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  if (scene::closes(model.surface, gap)) return unknown(trace);
+  if (model.surface.model == scene::GapModel::closing) gap = 0.0;
   if (gap > 0.0 && model.surface.air_model == scene::AirModel::film)
     return integrate_film(model, trace, gap).skin;
   return integrate_reservoir(model, trace, gap);
@@ -111,10 +111,13 @@ SkinModel skin_model(const scene::Scene& scene) {
   model.specific_heat = scene.charge().specific_heat;
   model.initial_temperature = scene.initial_temperature;
   model.charge_conductivity = scene.charge().conductivity;
-  const materials::Law base = base_under_charge(scene);
+  const scene::Body* under = scene::body_under_charge(scene);
+  const materials::Law base = under != nullptr ? scene::law_of(scene, *under) : materials::Law{scene.steel()};
   model.base_density = materials::initial_density(base);
   model.base_specific_heat = materials::heat_capacity(base);
   model.base_conductivity = materials::heat_conductivity(base);
+  const bool insulated = scene.surface.base == scene::GapBase::insulated;
+  if (scene.surface.model == scene::GapModel::closing && insulated) model.base_conductivity = 0.0;
   return model;
 }
 

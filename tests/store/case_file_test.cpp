@@ -226,6 +226,13 @@ TEST_F(CaseFile, SnapshotsComeWithADescriptionForParaview) {
 run::CaseResult sample_with_cells() {
   run::CaseResult result = sample_case();
   result.mechanics.snapshots = {sample_snapshot_of_cells(0.001), sample_snapshot_of_cells(0.002)};
+  run::ClosingHistory& closing = result.gaps[1].closing.emplace();
+  closing.time = {0.0, 1e-3};
+  closing.opening = {4e-4, 1e-5};
+  closing.gas_pressure = {101325.0, 5e6};
+  closing.smallest_opening = 1e-5;
+  closing.contacts = 3;
+  closing.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   return result;
 }
 
@@ -237,7 +244,7 @@ run::CaseResult sample_with_events() {
   return result;
 }
 
-TEST_F(CaseFile, KeepsCellsEventsBottomsFacesAndWhatBurns) {
+TEST_F(CaseFile, KeepsCellsEventsBottomsFacesWhatClosesAndWhatBurns) {
   const std::pair<const char*, run::CaseResult> samples[] = {{"cells.h5", sample_with_cells()},
                                                              {"events.h5", sample_with_events()}};
   for (const auto& [name, sample] : samples) {

@@ -36,6 +36,23 @@ inline void expect_same(const trace::BottomTrace& a, const trace::BottomTrace& b
     EXPECT_EQ(bits(a.friction[i]), bits(b.friction[i]));
 }
 
+inline std::vector<double> numbers_of(const run::ClosingHistory& closing) {
+  const surface::FilmEnergy& energy = closing.energy;
+  return {closing.smallest_opening,
+          closing.contact_time,
+          closing.approach_speed,
+          static_cast<double>(closing.contacts),
+          closing.largest_gas_pressure,
+          closing.largest_gas_temperature,
+          closing.work_on_gas,
+          energy.charge,
+          energy.base,
+          energy.gas,
+          energy.work,
+          energy.friction,
+          energy.reaction};
+}
+
 inline std::vector<double> numbers_of(const run::MonitorSample& sample) {
   const run::EnergyBalance& energy = sample.energy;
   return {sample.time,
@@ -142,6 +159,13 @@ inline void expect_same(const run::GapResult& a, const run::GapResult& b) {
   EXPECT_EQ(bits(a.skin.air_temperature), bits(b.skin.air_temperature));
   EXPECT_EQ(bits(a.skin.temperature), bits(b.skin.temperature));
   expect_same(a.skin.ignition, b.skin.ignition);
+  ASSERT_EQ(a.closing.has_value(), b.closing.has_value());
+  if (a.closing) {
+    EXPECT_EQ(bits(numbers_of(*a.closing)), bits(numbers_of(*b.closing)));
+    EXPECT_EQ(bits(a.closing->time), bits(b.closing->time));
+    EXPECT_EQ(bits(a.closing->opening), bits(b.closing->opening));
+    EXPECT_EQ(bits(a.closing->gas_pressure), bits(b.closing->gas_pressure));
+  }
   ASSERT_EQ(a.combustion.has_value(), b.combustion.has_value());
   if (!a.combustion) return;
   ASSERT_EQ(a.combustion->snapshots.size(), b.combustion->snapshots.size());

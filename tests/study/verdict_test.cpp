@@ -192,4 +192,44 @@ TEST(Verdict, AnIndeterminateCriticalGapLeavesNoSafeGap) {
   EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
 }
 
+/// A calm gap of a case that asks for gaps that close.
+Evidence closing(ClosingEvidence evidence) {
+  CaseEvidence of_case{.completed = true};
+  of_case.input.closes = true;
+  Evidence calm_one = calm(std::move(of_case));
+  calm_one.closing = evidence;
+  return calm_one;
+}
+
+TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
+  // More than the 60 K that are assumed where nothing was measured.
+  const CriticalGap critical = critical_at(3.95e-4, 1e-6);
+  EXPECT_EQ(judge(closing({true, false, 61.0}), critical).verdict, Verdict::safe);
+  EXPECT_EQ(judge(closing({true, false, 59.0}), critical).code, ReasonCode::closing_corner);
+  Evidence uncertain = closing({true, false, 61.0});
+  uncertain.uncertainty = 62.0;
+  EXPECT_EQ(judge(uncertain, critical).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, IsNeverSafeWhereAClosingGapIsNotKnown) {
+  const CriticalGap critical = critical_at(3.95e-4, 1e-6);
+  for (const ClosingEvidence& evidence :
+       {ClosingEvidence{}, ClosingEvidence{false, false, 100.0}, ClosingEvidence{true, false, nan_value},
+        ClosingEvidence{true, false, -std::numeric_limits<double>::infinity()}})
+    EXPECT_EQ(judge(closing(evidence), critical).verdict, Verdict::indeterminate);
+}
+
+TEST(Verdict, IsUnsafeWhereAClosingGapIgnitesOnItsOwnTerms) {
+  const Evidence evidence = closing({true, true, -1.0});
+  const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
+  EXPECT_EQ(judged.verdict, Verdict::unsafe);
+  EXPECT_EQ(judged.code, ReasonCode::closing_ignition);
+  EXPECT_EQ(reason_text(evidence, judged), "ignition where the gap closes");
+}
+
+TEST(Verdict, IsNotMadeSafeByAClosingGap) {
+  EXPECT_EQ(judge(closing({true, false, 300.0}), critical_at(3.95e-4, 1.2e-4)).code,
+            ReasonCode::not_below_bound);
+}
+
 }  // namespace

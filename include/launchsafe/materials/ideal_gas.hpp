@@ -11,6 +11,9 @@ struct AirParameters {
   double initial_pressure = 101325.0;  ///< p0, Pa [A]
 };
 
+/// Temperature (K) on the adiabat at any pressure p > 0 (Pa): T0 (p/p0)^((gamma-1)/gamma).
+double isentropic_temperature(const AirParameters& air, double pressure);
+
 /// Temperature (K) on the adiabat at pressure p >= p0 (Pa): T0 (p/p0)^((gamma-1)/gamma). Below p0 it stays at
 /// T0, as the gap does not open below its initial state.
 double adiabatic_temperature(const AirParameters& air, double pressure);

@@ -18,6 +18,12 @@
 // decreasing part of a cell, and the energy changes by the force on the cell times the height of the bulge in
 // it: 1e-3 of the energy for a charge longer than its wall, on cells of 5 mm.
 //
+// Faces may also begin apart, with gas between them and a floor on which their roughness meets: then the gap
+// below is counted from the floor, and the normal impulse is that of the gas and of the floor's contact, of
+// which only the latter is >= 0 and rubs. The gas pushes with its pressure at the mean
+// (h_old + 2 h + h_new)/4 of three openings, so that its stiffness limits no step (Newmark's mean
+// acceleration) and the order stays the second.
+//
 // An impulse J on a pair does the work J (v_before + v_after)/2, with the relative velocities at which the
 // last step and this one move: with these the leapfrog energy balance holds to round-off. A pair whose gap
 // becomes exactly 0 takes J gap_before/(2 dt) >= 0 out of the energy.
@@ -26,6 +32,7 @@
 #include "launchsafe/math/aligned_array.hpp"
 #include "launchsafe/math/pack.hpp"
 #include "launchsafe/mpm/contact_pairing.hpp"
+#include "launchsafe/mpm/gap_gas.hpp"
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
 #include "launchsafe/scene/scene.hpp"
@@ -41,8 +48,8 @@ namespace launchsafe::mpm {
 struct FaceState {
   double place = 0;          ///< m, at rest: x along a side, r along an end
   double area = 0;           ///< m2 per radian or metre, 0 where it meets nothing
-  double gap = 0;            ///< m
-  double pressure = 0;       ///< Pa, compression positive
+  double gap = 0;            ///< m, above the floor where there is one
+  double pressure = 0;       ///< Pa, compression positive; with that of a gas above its surroundings
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
   double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
   double friction_heat = 0;  ///< J/m2, since the start
@@ -78,6 +85,23 @@ class Contact {
   /// Work of friction on a face since the start, J per radian or metre, turned into heat.
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
+
+  /// Lets the faces of a face that is not bonded hold each other, for any traction, until all that are held
+  /// so are let go.
+  void hold(std::size_t face);
+  void let_go();
+  /// Parts a face from the other one by an opening (m) before the first step, down to whose `floor` (m, > 0)
+  /// they may approach.
+  void part(std::size_t face, double opening, double floor);
+  /// Puts gas between a node of a parted face and the other one.
+  void set_gas(std::size_t face, std::size_t node, const GapGas& gas);
+  const GapGas& gas(std::size_t face, std::size_t node) const {
+    return rows_[faces_[face].first_row + node].gas;
+  }
+  /// m, between a node of a parted face and the other one.
+  double opening(std::size_t face, std::size_t node) const;
+  /// J/m2, that the faces did on it since the start, against its pressure above that outside.
+  double gas_work(std::size_t face, std::size_t node) const;
   /// The nodes that the states of a face are of: an index into the bodies' nodes, and those of each in there.
   struct FaceNodes {
     std::size_t nodes;
@@ -143,17 +167,21 @@ class Contact {
     /// held.
     double normal_inertia = 0, slide_inertia = 0, free_normal_inertia = 0, free_slide_inertia = 0;
     double area = 0;
-    double gap = 0;                                   ///< m, at the begin of the step
-    double target = 0;                                ///< m/s, least opening speed
-    double normal = 0, slide = 0;                     ///< kg m/s, impulses of the step, positive as pressure
-    double last_slide = 0;                            ///< of the step before
+    double gap = 0;                            ///< m, at the begin of the step
+    double target = 0;                         ///< m/s, least opening speed
+    double normal = 0, slide = 0;              ///< kg m/s, impulses of the step, positive as pressure
+    double from_gas = 0;                       ///< kg m/s, the gas's part of `normal`
+    double last_slide = 0, last_from_gas = 0;  ///< of the step before
+    double parted = 0, floor = 0;              ///< m, opening at rest, and the least
+    GapGas gas;
+    double gas_work = 0;                              ///< J
     double tension_strength = 0, shear_strength = 0;  ///< Pa, while bonded
     double opening = 0, sliding = 0;                  ///< m/s, at the end of the last step
     double friction_work = 0;                         ///< J
     double friction_heat = 0;                         ///< J/m2
     double slid = 0, slip = 0;                        ///< m, see FaceState; the slip of the row's direction
     double largest_gap = 0, overlap = 0;              ///< m, see FaceState
-    bool bonded = false;
+    bool bonded = false, held = false;                ///< held: until let_go
   };
 
   void add_face(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
@@ -175,7 +203,9 @@ class Contact {
   void exchange_momentum();
   void begin_impulses(double step_ratio);
   void solve_impulses(double dt);
-  double sweep();
+  double gas_impulse(const Row& row, double speed, double dt) const;
+  double push_by_gas(const Row& row, double speed, double dt) const;
+  double sweep(double dt);
   bool break_bonds(double dt);
   ContactTotals add_up_energy();
   void write_nodes(std::vector<Nodes>& nodes, double dt) const;

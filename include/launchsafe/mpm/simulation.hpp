@@ -26,7 +26,8 @@ struct EnergyTotals {
   double damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
   double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
-  double contact = 0;    ///< dissipated by contact: by friction, and by faces that close
+  /// Taken out by contact: by friction, by faces that close, and by the work on gas between faces.
+  double contact = 0;
 };
 
 /// Number of particle-steps on which a limiter acted, the particle was off the grid, or its cell was inverted
@@ -100,6 +101,7 @@ class Simulation {
 
   /// The formulation of the scene; null for the other one.
   const TotalLagrangian* total_lagrangian() const { return std::get_if<TotalLagrangian>(&form_); }
+  TotalLagrangian* total_lagrangian() { return std::get_if<TotalLagrangian>(&form_); }
   const UpdatedLagrangian* updated_lagrangian() const { return std::get_if<UpdatedLagrangian>(&form_); }
 
   /// Lets a share of the mass of a charge's particle burn in the next step, into gas of `fresh_energy` (J/kg,

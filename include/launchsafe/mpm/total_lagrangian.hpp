@@ -54,6 +54,7 @@ class TotalLagrangian {
   const std::vector<Nodes>& nodes() const { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
   const Contact& contact() const { return *contact_; }
+  Contact& contact() { return *contact_; }
 
  private:
   /// Constants of a body.

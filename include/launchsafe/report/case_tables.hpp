@@ -36,6 +36,10 @@ Quantities<run::CombustionHistory> burnt_state_quantities();
 /// No rows where none did.
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result);
 
+/// A row a gap that closed in its launch: when and how the faces met, its air, and where its heat came from
+/// and went. No rows where none did.
+Table closing_table(const run::CaseResult& result);
+
 /// At most `rows` samples of one of them, from ignition to the end.
 Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
 
@@ -52,11 +56,13 @@ struct AuditedGap {
 
 /// What the audit says of temperatures and critical gaps, as a short paragraph: at the gap where the skin
 /// took most against its supply, whether that is more than compression can supply, and what follows. Of a
-/// film, which has no skin of one temperature, nothing is compared.
-std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps);
+/// film, which has no skin of one temperature, nothing is compared. `closing`: gaps that close stand beside
+/// it.
+std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps,
+                                 bool closing = false);
 
 /// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.
 /// Without rows where there is no gap.
-Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps);
+Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing = false);
 
 }  // namespace launchsafe::report

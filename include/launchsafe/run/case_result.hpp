@@ -3,11 +3,13 @@
 
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
+#include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -41,13 +43,14 @@ struct EnergyBalance {
   double external = 0;    ///< work of the chamber pressure
   double body_force = 0;  ///< work of the accelerating frame's body force (co-moving frame only)
   double damping = 0;     ///< taken out by damping, the PIC share and FLIP's filter
-  double contact = 0;     ///< taken out by friction between bodies, and where their faces close
-  double plastic = 0;     ///< dissipated in steel
-  double viscous = 0;     ///< dissipated in the charge's Maxwell elements
-  double crack = 0;       ///< dissipated by crack growth
-  double hourglass = 0;   ///< stored against hourglassing, part of the internal energy
-  double scale() const;   ///< what drift is measured against, > 0
-  double drift() const;   ///< (kinetic + internal + damping + contact - external - body_force)/scale
+  /// Taken out by friction between bodies, where their faces close, and by gas between them.
+  double contact = 0;
+  double plastic = 0;    ///< dissipated in steel
+  double viscous = 0;    ///< dissipated in the charge's Maxwell elements
+  double crack = 0;      ///< dissipated by crack growth
+  double hourglass = 0;  ///< stored against hourglassing, part of the internal energy
+  double scale() const;  ///< what drift is measured against, > 0
+  double drift() const;  ///< (kinetic + internal + damping + contact - external - body_force)/scale
 };
 
 /// A row of the monitor history.
@@ -200,6 +203,22 @@ struct CombustionHistory {
   std::size_t samples() const { return time.size(); }
 };
 
+/// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom.
+struct ClosingHistory {
+  double gap = 0;                                                  ///< m, at rest
+  std::vector<double> time;                                        ///< s, those of the trace
+  std::vector<double> opening;                                     ///< m, mean
+  std::vector<double> gas_pressure;                                ///< Pa, mean
+  double smallest_opening = 0;                                     ///< m, anywhere
+  double contact_time = std::numeric_limits<double>::quiet_NaN();  ///< s, when the faces first met anywhere
+  double approach_speed = 0;                                       ///< m/s, the largest anywhere until then
+  int contacts = 0;                    ///< how often they met after nowhere touching
+  double largest_gas_pressure = 0;     ///< Pa, anywhere
+  double largest_gas_temperature = 0;  ///< K, mean over the air at one place
+  surface::FilmEnergy energy;          ///< J/m2, means
+  double work_on_gas = 0;              ///< J/m2, mean, that the faces did beyond the surrounding pressure
+};
+
 /// One gap of a case.
 struct GapResult {
   double gap = 0;  ///< m
@@ -209,6 +228,7 @@ struct GapResult {
   surface::AirEnergy air;        ///< what the skin took from the air; NaN in files that are older than this
   double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
   bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
+  std::optional<ClosingHistory> closing;        ///< where the gap closes
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 

@@ -32,6 +32,11 @@ enum class LoadShape { bell, power_exponential };
 std::string word_of(LoadShape shape);
 enum class AirPressure { charge_bottom, chamber };
 enum class AirModel { reservoir, film };
+/// As published, the gap does nothing to the mechanics and its air stays what it is; or the charge flies
+/// across it, compresses its air and meets the base.
+enum class GapModel { reservoir, closing };
+/// Whether the base takes heat from the air of a closing gap.
+enum class GapBase { conducting, insulated };
 enum class Exchange { rate, per_step };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
@@ -104,6 +109,11 @@ struct Surface {
   materials::AirParameters air;
   AirPressure air_pressure = AirPressure::charge_bottom;
   AirModel air_model = AirModel::reservoir;
+  GapModel model = GapModel::reservoir;
+  GapBase base = GapBase::conducting;  ///< of a closing gap
+  double roughness = 1e-5;             ///< m, the least opening of a closing gap
+  /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
+  double release = 0.0;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
   double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]
@@ -112,6 +122,11 @@ struct Surface {
   FrictionClosure friction = FrictionClosure::total_strain_rate;
   double localisation = 1346.94;  ///< [C]
 };
+
+/// Whether a gap (m) closes in the mechanics. One that is not wider than its roughness is none at all.
+inline bool closes(const Surface& surface, double gap) {
+  return surface.model == GapModel::closing && gap > surface.roughness;
+}
 
 struct Numerics {
   Formulation formulation = Formulation::total_lagrangian;
@@ -285,6 +300,9 @@ bool has_law(const Scene& scene) {
 /// Whether a body is of an explosive: the charge, whose bottom is looked at.
 bool is_charge(const Scene& scene, const Body& body);
 bool has_charge(const Scene& scene);
+
+/// The body that the charge's bottom faces, nearest to the axis; nullptr where there is none.
+const Body* body_under_charge(const Scene& scene);
 
 /// Whether the faces can part and slide, now or once their bond has broken.
 bool can_slide(const Interface& faces);

@@ -41,6 +41,8 @@ struct CaseStatements {
   Optimistic optimistic;                    ///< by the input alone; a study without verdicts knows films only
   std::string ring;                         ///< that a measured curve rings, for people; empty for none
 
+  bool closes = false;  ///< gaps are to be looked at as they close, too
+
   // The rest is empty for a study without verdicts.
   RecordDistance distance;                      ///< to the calibration
   std::vector<scene::Implausible> implausible;  ///< of the case and of what its study states, accepted or not

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct StudyCase {
   double covered_gap = std::numeric_limits<double>::infinity();
   double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
+  /// The terms of a gap that closes, where it does: the scene has the reservoir beside which they are looked
+  /// at.
+  std::optional<scene::Surface> closing;
   /// K, the bound that an accuracy record has for this case; NaN where it has none or none was taken.
   double recorded_uncertainty() const {
     const bool is_recorded = rise_of_uncertainty == rise_of_uncertainty && !numerical_uncertainty_assumed;

@@ -22,9 +22,14 @@ struct Change {
   scene::Place place;     ///< likewise
 };
 
+/// What gap.model may be where gaps that close are not judged: there they are judged on one launch, which a
+/// gap that closes has not.
+inline constexpr const char* only_reservoir =
+    "gap.model = \"reservoir\"; a study of kind critical-gap judges gaps that close";
+
 /// The scene with all changes, which need be valid only together (scene::with_keys), or why it cannot have
-/// them, at the change that this is about.
+/// them, at the change that this is about. `may_close`: they may make its gap one that closes.
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
-                                               const std::vector<Change>& changes);
+                                               const std::vector<Change>& changes, bool may_close = false);
 
 }  // namespace launchsafe::study

@@ -3,6 +3,7 @@
 
 #include "launchsafe/study/as_calibrated.hpp"
 #include "launchsafe/study/bracket.hpp"
+#include "launchsafe/study/closing_answer.hpp"
 #include "launchsafe/study/fit.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
@@ -98,6 +99,7 @@ struct CaseOutcome {
   std::optional<GapFit> fit;         ///< over the rows that do not ignite
   /// With air as a film that conserves energy, an optimistic bound: of a completed run with the reservoir.
   std::optional<OtherAnswer> film;
+  std::vector<ClosingAnswer> closing;  ///< with a gap that closes, where the case has one
   /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
   /// complete.
   std::optional<OtherAnswer> longer_launch;

@@ -32,6 +32,7 @@ struct KindTraits {
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs, unless in
                                        ///< detail (StudyFile::in_detail)
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
+  bool judges_closing_gaps = false;    ///< of a scene whose gap closes, in detail, beside the reservoir
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
 };
 

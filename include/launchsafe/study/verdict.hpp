@@ -50,6 +50,14 @@ struct CaseEvidence {
   CaseStatements input = {};
 };
 
+/// What gaps that close say of one gap (closing_gaps.hpp).
+struct ClosingEvidence {
+  bool known = false;    ///< every bound has a temperature
+  bool ignited = false;  ///< with a base that conducts, or with an insulated one
+  /// K, in the worst corner; minus infinity where it ignites there, or a thinner gap does.
+  double corner_margin = std::numeric_limits<double>::quiet_NaN();
+};
+
 /// All that a verdict rests on.
 struct Evidence {
   std::shared_ptr<const CaseEvidence> of_case = {};  ///< without it nothing is safe
@@ -63,6 +71,7 @@ struct Evidence {
   double noise = 0;  ///< K, what noise and smoothing of a measured curve count
   /// K, T max when a launch that is cut short goes on until it is over; NaN for others.
   double when_over = std::numeric_limits<double>::quiet_NaN();
+  ClosingEvidence closing = {};          ///< of a case that asks for it
   std::vector<std::string> models = {};  ///< titles of other models that could change the verdict
 };
 
@@ -73,6 +82,7 @@ enum class ReasonCode {
   no_temperature,
   validity_warning,
   ignition,
+  closing_ignition,
   unaccepted,
   no_margin,
   optimistic,
@@ -86,6 +96,8 @@ enum class ReasonCode {
   no_lower_bound,
   may_ignite_without_gap,
   not_below_bound,
+  closing_unknown,
+  closing_corner,
   below_bound
 };
 /// In files: "below-bound".
@@ -108,6 +120,8 @@ struct Judgement {
 ///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
 ///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
 ///   ignition.
+///   Where the gap is to close, the worst corner of how it may do so does not ignite either, by a margin
+///   above the uncertainty; nor, for UNSAFE, need the reservoir ignite where one of the closing bounds does.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in

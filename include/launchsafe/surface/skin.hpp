@@ -24,7 +24,8 @@ struct SkinHistory {
   double gap = 0;                       ///< m
   std::vector<double> time;             ///< s, those of the trace
   std::vector<double> air_temperature;  ///< K; of a film the mean over its mass and over the stations' areas
-  std::vector<double> temperature;      ///< K, [sample * stations + station]; under a film the surface's
+  std::vector<double> temperature;      ///< K, [sample * stations + station]; under a film the surface's,
+  /// in a gap that closes the highest at any depth since the sample before.
   /// K, at any depth and time of a station that tiles the bottom; under a film, whose base cools the surface.
   /// 0 elsewhere.
   double hottest_depth = 0;
@@ -56,7 +57,8 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// every station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock
 /// method with step control follows both. At T1 the station ignites and goes to T2; from there only the
 /// exchange acts. Under AirModel::film it is integrate_film (film.hpp) instead; without a gap friction acts
-/// alone under every model of the air.
+/// alone under every model of the air. Of a gap that closes in the mechanics (scene::closes) the trace of
+/// another launch says nothing, and the temperatures are NaN.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
 /// Whether gaps ignite on one trace, as integrate_skin finds, sooner: a skin is followed up to ignition,

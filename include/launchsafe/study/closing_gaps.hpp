@@ -1,0 +1,41 @@
+// What gaps that close say of a case, beside the reservoir: on two bounds of the heat that the base takes,
+// and in the worst corner of what is not known. Every gap on every terms has a launch of its own.
+#pragma once
+
+#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/run_cases.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::study {
+
+/// Terms on which a gap closes.
+struct ClosingTerms {
+  scene::GapBase base = scene::GapBase::conducting;
+  double roughness = 0;  ///< m
+  double release = 0;    ///< s
+};
+
+/// Sets of terms that are looked at together: the hottest of them counts.
+struct ClosingBound {
+  std::string name;  ///< in files
+  std::vector<ClosingTerms> terms;
+};
+
+/// "conducting" and "insulated": a case's own terms with either base. "corner": an insulated base, the
+/// smoothest faces of the plausible ones or the case's own, and a charge that is free from the start, or as
+/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak.
+std::vector<ClosingBound> closing_bounds(const StudyCase& input);
+
+/// All bounds of a case: the gaps of the study and a scan up to the largest one are computed, then the first
+/// that ignites is narrowed down to the study's tolerance. `run` performs a batch of runs.
+using RunBatch = std::function<std::vector<FinishedRun>(std::vector<CaseRun> runs)>;
+std::vector<ClosingAnswer> find_closing_gaps(const Study& study, const StudyCase& input, const RunBatch& run);
+
+/// What they say of one gap, for its verdict.
+ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
+                                 double ignition_temperature);
+
+}  // namespace launchsafe::study

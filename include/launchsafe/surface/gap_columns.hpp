@@ -1,0 +1,62 @@
+// The air of a gap that closes: columns of charge, air and base whose thickness somebody else states.
+#pragma once
+
+#include "launchsafe/surface/film.hpp"
+#include "launchsafe/surface/skin.hpp"
+
+#include <cstddef>
+#include <memory>
+
+namespace launchsafe::surface {
+
+/// The air of a column as the motion of its faces sees it.
+struct EnclosedAir {
+  double pressure = 0;         ///< Pa
+  double volume = 0;           ///< m3/m2
+  double exponent = 0;         ///< c_p/c_v
+  double volume_at_walls = 0;  ///< m3/m2, at the same pressure and the temperature of the walls
+  /// m/s: over the opening it is the rate at which conduction brings the mean temperature near to that of the
+  /// walls. It is that of the interval before, and where that tells none what a film of even heating has:
+  /// k/(h m c_p) times 12 between two walls, 3 at one.
+  double exchange = 0;
+};
+
+/// Columns of one gap that are advanced in turns with the motion of its faces: conduction over an interval
+/// under the pressures that the faces had in it, then the isentropic change that gives the air its volume
+/// between them. Equations and steps are those of integrate_film (film.hpp), but air may also be stretched
+/// below its pressure at rest. The charge is resolved in depth, friction heats it evenly, and a column
+/// ignites at its surface or in any depth. It ends there: what burns is not followed, and its air is from
+/// then on compressed without conduction.
+class GapColumns {
+ public:
+  /// Short intervals resolve what the air does; within one the error of a step says little (1e-6 changes a
+  /// launch by 0.005 K).
+  static FilmNumerics usual_numerics() { return {.tolerance = 1e-3}; }
+
+  /// `gap` (m, > 0) at rest, where the air has the model's initial state, and `duration` (s) of the launch.
+  GapColumns(const SkinModel& model, std::size_t columns, double gap, double duration,
+             const FilmNumerics& numerics = usual_numerics());
+  GapColumns(GapColumns&&) noexcept;
+  ~GapColumns();
+
+  /// An interval of `length` (s) whose pressure (Pa) went from `begin` to `end` with a `mean`; friction heats
+  /// the charge by `heating` (K/s).
+  void advance(std::size_t column, double length, double begin, double end, double mean, double heating);
+  /// Gives the air of a column the volume of an opening (m), without conduction.
+  EnclosedAir fit(std::size_t column, double opening);
+
+  double hottest(std::size_t column) const;   ///< K, over the depth of the charge; T2 once it has ignited
+  double mean_air(std::size_t column) const;  ///< K, over its mass
+  bool failed(std::size_t column) const;      ///< something is not finite
+  bool ignited(std::size_t column) const;
+  double ignition_time(std::size_t column) const;  ///< s after the begin of the interval in which it ignited
+  double chemical_share(std::size_t column) const;
+  const FilmEnergy& energy(std::size_t column) const;
+  double covolume() const;  ///< m3/m2 of all the air's molecules: 0, the air is an ideal gas
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace launchsafe::surface

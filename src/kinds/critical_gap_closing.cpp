@@ -1,0 +1,144 @@
+// What a critical-gap study tells of gaps that close, beside the reservoir.
+#include "critical_gap_tables.hpp"
+#include "kind_texts.hpp"
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace launchsafe::kinds {
+
+using namespace study;
+using namespace report;
+namespace {
+
+using keys::fixed, keys::text;
+
+/// A gap of a case, under the reservoir and where it closes.
+struct ClosingRow {
+  const CaseOutcome* outcome;
+  double gap;
+
+  const GapVerdict* verdict() const {
+    const auto found = std::ranges::find(outcome->verdicts, gap, &GapVerdict::gap);
+    return found == outcome->verdicts.end() ? nullptr : &*found;
+  }
+  const ClosingPoint* point(std::size_t bound) const { return outcome->closing[bound].at(gap); }
+};
+
+/// K, by which a bound is known in `closing_bounds`.
+auto temperature_of(std::size_t bound) {
+  return [bound](const ClosingRow& row) {
+    const ClosingPoint* point = row.point(bound);
+    return point != nullptr ? point->maximum_temperature : not_a_number;
+  };
+}
+
+constexpr std::size_t corner = 2;
+
+Quantities<ClosingRow> closing_quantities() {
+  const auto heading = [](const char* name, const char* label, const char* meaning) {
+    return Column{name, label, fixed(1, kelvin), meaning};
+  };
+  return {
+      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &StudyCase::label},
+      {quantity::gap(), &ClosingRow::gap},
+      {heading("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
+       [](const ClosingRow& row) {
+         return row.verdict() != nullptr ? row.verdict()->maximum.temperature : not_a_number;
+       }},
+      {heading("temperature_max_conducting", "closing, base conducts",
+               "Highest temperature at any depth where the gap closes and its base takes heat."),
+       temperature_of(0)},
+      {heading("temperature_max_insulated", "base insulated",
+               "Highest temperature at any depth where the gap closes and its base takes no heat."),
+       temperature_of(1)},
+      {heading("temperature_max_corner", "worst corner",
+               "Highest temperature at any depth on the worst terms: insulated, smoothest, worst release."),
+       temperature_of(corner)},
+      {{"corner_place", "at", text(), "Station of that."},
+       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->place : std::string{}; }},
+      {{"corner_release", "release", fixed(2, millisecond), "Until when the charge is held there."},
+       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->release : not_a_number; }}};
+}
+
+/// What one bound says of the critical gap.
+struct BoundRow {
+  const CaseOutcome* outcome;
+  const ClosingAnswer* answer;
+};
+
+Quantities<BoundRow> closing_bound_quantities() {
+  return {{quantity::case_name(), &BoundRow::outcome, &CaseOutcome::input, &StudyCase::label},
+          {{"bound", "where the gap closes", text(), "Terms on which it closes."},
+           [](const BoundRow& row) {
+             return said("critical_gap.closing_bound", {{row.answer->name, true}}).front();
+           }},
+          {{"no_ignition_up_to", "no ignition up to", keys::significant(4, centimetre),
+            "Largest gap below the first that ignites."},
+           &BoundRow::answer,
+           &ClosingAnswer::lower},
+          {{"ignition_from", "ignites at", keys::significant(4, centimetre), "Smallest gap that ignites."},
+           &BoundRow::answer,
+           &ClosingAnswer::upper},
+          {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
+           [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
+}
+
+}  // namespace
+
+Table closing_table(const CriticalGapResult& result) {
+  std::vector<ClosingRow> rows;
+  for (const CaseOutcome& outcome : result.details) {
+    if (outcome.closing.empty()) continue;
+    for (const ClosingPoint& point : outcome.closing.front().points)
+      if (outcome.closing[corner].at(point.gap) != nullptr) rows.push_back({&outcome, point.gap});
+  }
+  Table table = table_of("Where the gap closes", closing_quantities(), rows);
+  if (!rows.empty()) table.notes = said("critical_gap.note.closing");
+  return table;
+}
+
+Table closing_bound_table(const CriticalGapResult& result) {
+  std::vector<BoundRow> rows;
+  for (const CaseOutcome& outcome : result.details)
+    for (const ClosingAnswer& answer : outcome.closing) rows.push_back({&outcome, &answer});
+  return table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
+}
+
+std::optional<Plot> closing_plot(const CriticalGapResult& result) {
+  if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
+  const CaseOutcome& outcome = result.details.front();
+  Plot plot;
+  plot.title = "Highest temperature by the reservoir, and where the gap closes";
+  plot.x.label = quantity::gap().label();
+  plot.y.label = quantity::temperature_max().label();
+  const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
+  // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
+  const double burning = ignition + 20.0;
+  Series reservoir{"reservoir, as published"};
+  for (const GapVerdict& row : outcome.verdicts)
+    reservoir.add(shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
+  plot.series.push_back(std::move(reservoir));
+  for (const ClosingAnswer& answer : outcome.closing) {
+    Series series{said("critical_gap.closing_bound", {{answer.name, true}}).front()};
+    for (const ClosingPoint& point : answer.points)
+      if (point.ignited || std::isfinite(point.maximum_temperature))
+        series.add(shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
+    plot.series.push_back(std::move(series));
+  }
+  plot.horizontal_lines.push_back(
+      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin)) +
+                     "; what ignites is drawn above it"});
+  return plot;
+}
+
+std::vector<ResultTable> closing_results() {
+  return {{"closing", "", keys::described(closing_quantities())},
+          {"closing_bounds", "", keys::described(closing_bound_quantities())}};
+}
+
+}  // namespace launchsafe::kinds

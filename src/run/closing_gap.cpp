@@ -1,0 +1,249 @@
+#include "closing_gap.hpp"
+
+#include "launchsafe/scene/stations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace launchsafe::run {
+namespace {
+
+/// An interval of a column ends once its pressure, or by conduction alone its volume, has changed by so much,
+/// or at a sample of the trace.
+constexpr double pressure_change = 0.05, volume_change = 0.02;
+/// Largest part of an opening by which faces approach in a step.
+constexpr double most_closed = 0.1;
+
+mpm::Contact& contact_of(mpm::Simulation& simulation) { return simulation.total_lagrangian()->contact(); }
+
+}  // namespace
+
+ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorder, double gap)
+    : model_(surface::skin_model(simulation.scene())),
+      nodes_(nodes_of_bottom(simulation, recorder)),
+      floor_(simulation.scene().surface.roughness),
+      release_(simulation.scene().surface.release),
+      columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load)) {
+  mpm::Contact& contact = contact_of(simulation);
+  for (std::size_t face = 0; face < contact.faces(); ++face)
+    if (is_bottom(simulation.scene(), contact, face))
+      contact.part(face, gap, floor_);
+    else if (release_ > 0.0)
+      contact.hold(face);
+  find_columns_of_stations(recorder);
+  skin_.gap = gap;
+  history_.smallest_opening = gap;
+  for (std::size_t column = 0; column < nodes_.size(); ++column) {
+    nodes_[column].opening = gap;
+    nodes_[column].hottest = columns_.hottest(column);
+    start_interval(column, contact, 0.0);
+  }
+  record(recorder);
+}
+
+bool ClosingGap::is_bottom(const scene::Scene& scene, const mpm::Contact& contact, std::size_t face) {
+  return !contact.is_along_x(face) &&
+         std::abs(contact.face_at(face) - scene::charge_extent(scene).x_end) < scene::length_tolerance(scene);
+}
+
+std::vector<ClosingGap::Node> ClosingGap::nodes_of_bottom(mpm::Simulation& simulation,
+                                                          const TraceRecorder& recorder) {
+  const scene::Scene& scene = simulation.scene();
+  const mpm::Contact& contact = contact_of(simulation);
+  const std::vector<scene::StationExtent> stations = scene::stations_of(scene);
+  std::vector<Node> nodes;
+  for (std::size_t face = 0; face < contact.faces(); ++face) {
+    if (!is_bottom(scene, contact, face)) continue;
+    const std::vector<mpm::FaceState> states = contact.state_of(face);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (!(states[i].area > 0.0)) continue;
+      const double place = states[i].place;
+      const double begin = i > 0 ? 0.5 * (states[i - 1].place + place) : place;
+      const double end = i + 1 < states.size() ? 0.5 * (place + states[i + 1].place) : place;
+      const std::size_t first = nodes.size();
+      for (std::size_t s = 0; s < stations.size(); ++s) {
+        const double overlap = std::min(end, stations[s].r_end) - std::max(begin, stations[s].r_begin);
+        if (!(overlap > 0.0)) continue;
+        Node node{.face = face, .node = i, .station = s, .place = place};
+        node.area = states[i].area * overlap / (end - begin);
+        node.friction_before = friction_of(node, recorder);
+        nodes.push_back(node);
+      }
+      const auto largest = std::max_element(nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.end(),
+                                            [](const Node& a, const Node& b) { return a.area < b.area; });
+      if (largest == nodes.end()) continue;
+      largest->states_gas = true;
+      std::iter_swap(nodes.begin() + static_cast<std::ptrdiff_t>(first), largest);
+    }
+  }
+  return nodes;
+}
+
+/// A ring has the nodes whose part of the bottom lies in it; an observation point that nearest to it.
+void ClosingGap::find_columns_of_stations(const TraceRecorder& recorder) {
+  const std::vector<trace::Station>& stations = recorder.trace().stations;
+  columns_of_station_.resize(stations.size());
+  for (std::size_t column = 0; column < nodes_.size(); ++column)
+    columns_of_station_[nodes_[column].station].push_back(column);
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    if (!columns_of_station_[s].empty()) continue;
+    const auto distance = [&](const Node& node) { return std::abs(node.place - stations[s].r); };
+    const auto nearest = std::min_element(nodes_.begin(), nodes_.end(), [&](const Node& a, const Node& b) {
+      return distance(a) < distance(b);
+    });
+    columns_of_station_[s].push_back(static_cast<std::size_t>(nearest - nodes_.begin()));
+  }
+}
+
+double ClosingGap::friction_of(const Node& node, const TraceRecorder& recorder) const {
+  const auto closure = static_cast<std::size_t>(model_.surface.friction);
+  return closure < trace::traced_closures ? recorder.friction(closure, node.station) : 0.0;
+}
+
+void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recorder, double dt,
+                         bool samples) {
+  mpm::Contact& contact = contact_of(simulation);
+  const double time = simulation.time();
+  if (release_ > 0.0 && time >= release_) {
+    contact.let_go();
+    release_ = 0.0;
+  }
+  bool touches = false, due = false;
+  longest_step_ = std::numeric_limits<double>::infinity();
+  for (std::size_t column = 0; column < nodes_.size(); ++column) {
+    Node& node = nodes_[column];
+    const mpm::GapGas& gas = contact.gas(node.face, node.node);
+    const double opening = contact.opening(node.face, node.node),
+                 pressure = node.pressure_ratio * gas.at(opening);
+    node.closing_speed = (node.opening - opening) / dt;
+    node.opening = opening;
+    if (node.closing_speed > 0.0)
+      longest_step_ = std::min(longest_step_, most_closed * opening / node.closing_speed);
+    node.pressure_integral += 0.5 * dt * (node.pressure + pressure);
+    node.pressure = pressure;
+    touches = touches || opening <= floor_ * (1.0 + 1e-9);
+    // The first column of a contact node has its gas, and decides for the others.
+    if (node.states_gas) due = samples || is_due(node, gas);
+    if (due) follow_heat(column, contact, recorder, time);
+  }
+  note_motion(touches, time);
+}
+
+bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
+  return std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
+         std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
+}
+
+void ClosingGap::follow_heat(std::size_t column, mpm::Contact& contact, const TraceRecorder& recorder,
+                             double time) {
+  Node& node = nodes_[column];
+  const double length = time - node.begin, friction = friction_of(node, recorder);
+  const double heating = (friction - node.friction_before) * model_.surface.localisation /
+                         (model_.charge_density * model_.specific_heat * length);
+  const bool was_ignited = columns_.ignited(column);
+  columns_.advance(column, length, node.air.pressure, node.pressure, node.pressure_integral / length,
+                   heating);
+  failed_ = failed_ || columns_.failed(column);
+  node.hottest = std::max(node.hottest, columns_.hottest(column));
+  history_.largest_gas_temperature = std::max(history_.largest_gas_temperature, columns_.mean_air(column));
+  if (columns_.ignited(column) && !was_ignited)
+    note_ignition(column, node.begin + columns_.ignition_time(column));
+  node.friction_before = friction;
+  start_interval(column, contact, time);
+}
+
+/// From the state that the column has between the faces as they are.
+void ClosingGap::start_interval(std::size_t column, mpm::Contact& contact, double time) {
+  Node& node = nodes_[column];
+  node.air = columns_.fit(column, node.opening);
+  node.pressure = node.air.pressure;
+  node.pressure_integral = 0.0;
+  node.begin = time;
+  if (!node.states_gas) {
+    node.pressure_ratio = node.pressure / contact.gas(node.face, node.node).at(node.opening);
+    return;
+  }
+  mpm::GapGas gas;
+  gas.outside = model_.surface.air.initial_pressure;
+  gas.pressure = node.air.pressure;
+  gas.volume = node.air.volume;
+  gas.exponent = node.air.exponent;
+  gas.covolume = columns_.covolume();
+  gas.exchange = node.air.exchange;
+  gas.energy_at_walls = node.air.pressure * node.air.volume_at_walls;
+  contact.set_gas(node.face, node.node, gas);
+}
+
+void ClosingGap::note_ignition(std::size_t column, double time) {
+  const double share = columns_.chemical_share(column);
+  const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
+  if (!skin_.ignition || time < skin_.ignition->time)
+    skin_.ignition = surface::Ignition{time, nodes_[column].station, cause, share};
+}
+
+void ClosingGap::note_motion(bool touches, double time) {
+  for (std::size_t column = 0; column < nodes_.size(); ++column) {
+    const Node& node = nodes_[column];
+    history_.smallest_opening = std::min(history_.smallest_opening, node.opening);
+    history_.largest_gas_pressure = std::max(history_.largest_gas_pressure, node.pressure);
+    if (history_.contacts == 0)
+      history_.approach_speed = std::max(history_.approach_speed, node.closing_speed);
+  }
+  if (touches && !touched_) {
+    if (history_.contacts == 0) history_.contact_time = time;
+    ++history_.contacts;
+  }
+  touched_ = touches;
+}
+
+void ClosingGap::record(const TraceRecorder& recorder) {
+  double area = 0.0, opening = 0.0, pressure = 0.0, air = 0.0;
+  for (std::size_t column = 0; column < nodes_.size(); ++column) {
+    const Node& node = nodes_[column];
+    const double mean = columns_.mean_air(column);
+    area += node.area;
+    opening += node.area * node.opening;
+    pressure += node.area * node.pressure;
+    air += node.area * mean;
+  }
+  history_.time.push_back(recorder.trace().time.back());
+  history_.opening.push_back(opening / area);
+  history_.gas_pressure.push_back(pressure / area);
+  skin_.time.push_back(history_.time.back());
+  skin_.air_temperature.push_back(air / area);
+  for (const std::vector<std::size_t>& columns : columns_of_station_) {
+    double hottest = 0.0;
+    for (const std::size_t column : columns) hottest = std::max(hottest, nodes_[column].hottest);
+    skin_.temperature.push_back(hottest);
+  }
+  for (std::size_t column = 0; column < nodes_.size(); ++column)
+    nodes_[column].hottest = columns_.hottest(column);
+}
+
+ClosingHistory ClosingGap::take_history(mpm::Simulation& simulation) {
+  const mpm::Contact& contact = contact_of(simulation);
+  double area = 0.0;
+  surface::FilmEnergy sum;
+  for (std::size_t column = 0; column < nodes_.size(); ++column) {
+    const Node& node = nodes_[column];
+    const surface::FilmEnergy& energy = columns_.energy(column);
+    area += node.area;
+    sum.charge += node.area * energy.charge;
+    sum.base += node.area * energy.base;
+    sum.gas += node.area * energy.gas;
+    sum.work += node.area * energy.work;
+    sum.friction += node.area * energy.friction;
+    sum.reaction += node.area * energy.reaction;
+    history_.work_on_gas += node.area * contact.gas_work(node.face, node.node);
+    skin_.energy_residual = std::max(skin_.energy_residual, energy.residual());
+  }
+  history_.energy = sum;
+  for (double* part :
+       {&history_.energy.charge, &history_.energy.base, &history_.energy.gas, &history_.energy.work,
+        &history_.energy.friction, &history_.energy.reaction, &history_.work_on_gas})
+    *part /= area;
+  return std::move(history_);
+}
+
+}  // namespace launchsafe::run

@@ -1,0 +1,81 @@
+#include "validate_gap.hpp"
+
+#include "scene_fault.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+namespace {
+
+Fault check_gaps(const SceneFile& file) {
+  std::vector<double> gaps = file.scene.surface.gaps;
+  std::sort(gaps.begin(), gaps.end());
+  const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
+                                        [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
+  if (twice != gaps.end()) {
+    return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
+  }
+  if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
+    return fault_at(file, "gap.thickness",
+                    fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),
+                    "gaps only under a body of material \"charge\"");
+  }
+  return std::nullopt;
+}
+
+/// Keys of one model of the gap beside another one. Those that both have, or that a verdict needs of the
+/// reservoir beside a closing gap, are none of them.
+Fault check_keys_of_model(const SceneFile& file) {
+  const Surface& surface = file.scene.surface;
+  const auto beside = [&](const char* key, const char* model, const char* other) {
+    return fault_at(file, key, fmt::format("a key of gap.model = \"{}\" beside \"{}\"", model, other),
+                    fmt::format("absent, or gap.model = \"{}\"", model));
+  };
+  if (surface.model == GapModel::reservoir) {
+    for (const char* key : {"gap.roughness", "gap.base", "gap.release"})
+      if (file.given.contains(key)) return beside(key, "closing", "reservoir");
+    return std::nullopt;
+  }
+  if (surface.air_model != AirModel::reservoir) return beside("gap.air", "reservoir", "closing");
+  if (surface.exchange != Exchange::rate) return beside("gap.exchange", "reservoir", "closing");
+  if (surface.air_pressure != AirPressure::charge_bottom)
+    return beside("gap.pressure", "reservoir", "closing");
+  return std::nullopt;
+}
+
+/// A charge that flies has to be free of its base, and the mechanics has to have its gap.
+Fault check_closing(const SceneFile& file) {
+  const Scene& scene = file.scene;
+  if (scene.surface.model == GapModel::reservoir) return std::nullopt;
+  const auto closing = [&](std::string found, std::string allowed) {
+    return fault_at(file, "gap.model", "\"closing\" " + found, allowed + ", or gap.model = \"reservoir\"");
+  };
+  const Body* base = body_under_charge(scene);
+  if (base == nullptr) return closing("with nothing under the charge", "a body at the charge's bottom");
+  const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
+                                  [&](const Interface& each) { return each.body == base->name; });
+  if (faces == scene.interfaces.end() || faces->condition != Condition::sliding)
+    return closing(fmt::format("with a charge bonded to \"{}\" under it", base->name),
+                   fmt::format("[interface.{}] with condition = \"sliding\" and its friction", base->name));
+  if (scene.numerics.formulation == Formulation::updated_lagrangian)
+    return closing("with numerics.formulation = \"updated-lagrangian\", whose bodies share a grid",
+                   "the formulation \"total-lagrangian\"");
+  if (scene.coupling == Coupling::two_way)
+    return closing("with coupling = \"two-way\": combustion is not followed in a gap that closes",
+                   "coupling = \"one-way\"");
+  return std::nullopt;
+}
+
+}  // namespace
+
+Fault fault_of_gap(const SceneFile& file) {
+  for (const auto check : {check_gaps, check_keys_of_model, check_closing})
+    if (Fault fault = check(file)) return fault;
+  return std::nullopt;
+}
+
+}  // namespace launchsafe::scene

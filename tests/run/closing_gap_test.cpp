@@ -1,0 +1,163 @@
+// Launches in which the gap closes, against what model section 14 gives.
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace launchsafe::run {
+namespace {
+
+/// With true inertia.
+scene::Scene shipped() {
+  scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  scene.numerics.selective_inertia = 1.0;
+  return scene;
+}
+
+/// Without friction heat and reaction.
+void take_heat_away(scene::Scene& scene) {
+  scene.surface.friction = scene::FrictionClosure::none;
+  materials::KineticsParameters& kinetics = scene.charge().kinetics;
+  kinetics.frequency = 0.0;
+  kinetics.ignition_temperature = kinetics.burnt_temperature = 1e9;
+}
+
+/// The one-dimensional launch of model section 14: a charge within a smooth wall, over a base that nothing
+/// slows down, under the earlier load (peak at 12.96 ms, exponent 13.58) from when it accelerates the shell
+/// by `release` (m/s2) on.
+scene::Scene flying_column(double release) {
+  constexpr double largest = 1.4648e5, peak = 496e6, heavy = 1e3, base_length = 0.062;  // m/s2, Pa, -, m
+  scene::Scene scene = shipped();
+  scene.load.shape = scene::LoadShape::power_exponential;
+  scene.load.peak_time = 12.96e-3;
+  scene.load.exponent = 13.58;
+  const scene::PressureHistory pressure(scene.load);
+  const auto acceleration = [&](double time) { return pressure.at(time) * largest / peak; };
+  double begin = 0.0;
+  while (acceleration(begin) < release) begin += 1e-6;
+  scene.materials.push_back(
+      {"heavy",
+       materials::LinearElastic{.density = 7830.0 * heavy, .bulk = 160e9 * heavy, .shear = 80e9 * heavy}});
+  scene.bodies = {{"charge", "charge", 0.118, 0.678, 0.0, 0.065},
+                  {"base", "heavy", 0.678, 0.678 + base_length, 0.0, 0.065}};
+  scene.interfaces = {{.body = "base", .condition = scene::Condition::sliding, .friction = 0.0}};
+  scene.output.observation_points.clear();
+  scene.numerics.cell_size = 2.5e-3;
+  scene.surface.station_width = 13e-3;
+  scene.surface.model = scene::GapModel::closing;
+  const double mass = 7830.0 * heavy * base_length + 1717.0 * 0.56;  // kg/m2
+  scene::Load load;
+  for (double time = 0.0; begin + time < (release > 0.0 ? begin + 4e-4 : 8e-3); time += 2e-5) {
+    load.curve_time.push_back(time);
+    load.curve_pressure.push_back(acceleration(begin + time) * mass);
+  }
+  load.duration = load.curve_time.back();
+  scene.load = load;
+  take_heat_away(scene);
+  scene::settle_load(scene);
+  return scene;
+}
+
+CaseResult close_gap(scene::Scene scene, double gap, scene::GapBase base, double roughness) {
+  scene.surface.base = base;
+  scene.surface.roughness = roughness;
+  CaseResult result = run_with_skin(scene, gap);
+  EXPECT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+  EXPECT_TRUE(result.gaps.front().closing.has_value());
+  return result;
+}
+
+double rise_of(const CaseResult& result) { return result.gaps.front().at_stations.temperature - 300.0; }
+
+using scene::GapBase;
+
+TEST(ClosingGap, HeatsTheSurfaceAsAOneDimensionalTrialDid) {
+  struct Row {
+    double release, gap, roughness, conducting, insulated;  // m/s2, m, m, K, K
+  };
+  for (const Row& row : {Row{1e5, 4e-4, 1e-5, 35.0, 46.0}, Row{1e5, 1e-3, 1e-5, 108.0, 134.0},
+                         Row{1e5, 4e-4, 1e-6, 93.0, 122.0}}) {
+    const scene::Scene scene = flying_column(row.release);
+    EXPECT_NEAR(rise_of(close_gap(scene, row.gap, GapBase::conducting, row.roughness)), row.conducting,
+                0.05 * row.conducting)
+        << row.gap;
+    EXPECT_NEAR(rise_of(close_gap(scene, row.gap, GapBase::insulated, row.roughness)), row.insulated,
+                0.05 * row.insulated)
+        << row.gap;
+  }
+  // Of rises of 12 and 14 K, given to whole kelvins.
+  EXPECT_NEAR(rise_of(close_gap(flying_column(1e5), 4e-4, GapBase::conducting, 3e-5)), 12.0, 1.0);
+  EXPECT_NEAR(rise_of(close_gap(flying_column(1e5), 4e-4, GapBase::insulated, 3e-5)), 14.0, 1.0);
+}
+
+TEST(ClosingGap, HeatsLittleWhereTheChargeIsFreeFromTheStart) {
+  EXPECT_NEAR(rise_of(close_gap(flying_column(0.0), 4e-4, GapBase::conducting, 1e-5)), 4.0, 1.0);
+  EXPECT_NEAR(rise_of(close_gap(flying_column(0.0), 4e-4, GapBase::insulated, 1e-5)), 9.0, 1.0);
+}
+
+TEST(ClosingGap, ClosesItsAccounts) {
+  const CaseResult result = close_gap(flying_column(1e5), 1e-3, GapBase::conducting, 1e-5);
+  const ClosingHistory& closing = *result.gaps.front().closing;
+  EXPECT_GE(closing.smallest_opening, 1e-5 * (1.0 - 1e-3));
+  EXPECT_NEAR(closing.approach_speed, 13.0, 0.05 * 13.0);
+  EXPECT_LT(result.gaps.front().skin.energy_residual, 1e-6);
+  const surface::FilmEnergy& energy = closing.energy;
+  EXPECT_NEAR(energy.charge + energy.base + energy.gas, energy.work, 1e-6 * energy.work);
+}
+
+/// The 155 mm shell on a mesh that runs in a second, on a base from which the charge can part.
+scene::Scene parting_shell() {
+  scene::Scene scene = shipped();
+  scene.numerics.cell_size = 5e-3;
+  scene.numerics.selective_inertia = 4.0;
+  scene.interfaces.push_back({.body = "base", .condition = scene::Condition::sliding, .friction = 0.0});
+  scene.surface.model = scene::GapModel::closing;
+  scene.surface.base = GapBase::insulated;
+  return scene;
+}
+
+TEST(ClosingGap, IsTheLaunchWithoutAGapWhereItIsAsThinAsItsRoughness) {
+  scene::Scene none = parting_shell();
+  none.surface.model = scene::GapModel::reservoir;
+  none.surface.base = GapBase::conducting;
+  const MechanicsResult mechanics = run_mechanics(none);
+  const double without = evaluate_gap(none, mechanics.trace, 0.0).at_stations.temperature;
+  const scene::Scene scene = parting_shell();
+  EXPECT_NEAR(run_with_skin(scene, 1.01e-5).gaps.front().at_stations.temperature, without, 1.0);
+  const CaseResult rough = run_with_skin(scene, 1e-5);
+  EXPECT_FALSE(rough.gaps.front().closing.has_value());
+  EXPECT_DOUBLE_EQ(rough.gaps.front().gap, 1e-5);
+  EXPECT_NEAR(rough.gaps.front().at_stations.temperature, without, 0.1);
+}
+
+TEST(ClosingGap, KeepsTheEnergyOfTheLaunch) {
+  const CaseResult result = run_with_skin(parting_shell(), 4e-4);
+  ASSERT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+  EXPECT_LT(largest_energy_drift(result.mechanics), 1e-6);
+}
+
+TEST(ClosingGap, IsNotReadOffTheTraceOfAnotherLaunch) {
+  const scene::Scene scene = parting_shell();
+  const GapResult read = evaluate_gap(scene, run_mechanics(scene).trace, 4e-4);
+  EXPECT_TRUE(std::isnan(read.at_stations.temperature));
+  EXPECT_FALSE(read.skin.ignition.has_value());
+}
+
+TEST(ClosingGap, HoldsTheChargeUntilItIsReleased) {
+  scene::Scene scene = parting_shell();
+  scene.surface.release = 9e-3;
+  const CaseResult held = run_with_skin(scene, 1e-3);
+  ASSERT_EQ(held.mechanics.status, RunStatus::completed) << held.mechanics.reason;
+  const ClosingHistory& closing = *held.gaps.front().closing;
+  EXPECT_GT(closing.contact_time, 9e-3);
+  // It gives way as an elastic body meanwhile, and meets the base soon afterwards.
+  for (std::size_t i = 0; i < closing.time.size() && closing.time[i] < 9e-3; ++i)
+    EXPECT_GT(closing.opening[i], 0.5e-3) << closing.time[i];
+  EXPECT_LT(closing.contact_time, 9.5e-3);
+}
+
+}  // namespace
+}  // namespace launchsafe::run
