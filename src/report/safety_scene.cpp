@@ -99,6 +99,7 @@ Row scene_facts(const StudyEvidence& study, PageFacts& all) {
             {"temperature_K", scene.initial_temperature},
             {"ignition_K", scene.charge().kinetics.ignition_temperature},
             {"film", scene.surface.air_model == scene::AirModel::film},
+            {"closes", scene.surface.model == scene::GapModel::closing},
             {"stations", scene::stations_of(scene).size()},
             {"station_width_mm", in(millimetre, scene.surface.station_width)},
             {"station_depth_mm", in(millimetre, scene.surface.station_depth)},

@@ -1,5 +1,6 @@
 #include "launchsafe/study/closing_gaps.hpp"
 
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include <fmt/format.h>
@@ -41,11 +42,17 @@ CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
+/// Whether a run ended as it should, and nothing warns of it.
+bool is_sound(const scene::Scene& scene, const FinishedRun& run) {
+  return run.has_result() && run.failure.empty() && !run.result.gaps.empty() &&
+         run::validity_warnings(scene, run.result.mechanics).empty();
+}
+
 /// Takes one more run into a point: the hotter one counts, and one without a temperature leaves none.
-void take(const FinishedRun& run, double release, ClosingPoint& point) {
+void take(const scene::Scene& scene, const FinishedRun& run, double release, ClosingPoint& point) {
   const bool first = point.hashes.empty();
   point.hashes.push_back(run.hash);
-  const bool sound = run.has_result() && run.failure.empty() && !run.result.gaps.empty();
+  const bool sound = is_sound(scene, run);
   const double temperature = sound ? run.result.gaps.front().at_stations.temperature : not_a_number;
   if (sound && run.result.gaps.front().skin.ignition) point.ignited = true;
   if (!first && !(temperature > point.maximum_temperature) && std::isfinite(temperature)) return;
@@ -97,12 +104,17 @@ void add_points(const StudyCase& input, const ClosingBound& bound, const std::ve
   std::vector<CaseRun> runs;
   for (const double gap : gaps)
     for (const ClosingTerms& terms : bound.terms) runs.push_back(run_on(input, terms, gap));
+  std::vector<scene::Scene> scenes;
+  for (const CaseRun& each : runs) scenes.push_back(each.scene);
   const std::vector<FinishedRun> finished = run(std::move(runs));
   std::size_t next = 0;
   for (const double gap : gaps) {
     ClosingPoint point;
     point.gap = gap;
-    for (const ClosingTerms& terms : bound.terms) take(finished[next++], terms.release, point);
+    for (const ClosingTerms& terms : bound.terms) {
+      take(scenes[next], finished[next], terms.release, point);
+      ++next;
+    }
     answer.points.push_back(std::move(point));
   }
   std::ranges::sort(answer.points, {}, &ClosingPoint::gap);
