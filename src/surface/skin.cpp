@@ -1,6 +1,7 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include "intervals.hpp"
+#include "launchsafe/math/pack.hpp"
 #include "launchsafe/surface/film.hpp"
 #include "skin_equation.hpp"
 
@@ -8,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
+#include <utility>
 
 namespace launchsafe::surface {
 
@@ -32,8 +35,15 @@ std::vector<double> heating_of(const detail::Intervals& intervals, std::size_t i
   return heating;
 }
 
+/// K/s times intervals, by friction over the launch; 0 where that is no number.
+double whole_heating(const detail::Intervals& intervals, std::size_t station) {
+  double whole = 0.0;
+  for (std::size_t i = 0; i < intervals.count(); ++i) whole += intervals.friction_heating(i, station);
+  return std::isfinite(whole) ? whole : 0.0;
+}
+
 /// The stations that tile the bottom, but for those which friction heats in no interval more than another
-/// one.
+/// one; first what friction heats most.
 std::vector<std::size_t> hottest_stations(const detail::Intervals& intervals,
                                           const trace::BottomTrace& trace) {
   const auto is_as_hot = [&](std::size_t station, std::size_t other) {
@@ -41,14 +51,17 @@ std::vector<std::size_t> hottest_stations(const detail::Intervals& intervals,
       if (!(intervals.friction_heating(i, station) >= intervals.friction_heating(i, other))) return false;
     return true;
   };
-  std::vector<std::size_t> hottest;
+  std::vector<std::pair<double, std::size_t>> hottest;  // minus the whole heating
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
     if (trace.stations[station].observation) continue;
-    if (std::ranges::any_of(hottest, [&](std::size_t other) { return is_as_hot(other, station); })) continue;
-    std::erase_if(hottest, [&](std::size_t other) { return is_as_hot(station, other); });
-    hottest.push_back(station);
+    if (std::ranges::any_of(hottest, [&](auto other) { return is_as_hot(other.second, station); })) continue;
+    std::erase_if(hottest, [&](auto other) { return is_as_hot(station, other.second); });
+    hottest.emplace_back(-whole_heating(intervals, station), station);
   }
-  return hottest;
+  std::ranges::sort(hottest);
+  std::vector<std::size_t> stations;
+  for (const auto& each : hottest) stations.push_back(each.second);
+  return stations;
 }
 
 /// Every station by itself under the given air (AirModel::reservoir).
@@ -141,9 +154,11 @@ IgnitionOfGaps::IgnitionOfGaps(const SkinModel& model, const trace::BottomTrace&
     : model_(model), trace_(trace) {
   const detail::Intervals intervals(model, trace, 0.0);
   const std::vector<std::size_t> hottest = hottest_stations(intervals, trace);
+  stations_ = hottest.size();
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
     const detail::SkinEquation equation = equation_of(model, intervals, interval);
     intervals_.push_back({equation.air, equation.air_slope, heating_of(intervals, interval, hottest)});
+    all_finite_ = all_finite_ && all_finite(intervals_.back().heating);
   }
 }
 
@@ -153,15 +168,23 @@ std::optional<bool> IgnitionOfGaps::operator()(double gap) const {
     if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) return std::nullopt;
     return history.ignition.has_value();
   }
-  if (trace_.samples() == 0 || trace_.stations.empty()) return std::nullopt;
+  if (trace_.samples() == 0 || trace_.stations.empty() || !all_finite_) return std::nullopt;
   const detail::Intervals intervals(model_, trace_, gap);
-  std::vector<SkinPoint> points;
-  if (!intervals_.empty())
-    points.assign(intervals_.front().heating.size(), SkinPoint{model_.initial_temperature});
+  for (std::size_t first = 0; first < stations_; first += math::pack_width) {
+    const auto ignites = any_ignites(intervals, first, std::min(math::pack_width, stations_ - first));
+    if (!ignites || *ignites) return ignites;
+  }
+  return false;
+}
+
+std::optional<bool> IgnitionOfGaps::any_ignites(const detail::Intervals& intervals, std::size_t first,
+                                                std::size_t count) const {
+  std::vector<SkinPoint> points(count, SkinPoint{model_.initial_temperature});
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
     const detail::SkinEquation equation{intervals.exchange_rate(i), interval.air, interval.air_slope, 0.0};
-    detail::advance(model_, equation, interval.heating, points, intervals.length(i));
+    detail::advance(model_, equation, std::span(interval.heating).subspan(first, count), points,
+                    intervals.length(i));
     const auto is_finite = [](const SkinPoint& point) { return std::isfinite(point.temperature); };
     if (!std::ranges::all_of(points, is_finite)) return std::nullopt;
     if (std::ranges::any_of(points, &SkinPoint::ignited)) return true;

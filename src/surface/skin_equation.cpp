@@ -239,13 +239,15 @@ SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoin
   return point;
 }
 
-void advance(const SkinModel& model, const SkinEquation& equation, const std::vector<double>& heating,
+void advance(const SkinModel& model, const SkinEquation& equation, std::span<const double> heating,
              std::vector<SkinPoint>& points, double dt) {
   constexpr double coldest = 10.0;  // K, below which 1/T^2 may be too large
   const double trigger = trigger_of(model).temperature;
   for (std::size_t first = 0; first < points.size(); first += math::pack_width) {
     const std::size_t count = std::min(math::pack_width, points.size() - first);
-    math::Pack temperature = 0.0, heat = 0.0;
+    // Lanes without a point repeat the first one, which costs nothing; a temperature of 0 would be NaN, and
+    // slow.
+    math::Pack temperature = points[first].temperature, heat = heating[first];
     for (std::size_t lane = 0; lane < count; ++lane) {
       temperature.set(lane, points[first + lane].temperature);
       heat.set(lane, heating[first + lane]);

@@ -3,6 +3,7 @@
 
 #include "launchsafe/surface/skin.hpp"
 
+#include <span>
 #include <vector>
 
 namespace launchsafe::surface::detail {
@@ -38,7 +39,7 @@ SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoin
 
 /// Likewise of many points, which `heating` (K/s) heats each: as many at once as a register holds, where one
 /// step follows a solid; the others one by one.
-void advance(const SkinModel& model, const SkinEquation& equation, const std::vector<double>& heating,
+void advance(const SkinModel& model, const SkinEquation& equation, std::span<const double> heating,
              std::vector<SkinPoint>& points, double dt);
 
 }  // namespace launchsafe::surface::detail

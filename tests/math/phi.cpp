@@ -20,13 +20,20 @@ long double series(int k, long double z) {
 }
 
 TEST(PhiFunctions, AgreeWithTheirSeries) {
-  for (const double z :
-       {-6.0, -2.001, -1.999, -0.5, -1e-3, -1e-12, 0.0, 1e-12, 1e-3, 0.5, 1.999, 2.001, 12.0}) {
+  for (const double z : {-6.0, -2.001, -1.999, -0.5, -0.004, -0.0039, -1e-3, -1e-12, 0.0, 1e-12, 1e-3, 0.5,
+                         1.999, 2.001, 12.0}) {
     const auto phi = math::phi_functions(z);
     for (std::size_t k = 0; k < phi.size(); ++k) {
       const double expected = static_cast<double>(series(static_cast<int>(k), z));
       EXPECT_NEAR(phi[k] / expected, 1.0, 2e-14) << "k = " << k << ", z = " << z;
     }
+  }
+}
+
+TEST(PhiFunctions, AreTheSameDoublesByFewTermsWhereThoseAreEnough) {
+  for (int step = -1000; step <= 1000; ++step) {
+    const double z = 0.000999 * math::detail::small * step;
+    EXPECT_EQ(math::detail::phi_by_series<6>(z), math::detail::phi_by_series<22>(z)) << z;
   }
 }
 

@@ -40,6 +40,25 @@ TEST(Ignites, SaysNothingWithoutATraceOrWithATemperatureThatIsNone) {
   EXPECT_FALSE(IgnitionOfGaps(plain, trace)(1e-4));
 }
 
+// Each of more stations than a register holds has an interval in which it is heated most. The one that
+// ignites is heated least over the whole launch: friction takes back there what it gave, which no launch
+// does.
+TEST(Ignites, LooksAtEveryStationThatMayBeTheHottest) {
+  const SkinModel model = plain_model();
+  for (const bool spike : {false, true}) {
+    trace::BottomTrace trace = smooth_launch(50, 17, 0.5 * friction_energy);
+    const std::size_t stations = trace.stations.size();
+    for (auto& closure : trace.friction)
+      for (std::size_t i = 0; i < closure.size(); ++i) {
+        const std::size_t sample = i / stations, station = i % stations;
+        if (sample > station) closure[i] += 0.01 * friction_energy;
+        if (spike && station == 15 && sample == 25) closure[i] += 3.0 * friction_energy;
+      }
+    EXPECT_EQ(IgnitionOfGaps(model, trace)(1e-4), spike);
+    EXPECT_EQ(integrate_skin(model, trace, 1e-4).ignition.has_value(), spike);
+  }
+}
+
 TEST(SkinHistory, WithoutGapOnlyFrictionHeats) {
   const trace::BottomTrace trace = smooth_launch(100, 0, friction_energy);
   SkinModel model = plain_model();

@@ -10,6 +10,10 @@
 
 namespace launchsafe::surface {
 
+namespace detail {
+class Intervals;
+}
+
 enum class IgnitionCause { trigger, arrhenius };  ///< T1 reached by outside heating, or self-heating ran away
 
 struct Ignition {
@@ -62,8 +66,9 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
 /// Whether gaps ignite on one trace, as integrate_skin finds, sooner: a skin is followed up to ignition,
-/// observation points are left out, and so are stations which friction heats in no interval more than
-/// another, as they are nowhere hotter. What does not depend on the gap is found once.
+/// first at as many stations as a register holds, those which friction heats most, and at others where none
+/// of these ignites. Observation points are left out, and so are stations which friction heats in no interval
+/// more than another, as they are nowhere hotter. What does not depend on the gap is found once.
 class IgnitionOfGaps {
  public:
   /// Both outlive it.
@@ -77,9 +82,14 @@ class IgnitionOfGaps {
     double air = 0, air_slope = 0;  ///< K at its begin, K/s
     std::vector<double> heating;    ///< K/s, of the stations that count
   };
+  /// Of so many of the stations that count, from one on.
+  std::optional<bool> any_ignites(const detail::Intervals& intervals, std::size_t first,
+                                  std::size_t count) const;
   const SkinModel& model_;
   const trace::BottomTrace& trace_;
   std::vector<Interval> intervals_;
+  std::size_t stations_ = 0;  ///< that count
+  bool all_finite_ = true;    ///< the heating
 };
 
 /// The same equation for one station over one interval, for run::run_with_skin and for tests: temperature
