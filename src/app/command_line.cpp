@@ -210,6 +210,8 @@ void add_import_curve(CLI::App& app, CommandLine& line) {
       command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
       "a pressure such as \"5 MPa\"", "PRESSURE",
       "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
+  add_optional(command, "--scene", import.scene, "SCENE.toml",
+               "Scene of a shell: says which ring of the record is near a frequency at which it swings");
 }
 
 void add_report(CLI::App& app, CommandLine& line) {

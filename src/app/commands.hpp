@@ -100,6 +100,7 @@ struct ImportCurveArguments {
   std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
   std::string pressure;                         ///< name of the column; empty: the only one
   std::optional<double> offset, trigger;        ///< Pa
+  std::optional<std::filesystem::path> scene;   ///< of a shell whose modes are told beside rings
   std::string command;                          ///< the whole command, to be repeated in a shell
 };
 ExitCode perform(const ImportCurveArguments& arguments, Console& console);

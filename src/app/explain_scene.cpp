@@ -1,7 +1,6 @@
 #include "explain_scene.hpp"
 
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/grid_intervals.hpp"
@@ -11,6 +10,7 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/scheduler.hpp"
+#include "rings.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -124,50 +124,6 @@ std::string grid_text(const scene::Scene& scene) {
          indented(report::to_text(interval_table(scene)) + "\n" + report::to_text(body_table(scene)));
 }
 
-std::string kilohertz(double frequency) { return fmt::format("{:.3g} kHz", 1e-3 * frequency); }
-
-/// The rings of a measured load beside the frequencies at which the shell swings along its axis; empty
-/// without rings.
-std::string rings_text(const scene::Scene& scene) {
-  const std::vector<scene::Ring> rings = scene::rings_of(scene.load);
-  if (rings.empty()) return {};
-  constexpr std::size_t most_named = 3;
-  const std::vector<run::AxialMode> modes = run::axial_modes(scene);
-  std::string text = "\nRings of the record\n  the shell swings along its axis at";
-  for (std::size_t i = 0; i < std::min(modes.size(), most_named); ++i)
-    text += fmt::format("{}{}", i > 0 ? ", " : " ", kilohertz(modes[i].frequency));
-  text += modes.size() > most_named ? " and higher\n" : "\n";
-  for (const scene::Ring& ring : rings) {
-    const run::AxialMode* mode = run::mode_near(ring, modes);
-    text += fmt::format(
-        "  a ring at {} with {:.2g} % of the peak is near {}\n", kilohertz(ring.frequency),
-        100.0 * ring.amplitude / scene::PressureHistory(scene.load).stated_peak(),
-        mode == nullptr
-            ? "none of these modes"
-            : fmt::format("the mode at {}: the shell swings along, which heats the charge's bottom",
-                          kilohertz(mode->frequency)));
-  }
-  return text;
-}
-
-/// The same in SI, with all modes.
-nlohmann::ordered_json rings_json(const scene::Scene& scene) {
-  const std::vector<scene::Ring> rings = scene::rings_of(scene.load);
-  if (rings.empty()) return nullptr;
-  nlohmann::ordered_json modes_json = nlohmann::ordered_json::array(), rings_json = modes_json;
-  const std::vector<run::AxialMode> modes = run::axial_modes(scene);
-  for (const run::AxialMode& mode : modes)
-    modes_json.push_back({{"frequency_hz", mode.frequency}, {"share_of_strongest", mode.amplitude}});
-  for (const scene::Ring& ring : rings) {
-    const run::AxialMode* mode = run::mode_near(ring, modes);
-    rings_json.push_back(
-        {{"frequency_hz", ring.frequency},
-         {"amplitude_pa", ring.amplitude},
-         {"near_mode_hz", mode != nullptr ? nlohmann::ordered_json(mode->frequency) : nullptr}});
-  }
-  return {{"rings", rings_json}, {"axial_modes", modes_json}};
-}
-
 /// The same in SI, and every line of the grid.
 nlohmann::ordered_json grid_json(const scene::Scene& scene) {
   const scene::GridLines lines = scene::lines_at_rest(scene);
@@ -229,7 +185,7 @@ run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_sk
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
   std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate) + "\n" + grid_text(scene);
-  text += rings_text(scene);
+  text += rings_text(scene.load, scene);
   if (scene.output.asks_for_snapshots())
     text += fmt::format("\nSnapshots\n  {}\n", run::to_text(run::snapshot_size(scene)));
   if (const auto refusal = run::out_of_reach(scene, reach_here()))
@@ -283,7 +239,7 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
   const auto refusal = run::out_of_reach(scene, reach_here());
   return {{"title", scene.title},
           {"load", load_json(scene)},
-          {"rings_of_the_record", rings_json(scene)},
+          {"rings_of_the_record", rings_json(scene.load, scene)},
           {"interfaces", interfaces_json(scene)},
           {"physics", physics_json(plan)},
           {"particles", particles_json(plan)},

@@ -4,16 +4,20 @@
 #include "launchsafe/scene/gauge_record.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/quantity.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
+#include "rings.hpp"
 #include "shell_words.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::app {
@@ -127,11 +131,20 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   if (!cleaned) return console.refuse(cleaned.error());
   Import import{std::move(*record), std::move(*cleaned), {}};
   import.load = scene::load_of_curve(import.cleaned.curve);
+  std::optional<scene::SceneFile> shell;
+  if (arguments.scene) {
+    auto read = scene::read_scene(*arguments.scene);
+    if (!read) return console.refuse(read.error());
+    shell = std::move(*read);
+  }
   const std::string done =
       fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(*text)) +
       what_was_done(arguments, import);
   console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
-  console.print_json(json_of(import));
+  if (shell) console.print_text(rings_text(import.load, shell->scene));
+  nlohmann::ordered_json json = json_of(import);
+  if (shell) json["rings_of_the_record"] = rings_json(import.load, shell->scene);
+  console.print_json(json);
   if (arguments.output) return write(arguments, import, done, console);
   console.print_text(fmt::format("\nnext: {}\n", arguments.command + " -o pressure.csv"));
   return ExitCode::done;

@@ -157,7 +157,7 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
   return run_timed<CriticalGapResult>(
       study, options,
       [&](CriticalGapResult& result) {
-        if (study.in_detail)
+        if (study.study.in_detail)
           run_in_detail(result, options);
         else
           result.answers = answer_cases(study, options, result.timing);

@@ -42,9 +42,9 @@ Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
   const bool few = study.cases.size() <= most_cases_in_detail;
   bool& confirm = settings_of<CriticalGapSettings>(study.study).confirm;
   if (!study.places.contains("confirm")) confirm = few;
-  study.in_detail = few || confirm;
+  study.study.in_detail = few || confirm;
   study.confirmations_per_case = confirm ? 2 : 0;
-  if (study.scene.scene.surface.model == scene::GapModel::closing && !study.in_detail)
+  if (study.scene.scene.surface.model == scene::GapModel::closing && !study.study.in_detail)
     return fault_at(study, "vary", fmt::format("{} cases of a gap that closes", study.cases.size()),
                     fmt::format("at most {}, or gap.model = \"reservoir\"", most_cases_in_detail));
   return std::nullopt;

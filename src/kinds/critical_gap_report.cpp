@@ -126,7 +126,7 @@ nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Tabl
 
 /// The same table as a text of its own.
 TextFile table_file(const char* name, Table table, const StudyFile& study) {
-  if (!study.in_detail)
+  if (!study.study.in_detail)
     for (std::string& note : mesh_notes(study)) table.notes.push_back(std::move(note));
   return {name, to_markdown(table)};
 }

@@ -118,7 +118,7 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
       const StudyCase input = of->cases[first];
       return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
     }});
-  if (study.in_detail && with_longer_launch(study.cases[first].scene.scene))
+  if (study.study.in_detail && with_longer_launch(study.cases[first].scene.scene))
     cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
 }
 

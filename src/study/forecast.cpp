@@ -163,7 +163,7 @@ void add_memory_of_plan(const StudyFile& study, Forecast& forecast) {
   const auto gaps = static_cast<double>(study.study.gaps.size());
   forecast.plan_memory = program + of_job * forecast.jobs + of_planned_case * all;
   forecast.report_memory = (5e3 + 21e3 * gaps) * all;
-  if (!study.in_detail && study.study.kind.keeps_answers) {
+  if (!study.study.in_detail && study.study.kind.keeps_answers) {
     forecast.kept_memory = (4e3 + 1e3 * gaps) * own;
     return;
   }

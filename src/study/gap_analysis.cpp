@@ -1,5 +1,6 @@
 #include "launchsafe/study/gap_analysis.hpp"
 
+#include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
@@ -304,12 +305,14 @@ namespace {
 CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
   constexpr double unasked = std::numeric_limits<double>::infinity();
   const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
+  CaseStatements input = statements_of(study, outcome.input);
+  if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
   return {outcome.completed(),
           outcome.failure,
           outcome.result.mechanics.limiters,
           validity_warnings_of(outcome),
           asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
-          statements_of(study, outcome.input)};
+          std::move(input)};
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {

@@ -112,7 +112,7 @@ class StudyOnFirings : public FolderWithScene {
     auto study = read(more);
     EXPECT_TRUE(study) << (study ? "" : study.error().message());
     if (!study) return {};
-    study->in_detail = false;
+    study->study.in_detail = false;
     study->confirmations_per_case = 0;
     return run_critical_gap(*study, synthetic_options()).answers.front().verdicts;
   }

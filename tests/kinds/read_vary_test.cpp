@@ -115,11 +115,11 @@ TEST(ReadVary, ManyCasesAreNotConfirmedUnlessTheyAskForIt) {
   };
   EXPECT_EQ(confirmed(six), 2u);
   EXPECT_EQ(confirmed("confirm = false\n" + six), 0u);
-  EXPECT_TRUE(study_of(critical_kind + "confirm = false\n" + six).in_detail);
+  EXPECT_TRUE(study_of(critical_kind + "confirm = false\n" + six).study.in_detail);
   EXPECT_EQ(confirmed(seven), 0u);
-  EXPECT_FALSE(study_of(critical_kind + seven).in_detail);
+  EXPECT_FALSE(study_of(critical_kind + seven).study.in_detail);
   EXPECT_EQ(confirmed("confirm = true\n" + seven), 2u);
-  EXPECT_TRUE(study_of(critical_kind + "confirm = true\n" + seven).in_detail);
+  EXPECT_TRUE(study_of(critical_kind + "confirm = true\n" + seven).study.in_detail);
 }
 
 TEST(ReadVary, OnlyAnotherLaunchIsNotTheReferences) {

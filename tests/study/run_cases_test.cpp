@@ -61,7 +61,7 @@ TEST(RunCases, CasesShareARunWhereTheirMechanicsAreEqualAndNowhereElse) {
                                                          scene::format_value(key, usual + other))},
                                   {"peak_pressure", "450, 496 MPa"}}));
     if (!study) continue;  // no other value of it stands beside the rest of the scene
-    study->in_detail = false;
+    study->study.in_detail = false;
     ++tried;
     std::set<std::string> hashes;
     for (const CaseRuns& each : case_runs(*study, 1)) {

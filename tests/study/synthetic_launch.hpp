@@ -56,7 +56,7 @@ inline std::string vary(const std::vector<std::pair<std::string, std::string>>& 
 /// A study that is answered as one of many cases: without histories, confirmations and longer launches.
 inline StudyFile lean_study_of(const std::string& text) {
   StudyFile study = study_of(text);
-  study.in_detail = false;
+  study.study.in_detail = false;
   study.confirmations_per_case = 0;
   return study;
 }

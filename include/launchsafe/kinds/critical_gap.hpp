@@ -11,7 +11,7 @@
 
 namespace launchsafe::kinds {
 
-/// Of so many cases at the most a study is in detail (StudyFile::in_detail): histories are kept, the longer
+/// Of so many cases at the most a study is in detail (Study::in_detail): histories are kept, the longer
 /// launch is run, and coupled runs confirm the critical gap unless the study says otherwise. A study of more
 /// cases keeps their answers alone, unless it asks for confirmation.
 inline constexpr std::size_t most_cases_in_detail = 6;

@@ -4,6 +4,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/scene.hpp"
 
+#include <string>
 #include <vector>
 
 namespace launchsafe::run {
@@ -20,11 +21,15 @@ struct AxialMode {
 inline constexpr double mode_width = 250.0;
 
 /// Those from 0.3 to 20 kHz, the lowest first, by a run of 4 ms with true inertia and the scene's mesh, or
-/// one so coarse that it takes a second or two, under a pressure that rises to 1 MPa within 20 us and stays:
-/// the lines of what the derivative of the pressure at the charge's bottom holds under Hann's window. None is
-/// weaker than a twentieth of the strongest, nor nearer to a stronger one than `mode_width`, which a run of 4
-/// ms resolves. Empty for a scene without charge, or where the run fails.
+/// one so coarse that it takes a tenth of a second, under a pressure that rises to 1 MPa within 20 us and
+/// stays: the lines of what the derivative of the pressure at the charge's bottom holds under Hann's window.
+/// None is weaker than a twentieth of the strongest, nor nearer to a stronger one than `mode_width`, which a
+/// run of 4 ms resolves. Empty for a scene without charge, or where the run fails.
 std::vector<AxialMode> axial_modes(const scene::Scene& scene);
+
+/// For people: scene::ring_text, and of the rings of the record, smoothed or not, the strongest that is near
+/// a mode; empty for none.
+std::string ring_text(const scene::Scene& scene);
 
 /// A mode to which a ring of the load is near; nullptr for none.
 const AxialMode* mode_near(const scene::Ring& ring, const std::vector<AxialMode>& modes);

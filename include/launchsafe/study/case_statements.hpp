@@ -39,7 +39,8 @@ struct Optimistic {
 struct CaseStatements {
   std::vector<std::string> uncovered_load;  ///< of run::uncovered_load
   Optimistic optimistic;                    ///< by the input alone; a study without verdicts knows films only
-  std::string ring;                         ///< that a measured curve rings, for people; empty for none
+  std::string ring;  ///< that a measured curve rings, for people; empty for none; in detail with
+                     ///< a mode of the shell (run::ring_text)
 
   bool closes = false;  ///< gaps are to be looked at as they close, too
 

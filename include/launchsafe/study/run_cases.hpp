@@ -50,7 +50,7 @@ double memory_of(const CaseRun& run);
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
-  /// at last, where `StudyFile::in_detail` says so, the longer launch if there is one.
+  /// at last, where `Study::in_detail` says so, the longer launch if there is one.
   std::vector<PlannedRun> runs;
   int shard = 1;
 };

@@ -30,7 +30,7 @@ struct KindTraits {
   /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
   bool bounds_critical_gaps = true;
   bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs, unless in
-                                       ///< detail (StudyFile::in_detail)
+                                       ///< detail (Study::in_detail)
   bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
   bool judges_closing_gaps = false;    ///< of a scene whose gap closes, in detail, beside the reservoir
   bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
@@ -105,6 +105,9 @@ struct Study {
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
+
+  /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
+  bool in_detail = false;
 
   std::vector<Axis> axes;     ///< of a full factorial the last is the fastest; none for other kinds
   double tolerance = 1e-6;    ///< m, largest width of the bracket of the critical gap
@@ -182,8 +185,6 @@ struct StudyFile {
   Cases cases;                 ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
-  /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
-  bool in_detail = false;
 };
 
 /// As in scene files.
