@@ -36,8 +36,8 @@ Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
       0,
       {},
       "no such file",
-      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of a "
-      "sweep with surrogate = true",
+      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of one "
+      "with surrogate = true (launchsafe study --update fits a finished one)",
       {}};
 }
 

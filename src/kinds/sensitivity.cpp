@@ -27,6 +27,13 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
   return inputs;
 }
 
+math::SaltelliDesign saltelli_design_of(const Study& study) {
+  const SensitivitySettings& own = sensitivity_settings(study);
+  std::vector<std::size_t> columns;
+  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
+  return math::saltelli_design(own.design, static_cast<std::size_t>(own.samples), columns, own.seed);
+}
+
 UncertainInputs uncertain_inputs(const Study& study) {
   UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
   for (const Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
@@ -35,7 +42,7 @@ UncertainInputs uncertain_inputs(const Study& study) {
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {
   const SensitivitySettings& own = sensitivity_settings(study);
-  if (own.method == SensitivityMethod::sobol) return evaluation % (inputs_of(study).size() + 2) < 2;
+  if (!is_by_fit(study)) return evaluation % (inputs_of(study).size() + 2) < 2;
   return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
 }
 
@@ -66,7 +73,8 @@ void summarise(const Study& study, OutputSensitivity& output) {
 void estimate(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
   const SensitivitySettings& own = sensitivity_settings(study);
-  if (own.method == SensitivityMethod::polynomial_chaos) return estimate_by_chaos(result, output);
+  if (is_by_fit(study)) return estimate_by_chaos(result, output);
+  if (own.surrogate) output.fit = fit_of(result, output);
   math::SobolOptions options;
   options.level = own.confidence;
   options.resamples = static_cast<std::size_t>(own.resamples);
@@ -107,7 +115,7 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       study, options,
       [&](SensitivityResult& result) {
         result.answers = answer_cases(study, options, result.timing);
-        if (sensitivity_settings(study.study).method == SensitivityMethod::sobol) return;
+        if (!is_by_fit(study.study)) return;
         result.points = chaos_points(study.study);
         add_launches(result, options);
       },

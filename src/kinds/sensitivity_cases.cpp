@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::kinds {
@@ -68,6 +69,11 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
       sensitivity_number("most_samples", Dimension::count, scene::between(2, 1e6),
                          "With such an error: samples that are fitted at the most.",
                          &SensitivitySettings::most_samples),
+      scene::flag_key<SensitivitySettings>(
+          "surrogate", scene::Standing::assumed,
+          "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
+          "polynomial-chaos always has one.",
+          &SensitivitySettings::surrogate),
   };
 }
 
@@ -104,9 +110,7 @@ Fault make_saltelli(StudyFile& study) {
   if (Fault fault =
           check_count(study, "samples", count, fmt::format("{} samples x ({} inputs + 2)", rows, inputs)))
     return fault;
-  std::vector<std::size_t> columns;
-  for (const SensitivityInput& input : each_input) columns.push_back(input.count);
-  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
+  const math::SaltelliDesign design = saltelli_design_of(s);
   const UncertainInputs drawn = uncertain_inputs(s);
   const auto coordinates = [&](std::size_t evaluation) { return drawn.values_at(design.point(evaluation)); };
   for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
@@ -122,10 +126,22 @@ Fault make_saltelli(StudyFile& study) {
       });
 }
 
+/// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
+Fault check_fit_of_draws(const StudyFile& study) {
+  constexpr int fewest_held_out = 30, most_fitted = 2000;
+  const SensitivitySettings& own = sensitivity_settings(study.study);
+  const int fewest =
+      std::max(fewest_held_out, static_cast<int>(math::fewest_chaos_points(study.study.axes.size())));
+  if (!own.surrogate || (own.samples >= fewest && own.samples <= most_fitted)) return std::nullopt;
+  return fault_at(study, "surrogate",
+                  fmt::format("{} samples to be fitted, and as many held out", own.samples),
+                  fmt::format("{} to {} samples", fewest, most_fitted));
+}
+
 /// Errors are asked of a fit, and leave it room for more samples.
 Fault check_asked_errors(const StudyFile& study) {
   const SensitivitySettings& own = sensitivity_settings(study.study);
-  const bool is_fit = own.method == SensitivityMethod::polynomial_chaos;
+  const bool is_fit = is_by_fit(study.study);
   for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
     if (study.places.contains(key) && !is_fit)
       return fault_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
@@ -174,8 +190,9 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
                     fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
   if (Fault fault = check_asked_errors(study)) return fault;
-  return sensitivity_settings(study.study).method == SensitivityMethod::sobol ? make_saltelli(study)
-                                                                              : make_chaos_samples(study);
+  if (is_by_fit(study.study)) return make_chaos_samples(study);
+  if (Fault fault = check_fit_of_draws(study)) return fault;
+  return make_saltelli(study);
 }
 
 }  // namespace

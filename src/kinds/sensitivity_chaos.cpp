@@ -23,16 +23,44 @@ void widen(math::Estimate& estimate, double by) {
   estimate.upper = std::min(1.0, estimate.upper + by);
 }
 
+/// The evaluations that a fit knows: all of its own; of a Saltelli design those of A, which are fitted, and
+/// then those of B, which are held out.
+std::vector<std::size_t> known_evaluations(const SensitivityResult& result) {
+  std::vector<std::size_t> known;
+  if (is_by_fit(result.study.study)) {
+    known.resize(result.answers.size());
+    std::iota(known.begin(), known.end(), std::size_t{0});
+    return known;
+  }
+  const math::SaltelliDesign design = saltelli_design_of(result.study.study);
+  for (const std::size_t block : {design.block_a, design.block_b})
+    for (std::size_t row = 0; row < design.rows; ++row) known.push_back(design.index(block, row));
+  return known;
+}
+
+/// Their points of the unit cube.
+std::vector<double> known_points(const SensitivityResult& result) {
+  if (is_by_fit(result.study.study)) return result.points;
+  const math::SaltelliDesign design = saltelli_design_of(result.study.study);
+  std::vector<double> points;
+  for (const std::size_t evaluation : known_evaluations(result)) {
+    const std::vector<double> point = design.point(evaluation);
+    points.insert(points.end(), point.begin(), point.end());
+  }
+  return points;
+}
+
 /// The launches of a result, without outputs.
 SurrogateRecord launches_of(const SensitivityResult& result) {
   const Study& study = result.study.study;
   const SensitivitySettings& own = sensitivity_settings(study);
+  const int held_out = is_by_fit(study) ? own.held_out : own.samples;
   SurrogateRecord record{.model_version = run::model_version,
                          .scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
                          .inputs = uncertain_inputs(study),
-                         .points = result.points,
-                         .held_out = std::vector<std::size_t>(static_cast<std::size_t>(own.held_out))};
+                         .points = known_points(result),
+                         .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
   scene::clear_remarks(record.scene);
   for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
@@ -40,10 +68,12 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
 }
 
 SurrogateOutput unfitted(const SensitivityResult& result, const OutputSensitivity& output) {
-  return {.name = shown_output(output.output).column.name,
-          .gap = result.study.study.gaps.front(),
-          .inert = output.inert,
-          .values = output.values};
+  SurrogateOutput known{.name = shown_output(output.output).column.name,
+                        .gap = result.study.study.gaps.front(),
+                        .inert = output.inert};
+  for (const std::size_t evaluation : known_evaluations(result))
+    known.values.push_back(output.values[evaluation]);
+  return known;
 }
 
 std::vector<std::size_t> begins_of(const Study& study) {
@@ -136,12 +166,17 @@ std::vector<double> chaos_points(const Study& study) {
   return points;
 }
 
+SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  SurrogateOutput fit = unfitted(result, output);
+  fit_output(launches_of(result), fit);
+  return fit;
+}
+
 void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
   const SensitivitySettings& own = sensitivity_settings(study);
   const SurrogateRecord record = launches_of(result);
-  SurrogateOutput& fit = output.fit.emplace(unfitted(result, output));
-  fit_output(record, fit);
+  const SurrogateOutput& fit = output.fit.emplace(fit_of(result, output));
   output.reason = fit.reason;
   if (!output.reason.empty()) return;
   const math::SobolOptions options{
@@ -186,7 +221,7 @@ SurrogateRecord surrogate_record(const SensitivityResult& result) {
   for (const OutputSensitivity& output : result.outputs) {
     if (output.output == SensitivityOutput::margin) continue;  // of T max and the ignition temperature
     record.outputs.push_back(output.fit ? *output.fit : unfitted(result, output));
-    record.outputs.back().reason = output.reason;
+    if (!output.fit || is_by_fit(result.study.study)) record.outputs.back().reason = output.reason;
   }
   return record;
 }

@@ -12,7 +12,10 @@ namespace launchsafe::kinds {
 /// held out.
 std::vector<double> chaos_points(const study::Study& study);
 
-/// Fits an output that has its values, and finds its indices: of a polynomial by its terms, of a process by
+/// The fit of an output that has its values, to the evaluations that are fitted.
+study::SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// Fits an output, and finds its indices: of a polynomial by its terms, of a process by
 /// differences. Their intervals are widened by the share of the variance that the fit does not explain. None
 /// where nothing is predicted (study::fit_output).
 void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output);

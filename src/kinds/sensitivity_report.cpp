@@ -93,7 +93,7 @@ std::string estimate_text(const math::Estimate& estimate) {
 std::string method_text(const SensitivityResult& result) {
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
   Row facts = method_facts(result);
-  facts.update({{"is_fit", own.method == SensitivityMethod::polynomial_chaos},
+  facts.update({{"is_fit", is_by_fit(result.study.study)},
                 {"held_out", own.held_out},
                 {"added", added_launches(result)},
                 {"design", text_of(own.design)},
@@ -196,7 +196,7 @@ std::vector<std::string> failed_text(const SensitivityResult& result) {
 }
 
 bool has_fit(const SensitivityResult& result) {
-  return sensitivity_settings(result.study.study).method == SensitivityMethod::polynomial_chaos;
+  return is_by_fit(result.study.study) || sensitivity_settings(result.study.study).surrogate;
 }
 
 std::string picture_name(const OutputSensitivity& output) {

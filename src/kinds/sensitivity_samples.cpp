@@ -185,7 +185,7 @@ std::string samples_text(const SensitivityResult& result) {
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
-    if (gap->fit && gap->reason.empty()) {
+    if (gap->fit && gap->fit->reason.empty() && gap->reason.empty()) {
       const SurrogateRecord record = surrogate_record(result);
       const PredictedIgnitions of =
           predicted_ignitions(record, record.gap, std::vector<std::optional<double>>(record.keys.size()));
@@ -256,7 +256,7 @@ Table quantile_table(const SensitivityResult& result) {
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
-  table.notes.push_back(said("sensitivity.draws", {{"is_fit", gap->fit.has_value()}}).front());
+  table.notes.push_back(said("sensitivity.draws", {{"is_fit", is_by_fit(result.study.study)}}).front());
   return table;
 }
 

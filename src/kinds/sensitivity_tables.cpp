@@ -158,7 +158,7 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
             {"bounds", output.bounds},
             {"method", method_text(result)},
             {"inert", output.inert},
-            {"by_process", output.fit && output.fit->fit.by_process()},
+            {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},
             {"apart", false}};
   // Inputs that show sampling error by their estimates, with their intervals.
   const auto inputs = shown_inputs(result.study.study);

@@ -139,11 +139,15 @@ count = 8
 )";
 
 // The case of the sweep with those values is the judge. Ranges of a sweep are no distributions: nothing is
-// drawn from them.
-TEST_F(StoredStudy, ASweepWithAFitIsAskedBetweenItsCases) {
+// drawn from them. The sweep was finished before somebody asked for its fit.
+TEST_F(StoredStudy, AFinishedSweepIsFittedWithoutALaunchAndAskedBetweenItsCases) {
+  write("sweep.toml", with(fitted_sweep, "surrogate = true\n", ""));
+  ASSERT_NE(run({"study", "sweep.toml", "-o", "sweep", "-q"}).code, 2);
+  EXPECT_FALSE(exists("sweep/surrogate.json"));
   write("sweep.toml", fitted_sweep);
-  const Outcome study = run({"study", "sweep.toml", "-o", "sweep", "-q"});
+  const Outcome study = run({"study", "sweep.toml", "-o", "sweep", "--update"});
   ASSERT_NE(study.code, 2) << study.err;
+  EXPECT_NE(study.err.find("re-used 9 mechanical runs, ran 0"), std::string::npos) << study.err;
   ASSERT_TRUE(exists("sweep/surrogate.json")) << study.err;
   const auto report = nlohmann::json::parse(read("sweep/study.json"));
   ASSERT_EQ(report["surrogate"].size(), 3u);

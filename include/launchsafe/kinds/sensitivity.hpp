@@ -35,6 +35,7 @@ struct SensitivitySettings {
   double temperature_error = study::not_a_number;   ///< K
   double critical_gap_error = study::not_a_number;  ///< m
   int most_samples = 256;
+  bool surrogate = false;  ///< of sobol: A is fitted too, and held against B
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
@@ -50,6 +51,14 @@ struct SensitivityInput {
   std::size_t first = 0, count = 1;  ///< among Study::axes
 };
 std::vector<SensitivityInput> inputs_of(const study::Study& study);
+
+/// Whether the indices are those of a fit.
+inline bool is_by_fit(const study::Study& study) {
+  return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos;
+}
+
+/// The design of a study by `sobol`, in the unit cube of its axes.
+math::SaltelliDesign saltelli_design_of(const study::Study& study);
 
 /// What the study draws from, in the order of Study::axes.
 study::UncertainInputs uncertain_inputs(const study::Study& study);
@@ -79,7 +88,7 @@ struct OutputSensitivity {
   double mean = study::not_a_number,
          deviation = study::not_a_number;          ///< over the evaluations that sample the inputs
   math::SobolIndices sobol;                        ///< where there are indices, of every input
-  std::optional<study::SurrogateOutput> fit = {};  ///< of polynomial chaos
+  std::optional<study::SurrogateOutput> fit = {};  ///< where something is fitted
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;
