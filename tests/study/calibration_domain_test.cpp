@@ -4,12 +4,15 @@
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -190,6 +193,55 @@ TEST(CalibrationDomain, NamesWhatLiesOutside) {
     };
     EXPECT_EQ(said(foreign_in(scene)), each.unknown) << each.name;
     EXPECT_EQ(said(distance.carried), each.carried) << each.name;
+  }
+}
+
+/// What of a scene no firing speaks of, where 1000 rounds were fired at 480 and at 496 MPa with the recorded
+/// one.
+Keys foreign_to_firings(const scene::Scene& scene, const scene::Scene& recorded) {
+  FiringEvidence evidence;
+  for (const double pressure : {480e6, 496e6})
+    evidence.firings.push_back({"rounds", false, 1000, pressure, 1e6, 300.0, 1.0, 6e-4, 6e-4});
+  const Calibration calibration{recorded, {}, std::make_shared<const FiringEvidence>(evidence)};
+  Keys keys;
+  for (const auto& each : distance_to_calibration(scene, calibration).foreign) keys.push_back(each.key);
+  return keys;
+}
+
+scene::Scene scene_with_curve(bool rescale) {
+  scene::Scene scene = shipped_scene();
+  scene.load.rescale_to_peak = rescale;
+  for (int i = 0; i <= 200; ++i) {
+    const double time = 1e-4 * i;
+    scene.load.curve_time.push_back(time);
+    scene.load.curve_pressure.push_back(490e6 * std::pow(std::sin(std::numbers::pi * time / 0.02), 2));
+  }
+  return scene;
+}
+
+TEST(FiringDomain, HoldsForNoOtherShell) {
+  const scene::Scene recorded = shipped_scene();
+  EXPECT_EQ(foreign_to_firings(recorded, recorded), Keys{});
+  scene::Scene scene = recorded;
+  for (scene::Body& body : scene.bodies)
+    if (body.name == "base") body.x_end -= 1e-3;
+  EXPECT_EQ(foreign_to_firings(scene, recorded), Keys{scene::foreign_shell});
+}
+
+// A curve that is scaled to its own peak is the launch that it is without; nobody need see that.
+TEST(FiringDomain, HoldsForNoCurveThatIsScaledOtherwise) {
+  const scene::Scene scaled = scene_with_curve(true), own = scene_with_curve(false);
+  EXPECT_EQ(foreign_to_firings(scaled, scaled), Keys{});
+  EXPECT_NE(foreign_to_firings(own, scaled), Keys{});
+  EXPECT_NE(foreign_to_firings(scaled, own), Keys{});
+  for (const bool rescale : {false, true}) {
+    const scene::Scene recorded = scene_with_curve(rescale);
+    scene::Scene scene = recorded;
+    scene.load.smoothing = 1e-3;
+    EXPECT_NE(foreign_to_firings(scene, recorded), Keys{}) << rescale;
+    scene = recorded;
+    scene.load.curve_pressure[50] *= 0.99;
+    EXPECT_NE(foreign_to_firings(scene, recorded), Keys{}) << rescale;
   }
 }
 
