@@ -8,6 +8,7 @@
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -81,7 +82,8 @@ std::vector<FiringRow> rows_of(const std::vector<Firing>& firings) {
   return rows;
 }
 
-/// What every row needs to ignite, over all that the wider prior allows; none where that is not known.
+/// What every row needs to ignite, over all that the wider prior allows; none, and a failure, where that is
+/// not known.
 std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::FiringPrior& widest) {
   std::vector<std::optional<surface::IgnitionBoundary>> boundaries(result.rows.size());
   tbb::parallel_for(std::size_t{0}, result.rows.size(), [&](std::size_t i) {
@@ -95,7 +97,13 @@ std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::F
   std::vector<study::FiredLaunch> launches;
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     const FiringRow& row = result.rows[i];
-    if (!boundaries[i] || !std::isfinite(row.log_heat_spread)) return {};
+    if (!boundaries[i] || !std::isfinite(row.log_heat_spread)) {
+      result.failure = fmt::format(
+          "at some constants within prior.localisation, prior.exchange_time and prior.ignition_temperature, "
+          "or twice as wide ones, no heat decides whether \"{}\" ignites",
+          row.firing.name);
+      return {};
+    }
     launches.push_back(
         {std::move(*boundaries[i]), row.log_heat_spread, row.firing.rounds, row.firing.ignited});
   }
@@ -231,14 +239,13 @@ void calibrate_on_firings(FiringResult& result) {
   const study::FiringPrior doubled = prior.widened(2.0);
   result.rows = rows_of(settings.firings);
   const auto launches = launches_of(result, doubled);
-  if (launches.empty()) {
-    result.failure = "at some constants within the prior no heat decides whether a firing ignites";
-    return;
-  }
+  if (launches.empty()) return;
   study::FiringEvidence firings{settings.firings, study::posterior_of(prior, launches, nodes),
                                 study::posterior_of(doubled, launches, nodes), settings.demonstration};
   if (firings.posterior.empty() || firings.of_doubled_prior.empty()) {
-    result.failure = "no constants within the prior explain the firings";
+    result.failure =
+        "no constants within prior.localisation, prior.exchange_time, prior.ignition_temperature and "
+        "prior.scatter explain the firings";
     return;
   }
   result.constants = ranges_of(study::posterior_of(prior, {}, nodes), firings.posterior,

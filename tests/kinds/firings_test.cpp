@@ -62,6 +62,16 @@ TEST(Firings, ThatContradictEachOtherGiveNoRecord) {
   EXPECT_NE(answer(result).find("would hardly have ended so"), std::string::npos) << answer(result);
 }
 
+// Neither friction nor air heats.
+TEST(Firings, ThatNoHeatDecidesNameThePriorThatIsTooWide) {
+  const FiringResult result =
+      fire(firing("no ignition", 5, "0 mm") + "[set]\nfriction.closure = \"none\"\n",
+           "accept = [{ key = \"friction.closure\", value = \"none\", because = \"nothing is to heat\" }]\n");
+  EXPECT_FALSE(result.record);
+  for (const char* named : {"prior.localisation", "\"5 of 0 mm\""})
+    EXPECT_NE(answer(result).find(named), std::string::npos) << answer(result);
+}
+
 // With the doubled prior the ignition temperature may lie 240 K lower, below that of a hot charge.
 TEST(Firings, TakeTheWidestPriorThatIsAllowed) {
   const FiringResult result =
