@@ -1,5 +1,6 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
 #include "commands.hpp"
+#include "explain_scene.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/gauge_record.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -9,7 +10,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
-#include "rings.hpp"
 #include "shell_words.hpp"
 
 #include <fmt/format.h>

@@ -27,13 +27,6 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
   return inputs;
 }
 
-math::SaltelliDesign saltelli_design_of(const Study& study) {
-  const SensitivitySettings& own = sensitivity_settings(study);
-  std::vector<std::size_t> columns;
-  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
-  return math::saltelli_design(own.design, static_cast<std::size_t>(own.samples), columns, own.seed);
-}
-
 UncertainInputs uncertain_inputs(const Study& study) {
   UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
   for (const Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
@@ -115,8 +108,8 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       study, options,
       [&](SensitivityResult& result) {
         result.answers = answer_cases(study, options, result.timing);
-        if (!is_by_fit(study.study)) return;
-        result.points = chaos_points(study.study);
+        if (!is_by_fit(study.study) && !sensitivity_settings(study.study).surrogate) return;
+        result.points = design_points(study.study);
         add_launches(result, options);
       },
       [](SensitivityResult& result) {

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace launchsafe::kinds {
 
@@ -101,29 +102,36 @@ std::string name_of_input(const Study& study, const SensitivityInput& input) {
   return input.count > 1 ? "calibration" : study.axes[input.first].name;
 }
 
+/// A case for every point of the design.
+Fault add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
+  const UncertainInputs drawn = uncertain_inputs(study.study);
+  const std::vector<double> points = design_points(study.study);
+  const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
+  const auto coordinates = [&](std::size_t evaluation) {
+    return drawn.values_at(math::point_of_row(points, evaluation, axes));
+  };
+  for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
+    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
+  return add_varied_cases(study, count, coordinates,
+                          [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); });
+}
+
 Fault make_saltelli(StudyFile& study) {
   const Study& s = study.study;
-  const SensitivitySettings& own = sensitivity_settings(s);
   const std::vector<SensitivityInput> each_input = inputs_of(s);
-  const std::size_t rows = static_cast<std::size_t>(own.samples), inputs = each_input.size();
-  const double count = static_cast<double>(rows) * static_cast<double>(inputs + 2);
-  if (Fault fault =
-          check_count(study, "samples", count, fmt::format("{} samples x ({} inputs + 2)", rows, inputs)))
+  const int rows = sensitivity_settings(s).samples;
+  const std::size_t blocks = each_input.size() + 2;
+  if (Fault fault = check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
+                                fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())))
     return fault;
-  const math::SaltelliDesign design = saltelli_design_of(s);
-  const UncertainInputs drawn = uncertain_inputs(s);
-  const auto coordinates = [&](std::size_t evaluation) { return drawn.values_at(design.point(evaluation)); };
-  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
-    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
-  return add_varied_cases(
-      study, design.evaluations(), coordinates, [&](std::size_t evaluation, const StudyCase&) {
-        const std::size_t block = evaluation % design.blocks();
-        const bool mixed = block != design.block_a && block != design.block_b;
-        return fmt::format("sample {} of {}", evaluation / design.blocks() + 1,
-                           mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
-                           : block == design.block_a ? "A"
-                                                     : "B");
-      });
+  return add_evaluations(study, [&](std::size_t evaluation) {
+    const std::size_t block = evaluation % blocks;
+    const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
+    return fmt::format("sample {} of {}", evaluation / blocks + 1,
+                       mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
+                       : block == math::SaltelliDesign::block_a ? "A"
+                                                                : "B");
+  });
 }
 
 /// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
@@ -169,14 +177,7 @@ Fault make_chaos_samples(StudyFile& study) {
   if (fitted < fewest)
     return fault_at(study, "samples", fmt::format("{} samples for a fit", fitted),
                     fmt::format("at least {}: two an input, and 8", fewest));
-  const UncertainInputs drawn = uncertain_inputs(s);
-  const std::vector<double> points = chaos_points(s);
-  const auto coordinates = [&](std::size_t evaluation) {
-    return drawn.values_at(math::point_of_row(points, evaluation, s.axes.size()));
-  };
-  for (std::size_t evaluation = 0; evaluation < all; ++evaluation)
-    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
-  return add_varied_cases(study, all, coordinates, [&](std::size_t evaluation, const StudyCase&) {
+  return add_evaluations(study, [&](std::size_t evaluation) {
     return evaluation < fitted ? fmt::format("sample {}", evaluation + 1)
                                : fmt::format("held out {}", evaluation - fitted + 1);
   });

@@ -26,28 +26,12 @@ void widen(math::Estimate& estimate, double by) {
 /// The evaluations that a fit knows: all of its own; of a Saltelli design those of A, which are fitted, and
 /// then those of B, which are held out.
 std::vector<std::size_t> known_evaluations(const SensitivityResult& result) {
+  const Study& study = result.study.study;
+  const std::size_t blocks = is_by_fit(study) ? 1 : inputs_of(study).size() + 2;
   std::vector<std::size_t> known;
-  if (is_by_fit(result.study.study)) {
-    known.resize(result.answers.size());
-    std::iota(known.begin(), known.end(), std::size_t{0});
-    return known;
-  }
-  const math::SaltelliDesign design = saltelli_design_of(result.study.study);
-  for (const std::size_t block : {design.block_a, design.block_b})
-    for (std::size_t row = 0; row < design.rows; ++row) known.push_back(design.index(block, row));
+  for (std::size_t block = 0; block < std::min<std::size_t>(blocks, 2); ++block)
+    for (std::size_t each = block; each < result.answers.size(); each += blocks) known.push_back(each);
   return known;
-}
-
-/// Their points of the unit cube.
-std::vector<double> known_points(const SensitivityResult& result) {
-  if (is_by_fit(result.study.study)) return result.points;
-  const math::SaltelliDesign design = saltelli_design_of(result.study.study);
-  std::vector<double> points;
-  for (const std::size_t evaluation : known_evaluations(result)) {
-    const std::vector<double> point = design.point(evaluation);
-    points.insert(points.end(), point.begin(), point.end());
-  }
-  return points;
 }
 
 /// The launches of a result, without outputs.
@@ -59,11 +43,14 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
                          .scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
                          .inputs = uncertain_inputs(study),
-                         .points = known_points(result),
                          .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
   scene::clear_remarks(record.scene);
   for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
+  for (const std::size_t evaluation : known_evaluations(result)) {
+    const std::vector<double> point = math::point_of_row(result.points, evaluation, study.axes.size());
+    record.points.insert(record.points.end(), point.begin(), point.end());
+  }
   return record;
 }
 
@@ -155,8 +142,20 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points, con
 
 }  // namespace
 
-std::vector<double> chaos_points(const Study& study) {
+std::vector<double> design_points(const Study& study) {
   const SensitivitySettings& own = sensitivity_settings(study);
+  if (!is_by_fit(study)) {
+    std::vector<std::size_t> columns;
+    for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
+    const auto rows = static_cast<std::size_t>(own.samples);
+    const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
+    std::vector<double> points;
+    for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
+      const std::vector<double> point = design.point(evaluation);
+      points.insert(points.end(), point.begin(), point.end());
+    }
+    return points;
+  }
   const auto of = [&](math::Design design, int count, std::uint64_t seed) {
     return math::unit_points(design, static_cast<std::size_t>(count), study.axes.size(), seed);
   };

@@ -8,9 +8,9 @@
 
 namespace launchsafe::kinds {
 
-/// Points of the unit cube of the axes, row by row: those that are fitted, then independent ones that are
-/// held out.
-std::vector<double> chaos_points(const study::Study& study);
+/// Points of the unit cube of the axes, row by row: those of a Saltelli design, or those that are fitted and
+/// then independent ones that are held out.
+std::vector<double> design_points(const study::Study& study);
 
 /// The fit of an output that has its values, to the evaluations that are fitted.
 study::SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output);

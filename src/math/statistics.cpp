@@ -1,7 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -122,13 +121,6 @@ double LeastSquares::leverage(const std::vector<double>& row) const {
     for (std::size_t j = 0; j < size; ++j) value += row[i] * inverse_normal[i * size + j] * row[j];
   }
   return value;
-}
-
-double LeastSquares::simultaneous_half_width(const std::vector<double>& row, double level) const {
-  if (degrees_of_freedom < 1) return not_a_number;
-  const double size = static_cast<double>(coefficients.size());
-  const double quantile = boost::math::quantile(boost::math::fisher_f(size, degrees_of_freedom), level);
-  return std::sqrt(size * quantile * leverage(row)) * residual_deviation;
 }
 
 double LeastSquares::prediction_half_width(const std::vector<double>& row, double level) const {

@@ -57,9 +57,6 @@ inline bool is_by_fit(const study::Study& study) {
   return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos;
 }
 
-/// The design of a study by `sobol`, in the unit cube of its axes.
-math::SaltelliDesign saltelli_design_of(const study::Study& study);
-
 /// What the study draws from, in the order of Study::axes.
 study::UncertainInputs uncertain_inputs(const study::Study& study);
 
@@ -98,8 +95,8 @@ struct SensitivityResult {
   study::StudyFile study;
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   std::vector<OutputSensitivity> outputs;
-  /// Of polynomial chaos: points of the unit cube, a row a case. Behind those of the design are those that
-  /// were added, where the fit was least sure, for the errors that are asked of it.
+  /// Where something is fitted: points of the unit cube, a row a case. Behind those of the design are those
+  /// that were added, where the fit was least sure, for the errors that are asked of it.
   std::vector<double> points = {};
   study::Timing timing;
   bool interrupted = false;

@@ -22,9 +22,7 @@ struct LeastSquares {
 
   /// Fitted value at the regressors `row` (one value per coefficient).
   double at(const std::vector<double>& row) const;
-  /// Half widths of two-sided bands at confidence `level` in (0, 1): of the mean at all rows at once
-  /// (Working-Hotelling, F), and of one new observation (Student t).
-  double simultaneous_half_width(const std::vector<double>& row, double level) const;
+  /// Half width of the two-sided band of one new observation at confidence `level` in (0, 1) (Student t).
   double prediction_half_width(const std::vector<double>& row, double level) const;
 
  private:

@@ -19,13 +19,4 @@ bool was_cut_off(const FinishedRun& run);
 /// The answer to a case from its finished runs; a failed one where they have no result or were cut off.
 CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs);
 
-/// The result of a study that answers all its cases: `conclude` draws from the answers what the kind is
-/// after, unless the study was interrupted.
-template <class Result, class Conclude>
-Result run_answering(const StudyFile& study, const StudyOptions& options, Conclude conclude) {
-  return run_timed<Result>(
-      study, options, [&](Result& result) { result.answers = answer_cases(study, options, result.timing); },
-      conclude);
-}
-
 }  // namespace launchsafe::study
