@@ -94,14 +94,17 @@ std::vector<Material> used_materials(const Scene& scene) {
 
 bool is_charge(const Scene& scene, const Body& body) { return is_explosive(law_of(scene, body)); }
 
-const Body* body_under_charge(const Scene& scene) {
+bool lies_under_charge(const Scene& scene, const Body& body) {
   constexpr double same_place = 1e-6;  // m
-  const double bottom = charge_extent(scene).x_end;
+  const Extent charge = charge_extent(scene);
+  return !is_charge(scene, body) && std::abs(body.x_begin - charge.x_end) <= same_place &&
+         body.r_begin < charge.r_end;
+}
+
+const Body* body_under_charge(const Scene& scene) {
   const Body* under = nullptr;
-  for (const Body& body : scene.bodies) {
-    if (is_charge(scene, body) || std::abs(body.x_begin - bottom) > same_place) continue;
-    if (under == nullptr || body.r_begin < under->r_begin) under = &body;
-  }
+  for (const Body& body : scene.bodies)
+    if (lies_under_charge(scene, body) && (under == nullptr || body.r_begin < under->r_begin)) under = &body;
   return under;
 }
 

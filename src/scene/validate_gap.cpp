@@ -54,13 +54,16 @@ Fault check_closing(const SceneFile& file) {
   const auto closing = [&](std::string found, std::string allowed) {
     return fault_at(file, "gap.model", "\"closing\" " + found, allowed + ", or gap.model = \"reservoir\"");
   };
-  const Body* base = body_under_charge(scene);
-  if (base == nullptr) return closing("with nothing under the charge", "a body at the charge's bottom");
-  const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
-                                  [&](const Interface& each) { return each.body == base->name; });
-  if (faces == scene.interfaces.end() || faces->condition != Condition::sliding)
-    return closing(fmt::format("with a charge bonded to \"{}\" under it", base->name),
-                   fmt::format("[interface.{}] with condition = \"sliding\" and its friction", base->name));
+  if (body_under_charge(scene) == nullptr)
+    return closing("with nothing under the charge", "a body at the charge's bottom");
+  for (const Body& body : scene.bodies) {
+    if (!lies_under_charge(scene, body)) continue;
+    const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
+                                    [&](const Interface& each) { return each.body == body.name; });
+    if (faces == scene.interfaces.end() || faces->condition != Condition::sliding)
+      return closing(fmt::format("with a charge bonded to \"{}\" under it", body.name),
+                     fmt::format("[interface.{}] with condition = \"sliding\" and its friction", body.name));
+  }
   if (scene.numerics.formulation == Formulation::updated_lagrangian)
     return closing("with numerics.formulation = \"updated-lagrangian\", whose bodies share a grid",
                    "the formulation \"total-lagrangian\"");

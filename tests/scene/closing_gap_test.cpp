@@ -62,6 +62,16 @@ TEST(ClosingGap, IsRefusedOverABondedBase) {
   expect_error(error_of(text), line_of(text, "model ="), "gap.model", "bonded", "condition = \"sliding\"");
 }
 
+TEST(ClosingGap, IsRefusedWhereAnyPartOfTheBaseIsBonded) {
+  // A base of two bodies, of which the interface speaks of one.
+  const std::string text =
+      with(closing(), "x = \"4 to 5 cm\"\nr = \"0 to 2 cm\"",
+           "x = \"4 to 5 cm\"\nr = \"0 to 1 cm\"\n\n[[body]]\nname = \"ring\"\nmaterial = \"steel\"\n"
+           "x = \"4 to 5 cm\"\nr = \"1 to 2 cm\"");
+  expect_error(error_of(text), line_of(text, "model ="), "gap.model", "bonded to \"ring\"",
+               "[interface.ring]");
+}
+
 TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   const std::string film = closing("model = \"closing\"\nair = \"film\"\n");
   expect_error(error_of(film), line_of(film, "air ="), "gap.air", "\"reservoir\" beside \"closing\"",

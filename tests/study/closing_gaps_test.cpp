@@ -42,6 +42,7 @@ std::vector<ClosingAnswer> answers_of(const Temperature& temperature) {
       FinishedRun& one = finished.emplace_back();
       one.outcome = RunOutcome::ran;
       one.hash = each.hash;
+      one.result.mechanics = synthetic_mechanics(each.scene);
       const double kelvin = temperature({*each.skin_gap, each.scene.surface});
       run::GapResult& gap = one.result.gaps.emplace_back();
       gap.gap = *each.skin_gap;
@@ -112,6 +113,20 @@ TEST(ClosingGaps, OneReleaseThatIsNotKnownLeavesTheCornerUnknown) {
   EXPECT_TRUE(std::isnan(answers.back().upper));
   EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
   EXPECT_TRUE(std::isinf(answers.front().upper));
+}
+
+TEST(ClosingGaps, ALaunchThatSomethingWarnsOfLeavesItsGapUnknown) {
+  const StudyFile study = closing_study();
+  const RunBatch run = [](const std::vector<CaseRun>& runs) {
+    std::vector<FinishedRun> finished(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      finished[i].outcome = RunOutcome::ran;  // of a launch without a history
+      finished[i].result.gaps.emplace_back().at_stations.temperature = 400.0;
+    }
+    return finished;
+  };
+  const auto answers = find_closing_gaps(study.study, study.cases.front(), run);
+  EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
 }
 
 TEST(ClosingGaps, WithoutAnswersNothingIsKnown) { EXPECT_FALSE(closing_evidence({}, 0.0, ignition).known); }

@@ -301,7 +301,9 @@ bool has_law(const Scene& scene) {
 bool is_charge(const Scene& scene, const Body& body);
 bool has_charge(const Scene& scene);
 
-/// The body that the charge's bottom faces, nearest to the axis; nullptr where there is none.
+/// Whether a body begins where the charge's bottom is, within its radius.
+bool lies_under_charge(const Scene& scene, const Body& body);
+/// The one of them nearest to the axis; nullptr where there is none.
 const Body* body_under_charge(const Scene& scene);
 
 /// Whether the faces can part and slide, now or once their bond has broken.
