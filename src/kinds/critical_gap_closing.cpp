@@ -39,6 +39,14 @@ auto temperature_of(std::size_t bound) {
 
 constexpr std::size_t corner = 2;
 
+/// Why a temperature of a row is not known; empty where all are.
+std::string why_unknown(const ClosingRow& row) {
+  for (const ClosingAnswer& answer : row.outcome->closing)
+    if (const ClosingPoint* point = answer.at(row.gap); point != nullptr && !point->unknown_for.empty())
+      return said("critical_gap.closing_bound", {{answer.name, true}}).front() + ": " + point->unknown_for;
+  return {};
+}
+
 Quantities<ClosingRow> closing_quantities() {
   const auto heading = [](const char* name, const char* label, const char* meaning) {
     return Column{name, label, fixed(1, kelvin), meaning};
@@ -62,7 +70,8 @@ Quantities<ClosingRow> closing_quantities() {
       {{"corner_place", "at", text(), "Station of that."},
        [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->place : std::string{}; }},
       {{"corner_release", "release", fixed(2, millisecond), "Until when the charge is held there."},
-       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->release : not_a_number; }}};
+       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->release : not_a_number; }},
+      {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
 }
 
 /// What one bound says of the critical gap.

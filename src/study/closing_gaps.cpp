@@ -42,27 +42,34 @@ CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
-/// Whether a run ended as it should, and nothing warns of it.
-bool is_sound(const scene::Scene& scene, const FinishedRun& run) {
-  return run.has_result() && run.failure.empty() && !run.result.gaps.empty() &&
-         run::validity_warnings(scene, run.result.mechanics).empty();
+/// Why a run says nothing: how it ended, or the first thing that warns of it. Empty for a sound one.
+std::string fault_of(const scene::Scene& scene, const FinishedRun& run) {
+  if (!run.failure.empty()) return run.failure;
+  if (!run.has_result() || run.result.gaps.empty()) return "it was not computed";
+  const std::vector<std::string> warnings = run::validity_warnings(scene, run.result.mechanics);
+  return warnings.empty() ? std::string{} : warnings.front();
 }
 
 /// Takes one more run into a point: the hotter one counts, and one without a temperature leaves none.
 void take(const scene::Scene& scene, const FinishedRun& run, double release, ClosingPoint& point) {
   const bool first = point.hashes.empty();
   point.hashes.push_back(run.hash);
-  const bool sound = is_sound(scene, run);
-  const double temperature = sound ? run.result.gaps.front().at_stations.temperature : not_a_number;
-  if (sound && run.result.gaps.front().skin.ignition) point.ignited = true;
-  if (!first && !(temperature > point.maximum_temperature) && std::isfinite(temperature)) return;
-  if (!first && std::isnan(point.maximum_temperature)) return;
-  point.maximum_temperature = temperature;
+  if (!point.unknown_for.empty()) return;
+  point.unknown_for = fault_of(scene, run);
+  if (!point.unknown_for.empty()) {
+    point.maximum_temperature = not_a_number;
+    point.place.clear();
+    point.release = release;
+    return;
+  }
+  const run::GapResult& gap = run.result.gaps.front();
+  if (gap.skin.ignition) point.ignited = true;
+  if (!first && gap.at_stations.temperature <= point.maximum_temperature) return;
+  point.maximum_temperature = gap.at_stations.temperature;
   point.release = release;
-  if (!sound) return;
   const trace::BottomTrace& trace = run.result.mechanics.trace;
-  const std::size_t station = run.result.gaps.front().at_stations.station;
-  if (station < trace.stations.size()) point.place = trace.stations[station].name;
+  if (gap.at_stations.station < trace.stations.size())
+    point.place = trace.stations[gap.at_stations.station].name;
 }
 
 bool is_known(const ClosingPoint& point) { return point.ignited || std::isfinite(point.maximum_temperature); }

@@ -15,6 +15,7 @@ struct ClosingPoint {
   bool ignited = false;
   std::string place;                ///< station of the maximum
   double release = 0;               ///< s, of the terms on which that is
+  std::string unknown_for = {};     ///< why there is no temperature; empty where there is one
   std::vector<std::string> hashes;  ///< of the runs
 };
 
