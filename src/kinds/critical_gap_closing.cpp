@@ -122,7 +122,8 @@ std::optional<Plot> closing_plot(const CriticalGapResult& result) {
   if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
   const CaseOutcome& outcome = result.details.front();
   Plot plot;
-  plot.title = "Highest temperature by the reservoir, and where the gap closes";
+  plot.title = "Highest temperature where the gap closes";
+  plot.subtitle = "what ignites is drawn above the ignition temperature";
   plot.x.label = quantity::gap().label();
   plot.y.label = quantity::temperature_max().label();
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
@@ -140,8 +141,7 @@ std::optional<Plot> closing_plot(const CriticalGapResult& result) {
     plot.series.push_back(std::move(series));
   }
   plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin)) +
-                     "; what ignites is drawn above it"});
+      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin))});
   return plot;
 }
 
