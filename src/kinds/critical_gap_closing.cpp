@@ -6,7 +6,6 @@
 #include "launchsafe/study/closing_gaps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace launchsafe::kinds {
@@ -29,7 +28,7 @@ struct ClosingRow {
   const ClosingPoint* point(std::size_t bound) const { return outcome->closing[bound].at(gap); }
 };
 
-/// K, by which a bound is known in `closing_bounds`.
+/// K, on a bound by its place in closing_bounds.
 auto temperature_of(std::size_t bound) {
   return [bound](const ClosingRow& row) {
     const ClosingPoint* point = row.point(bound);

@@ -1,6 +1,7 @@
 #include "launchsafe/study/closing_gaps.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include <fmt/format.h>
@@ -106,8 +107,22 @@ void narrow(ClosingAnswer& answer) {
   }
 }
 
+/// Why the worst release of a charge is not looked at; empty where it is.
+std::string bond_of(const scene::Scene& scene) {
+  for (const std::string& body : scene::bodies_at_the_charge(scene)) {
+    const auto faces = std::ranges::find(scene.interfaces, body, &scene::Interface::body);
+    if (faces == scene.interfaces.end() || faces->condition != scene::Condition::sliding)
+      return fmt::format("the charge is bonded to \"{}\", and when that lets go is not looked at", body);
+  }
+  return {};
+}
+
 void add_points(const StudyCase& input, const ClosingBound& bound, const std::vector<double>& gaps,
                 const RunBatch& run, ClosingAnswer& answer) {
+  if (!bound.unknown_for.empty()) {
+    for (const double gap : gaps) answer.points.push_back({.gap = gap, .unknown_for = bound.unknown_for});
+    return;
+  }
   std::vector<CaseRun> runs;
   for (const double gap : gaps)
     for (const ClosingTerms& terms : bound.terms) runs.push_back(run_on(input, terms, gap));
@@ -135,7 +150,7 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input) {
   const scene::Surface& own = *input.closing;
   std::vector<ClosingBound> bounds{{"conducting", {{GapBase::conducting, own.roughness, own.release}}},
                                    {"insulated", {{GapBase::insulated, own.roughness, own.release}}}};
-  ClosingBound corner{"corner", {}};
+  ClosingBound corner{"corner", {}, bond_of(input.scene.scene)};
   const double roughness = std::min(smoothest, own.roughness);
   std::vector<double> releases{0.0, own.release};
   for (const double share : release_shares) releases.push_back(time_at_share(input.scene.scene.load, share));
@@ -171,8 +186,12 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
   constexpr double infinite = std::numeric_limits<double>::infinity();
   ClosingEvidence evidence;
   evidence.known = !answers.empty();
+  const auto hides_a_thinner = [gap](const ClosingPoint& point) {
+    return point.gap < gap && !is_known(point);
+  };
   for (const ClosingAnswer& answer : answers) {
     const ClosingPoint* point = answer.at(gap);
+    if (std::ranges::any_of(answer.points, hides_a_thinner)) evidence.known = false;
     if (point == nullptr || !is_known(*point)) {
       evidence.known = false;
       continue;

@@ -129,6 +129,39 @@ TEST(ClosingGaps, ALaunchThatSomethingWarnsOfLeavesItsGapUnknown) {
   EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
 }
 
+TEST(ClosingGaps, AThinnerGapThatIsNotKnownLeavesAThickerOneUnknown) {
+  const auto answers = answers_of([](const Launch& launch) {
+    return launch.gap > 0.9e-4 && launch.gap < 1.1e-4 ? std::numeric_limits<double>::quiet_NaN() : 400.0;
+  });
+  EXPECT_TRUE(closing_evidence(answers, 0.0, ignition).known);
+  EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
+}
+
+TEST(ClosingGaps, OfAChargeThatABondHoldsTheCornerIsNotKnown) {
+  const StudyFile study = closing_study();
+  StudyCase held = study.cases.front();
+  for (scene::Interface& faces : held.scene.scene.interfaces)
+    if (faces.body == "wall")
+      faces = {.body = "wall",
+               .condition = scene::Condition::bonded,
+               .friction = 0.0,
+               .tension_strength = 1e12,
+               .shear_strength = 1e12};
+  EXPECT_TRUE(closing_bounds(study.cases.front()).back().unknown_for.empty());
+  EXPECT_NE(closing_bounds(held).back().unknown_for.find("bonded to \"wall\""), std::string::npos);
+  const auto answers = find_closing_gaps(study.study, held, [](const std::vector<CaseRun>& runs) {
+    std::vector<FinishedRun> finished(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      finished[i].outcome = RunOutcome::ran;
+      finished[i].result.mechanics = synthetic_mechanics(runs[i].scene);
+      finished[i].result.gaps.emplace_back().at_stations.temperature = 400.0;
+    }
+    return finished;
+  });
+  EXPECT_TRUE(answers.back().at(2e-4) != nullptr);
+  EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
+}
+
 TEST(ClosingGaps, WithoutAnswersNothingIsKnown) { EXPECT_FALSE(closing_evidence({}, 0.0, ignition).known); }
 
 TEST(ClosingGaps, AreRefusedInKindsThatDoNotJudgeThem) {

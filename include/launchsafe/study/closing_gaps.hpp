@@ -22,11 +22,13 @@ struct ClosingTerms {
 struct ClosingBound {
   std::string name;  ///< in files
   std::vector<ClosingTerms> terms;
+  std::string unknown_for = {};  ///< why nothing can be said on them; empty where it can
 };
 
 /// "conducting" and "insulated": a case's own terms with either base. "corner": an insulated base, the
 /// smoothest faces of the plausible ones or the case's own, and a charge that is free from the start, or as
-/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak.
+/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak. Of a
+/// charge that anything holds by a bond the corner is not known: when bonds let go is not looked at.
 std::vector<ClosingBound> closing_bounds(const StudyCase& input);
 
 /// All bounds of a case: the gaps of the study and a scan up to the largest one are computed, then the first
@@ -34,7 +36,7 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input);
 using RunBatch = std::function<std::vector<FinishedRun>(std::vector<CaseRun> runs)>;
 std::vector<ClosingAnswer> find_closing_gaps(const Study& study, const StudyCase& input, const RunBatch& run);
 
-/// What they say of one gap, for its verdict.
+/// What they say of one gap, for its verdict: nothing where a thinner gap is not known.
 ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
                                  double ignition_temperature);
 
