@@ -321,6 +321,8 @@ std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
 }
 
 std::string lacks_air(const DrawnCase& drawn) {
+  if (drawn.scene.surface.model == scene::GapModel::closing)
+    return "the air of its gaps follows no pressure of one launch: they close";
   return gaps_with(has_air, drawn).empty() ? "it holds no gap with air" : "";
 }
 

@@ -353,6 +353,12 @@ TEST(CasePictures, OfEnergiesHaveTheTermsThatAreMoreThanRoundOff) {
   EXPECT_EQ(energy.series[0].y.back(), std::abs(run.result.mechanics.monitor.back().energy.external));
 }
 
+TEST(CasePictures, OfTheAirAreNotForGapsThatClose) {
+  RunScene run = written_by_hand();
+  run.scene.surface.model = scene::GapModel::closing;
+  EXPECT_NE(kind("air").lacks(run.drawn()).find("close"), std::string::npos);
+}
+
 TEST(CasePictures, OfCombustionAreForGapsThatBurnt) {
   RunScene run = written_by_hand();
   EXPECT_NE(kind("combustion").lacks(run.drawn()), "");
