@@ -199,8 +199,8 @@ TEST_P(EditedStudy, IsNotSaferUnlessItsReportNamesTheSlip) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Few, EditedStudy, ::testing::Range(0, 6));
-INSTANTIATE_TEST_SUITE_P(Slow, EditedStudy, ::testing::Range(6, 60));
+INSTANTIATE_TEST_SUITE_P(Few, EditedStudy, ::testing::Range(0, 5));
+INSTANTIATE_TEST_SUITE_P(Slow, EditedStudy, ::testing::Range(5, 60));
 
 }  // namespace
 }  // namespace launchsafe::app
