@@ -2,11 +2,14 @@
 
 #include "command_help.hpp"
 #include "common_options.hpp"
+#include "launchsafe/scene/input_error.hpp"
 #include "shell_words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -245,10 +248,36 @@ bool asks_for_json(int argument_count, const char* const* arguments) {
   return false;
 }
 
-/// What the options of one command ask for makes no sense together.
-std::string contradiction(const StudyArguments& study) {
-  return study.output.empty() && !study.dry_run ? "study: --output is required unless with --dry-run" : "";
+/// What is not among these words, with the nearest of them; `place` is where it stands.
+std::string unknown_word(const std::string& place, const std::string& word, const std::string& allowed,
+                         const std::vector<std::string>& known) {
+  const std::string nearest = word == "help" ? "--help" : scene::nearest_of(word, known);
+  return scene::InputError{{}, 0, 0, place, '"' + word + '"', allowed, nearest}.message();
 }
+
+/// The first command or option that there is none of; empty where all are known.
+std::string unknown_word_in(const CLI::App& app, int argument_count, const char* const* arguments) {
+  if (argument_count < 2 || arguments[1][0] == '-') return {};
+  const std::string given = arguments[1];
+  std::vector<std::string> commands, options;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command->get_name());
+    if (command->get_name() != given) continue;
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  if (options.empty()) return unknown_word("", given, fmt::format("{}", fmt::join(commands, ", ")), commands);
+  for (int i = 2; i < argument_count; ++i) {
+    const std::string_view argument = arguments[i];
+    if (argument == "--") break;
+    const std::string name(argument.substr(0, argument.find('=')));
+    if (name.starts_with("--") && std::ranges::find(options, name) == options.end())
+      return unknown_word(given, name, "the options that launchsafe " + given + " --help lists", options);
+  }
+  return {};
+}
+
+/// What the options of one command ask for makes no sense together.
 std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty();
   const bool lists = explain.lists();
@@ -296,7 +325,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     line.json = asks_for_json(argument_count, arguments);
     return line;
   } catch (const CLI::ParseError& error) {
-    line.request = UsageError{error.what()};
+    const std::string unknown = unknown_word_in(app, argument_count, arguments);
+    line.request = UsageError{unknown.empty() ? error.what() : unknown};
     line.json = asks_for_json(argument_count, arguments);
     return line;
   }

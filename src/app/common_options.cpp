@@ -17,8 +17,7 @@ struct UnitFactor {
   double factor;
 };
 
-constexpr std::array<UnitFactor, 14> size_units{{{"", 1},
-                                                 {"b", 1},
+constexpr std::array<UnitFactor, 13> size_units{{{"b", 1},
                                                  {"kb", 1e3},
                                                  {"mb", 1e6},
                                                  {"gb", 1e9},
@@ -32,8 +31,8 @@ constexpr std::array<UnitFactor, 14> size_units{{{"", 1},
                                                  {"gib", 1024.0 * 1024 * 1024},
                                                  {"tib", 1024.0 * 1024 * 1024 * 1024}}};
 
-constexpr std::array<UnitFactor, 6> duration_units{
-    {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
+constexpr std::array<UnitFactor, 5> duration_units{
+    {{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
 
 constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
 
@@ -59,16 +58,16 @@ std::optional<double> parse_amount(std::string_view text, const std::array<UnitF
   return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
 }
 
-/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
+/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9 B". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
 /// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
 std::optional<double> parse_size(std::string_view text) {
   const auto size = parse_amount(text, size_units);
   constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
   return size && *size >= 1 && *size <= largest ? size : std::nullopt;
 }
-constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9, up to 1e18";
+constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9B, up to 1e18";
 
-/// Seconds: "90s", "10min", "2h", "1.5 d", "90". Nothing for any other text, and for what is not more than
+/// Seconds: "90s", "10min", "2h", "1.5 d". Nothing for any other text, and for what is not more than
 /// zero.
 std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }
 constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 1d";

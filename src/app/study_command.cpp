@@ -105,6 +105,9 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   const auto file = kinds::read_study(arguments.study, {arguments.tolerance});
   if (!file) return console.refuse(file.error());
+  if (arguments.output.empty() && !arguments.dry_run)
+    return console.refuse(
+        "study: --output is required unless with --dry-run (launchsafe study --help shows the usage)");
   for (const std::string& note : file->scene.notes) console.remark(note);
   if (!file->chosen_setting.empty()) console.remark("setting: " + file->chosen_setting);
   if (arguments.dry_run) return dry_run(*file, arguments, console);

@@ -78,6 +78,20 @@ TEST_F(CommandLineProgram, SenselessCommandLinesAreBadUsage) {
   EXPECT_FALSE(exists("out"));
 }
 
+TEST_F(CommandLineProgram, AMistypedWordIsToldWithTheNearestThereIs) {
+  const auto error = [this](const std::vector<std::string>& arguments) { return run(arguments).err; };
+  EXPECT_NE(error({"stduy", "study.toml"}).find("found \"stduy\""), std::string::npos);
+  EXPECT_NE(error({"stduy", "study.toml"}).find("did you mean study?"), std::string::npos);
+  EXPECT_NE(error({"help"}).find("did you mean --help?"), std::string::npos);
+  EXPECT_NE(error({"study", "study.toml", "-o", "out", "--job", "2"}).find("did you mean --jobs?"),
+            std::string::npos);
+  EXPECT_NE(error({"plot", "--widht=3"}).find("plot: found \"--widht\""), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, AMissingStudyIsToldBeforeAMissingOutput) {
+  EXPECT_NE(run({"study", "study.toml"}).err.find("file not found"), std::string::npos);
+}
+
 TEST_F(CommandLineProgram, AnOutputThatCannotBeWrittenIsAnError) {
   start({"--version"});
   EXPECT_EQ(wait().code, 0);

@@ -96,11 +96,11 @@ TEST_F(DryRun, RepairsNothing) {
 TEST_F(DryRun, AmountsAreRead) {
   for (const char* size : {"500 MB", "1.5GiB"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 0) << size;
-  for (const char* size : {"8XB", "much", "-1GB", "0", "inf"})
+  for (const char* size : {"8XB", "8", "much", "-1GB", "0", "inf"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 2) << size;
-  for (const char* time : {"1.5 d", "90"})
+  for (const char* time : {"1.5 d", "90s"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 0) << time;
-  for (const char* time : {"10 parsecs", "soon", "-1s", "0s", "nan"})
+  for (const char* time : {"10 parsecs", "10", "soon", "-1s", "0s", "nan"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 2) << time;
 }
 
