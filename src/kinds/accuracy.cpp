@@ -18,8 +18,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::not_a_number, study::RecordedSetting, study::ReferenceValue;
 
 namespace {
 
@@ -33,7 +32,7 @@ std::vector<ReferenceValue> over_meshes(std::span<const AccuracyRow> meshes, Lis
       values.push_back(std::invoke(list, mesh)[i]);
       sizes.push_back(mesh.setting.cell);
     }
-    references.push_back(reference_value(std::move(values), sizes));
+    references.push_back(study::reference_value(std::move(values), sizes));
   }
   return references;
 }
@@ -41,14 +40,14 @@ std::vector<ReferenceValue> over_meshes(std::span<const AccuracyRow> meshes, Lis
 /// s, for every gap; NaN where it does not ignite.
 std::vector<double> ignition_times(const AccuracyRow& row) {
   std::vector<double> times;
-  for (const GapVerdict& gap : row.answer.verdicts)
+  for (const study::GapVerdict& gap : row.answer.verdicts)
     times.push_back(gap.ignition ? gap.ignition->time : not_a_number);
   return times;
 }
 
 /// What the reference meshes, finest first, tend to. T max and critical gap are those of the record: their
 /// limits may be off by what no mesh has exact.
-AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const RecordedReference& recorded,
+AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study::RecordedReference& recorded,
                                const std::vector<bool>& inert) {
   AccuracyReference reference;
   reference.temperature = recorded.temperature;
@@ -60,7 +59,7 @@ AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const Record
   reference.at_times = over_meshes(meshes, &AccuracyRow::at_times);
   reference.points = over_meshes(meshes, [](const AccuracyRow& mesh) {
     std::vector<double> values;
-    for (const StationTemperature& point : mesh.points) values.push_back(point.temperature);
+    for (const study::StationTemperature& point : mesh.points) values.push_back(point.temperature);
     return values;
   });
   reference.bottom = meshes.front().bottom;
@@ -80,7 +79,7 @@ void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
   row.temperature_error = errors_against(reference.temperature, row.setting.temperature);
   row.largest_temperature_error = 0.0;
   for (const double error : row.temperature_error)
-    row.largest_temperature_error = larger_bound(row.largest_temperature_error, std::abs(error));
+    row.largest_temperature_error = study::larger_bound(row.largest_temperature_error, std::abs(error));
   row.critical_gap_error = error_against(reference.critical_gap, row.setting.critical_gap);
   row.ignition_time_error = errors_against(reference.ignition_time, ignition_times(row));
   row.pressure_error = relative_difference(row.bottom, reference.bottom);
@@ -90,21 +89,22 @@ void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
 }
 
 /// What the skin of the first gap was in detail; without reaction, since after ignition all are alike.
-void add_first_gap(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
+void add_first_gap(const study::Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
                    AccuracyRow& row) {
   const auto skin =
-      surface::integrate_skin(without_reaction(surface::skin_model(scene)), trace, study.gaps.front());
+      surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace, study.gaps.front());
   for (const double time : accuracy_settings(study).times)
     row.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
-  row.points = station_temperatures(skin, trace);
+  row.points = study::station_temperatures(skin, trace);
 }
 
 /// What a run came to and what it cost, without comparing it.
-AccuracyRow measure(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
+AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
+                    const std::vector<study::FinishedRun>& runs) {
   const scene::Scene& scene = input.scene.scene;
   AccuracyRow row;
   row.setting.label = input.label;
-  row.setting.setting = setting_of(scene);
+  row.setting.setting = study::setting_of(scene);
   row.answer = answer_from(study, input, runs);
   if (!runs.front().has_result()) return row;
   const run::MechanicsResult& mechanics = runs.front().result.mechanics;
@@ -123,16 +123,17 @@ AccuracyRow measure(const Study& study, const StudyCase& input, const std::vecto
 }
 
 /// What was measured on the runs of all cases.
-void run_settings(AccuracyResult& result, const StudyOptions& options) {
+void run_settings(AccuracyResult& result, const study::StudyOptions& options) {
   std::vector<std::pair<VariantAccuracy*, std::size_t>> places;  // of every case of the study
   for (VariantAccuracy& variant : result.variants) {
     variant.rows.resize(variant.study.cases.size());
     for (std::size_t i = 0; i < variant.rows.size(); ++i) places.emplace_back(&variant, i);
   }
-  run_every_case(result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
-    const auto& [variant, place] = places[i];
-    variant->rows[place] = measure(variant->study.study, variant->study.cases[place], runs);
-  });
+  run_every_case(result.study, options, result.timing,
+                 [&](std::size_t i, std::vector<study::FinishedRun>& runs) {
+                   const auto& [variant, place] = places[i];
+                   variant->rows[place] = measure(variant->study.study, variant->study.cases[place], runs);
+                 });
 }
 
 /// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
@@ -149,19 +150,20 @@ std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
 
 /// Whether a case differs from the study's scene in more than a setting.
 bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
-  return std::ranges::any_of(differences(scene, own),
-                             [](const Difference& each) { return !belongs_to_setting(each.key); });
+  return std::ranges::any_of(study::differences(scene, own), [](const study::Difference& each) {
+    return !study::belongs_to_setting(each.key);
+  });
 }
 
 /// Which row is what.
 void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
-  const StudyFile& study = variant.study;
-  const Setting own = setting_of(study.scene.scene);
+  const study::StudyFile& study = variant.study;
+  const study::Setting own = study::setting_of(study.scene.scene);
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     AccuracyRow& row = variant.rows[i];
     row.setting.reference = i < meshes;
     row.other_model = is_other_model(study.cases[i].scene.scene, study.scene.scene);
-    row.baseline = !row.other_model && same_setting(row.setting.setting, own);
+    row.baseline = !row.other_model && study::same_setting(row.setting.setting, own);
   }
 }
 
@@ -179,13 +181,13 @@ void fill_settings(const std::vector<bool>& inert, std::vector<AccuracyRow>& row
 /// Whether its temperatures are such as explosives have.
 bool is_usual(const RecordedSetting& setting) {
   return std::ranges::all_of(setting.temperature,
-                             [](double kelvin) { return kelvin <= highest_recorded_temperature; });
+                             [](double kelvin) { return kelvin <= study::highest_recorded_temperature; });
 }
 
 /// Of the sound settings of the same model; none that has temperatures which nothing has.
-AccuracyRecord record_of(const VariantAccuracy& variant) {
+study::AccuracyRecord record_of(const VariantAccuracy& variant) {
   const scene::Scene& scene = variant.study.scene.scene;
-  AccuracyRecord record;
+  study::AccuracyRecord record;
   record.title = variant.study.study.title;
   record.model_version = run::model_version;
   record.scene = scene;
@@ -196,7 +198,7 @@ AccuracyRecord record_of(const VariantAccuracy& variant) {
     const RecordedSetting& setting = row.setting;
     // 0.25 cm is not always 2.5 mm to the last digit.
     const bool known = std::ranges::any_of(record.settings, [&](const RecordedSetting& each) {
-      return same_setting(each.setting, setting.setting);
+      return study::same_setting(each.setting, setting.setting);
     });
     if (row.sound() && !row.other_model && is_usual(setting) && !known) record.settings.push_back(setting);
   }
@@ -220,11 +222,11 @@ void compare(VariantAccuracy& variant) {
   for (const AccuracyRow& mesh : finest_first) {
     if (is_usual(mesh.setting)) continue;
     variant.no_reference = fmt::format("the reference mesh {} has no temperature, or one above {:.0f} K",
-                                       mesh.setting.label, highest_recorded_temperature);
+                                       mesh.setting.label, study::highest_recorded_temperature);
     return;
   }
   variant.record = record_of(variant);
-  const RecordedReference recorded = study::reference_of(variant.record);
+  const study::RecordedReference recorded = study::reference_of(variant.record);
   variant.reference = reference_of(finest_first, recorded, inert);
   for (AccuracyRow& row : variant.rows) {
     if (!row.computed()) continue;
@@ -279,7 +281,7 @@ double VariantAccuracy::reference_uncertainty() const {
   double largest = reference ? 0.0 : not_a_number;
   if (reference)
     for (const ReferenceValue& value : reference->temperature)
-      largest = larger_bound(largest, value.limit.uncertainty + value.inexactness);
+      largest = study::larger_bound(largest, value.limit.uncertainty + value.inexactness);
   return largest;
 }
 
@@ -288,7 +290,7 @@ bool AccuracyResult::any_indeterminate() const {
                      [](const VariantAccuracy& each) { return each.any_indeterminate(); });
 }
 
-AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
+AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options) {
   return run_timed<AccuracyResult>(
       study, options,
       [&](AccuracyResult& result) {

@@ -17,7 +17,8 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Change, study::Fault, study::StudyFile;
+
 namespace {
 
 using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
@@ -25,7 +26,7 @@ using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
 constexpr std::size_t least_reference_meshes = 3;
 constexpr const char* cell_size_key = "numerics.cell_size";
 
-Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
+Fault read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
@@ -34,9 +35,9 @@ Fault read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
                     "numerics keys, frame, friction.closure, ...; the gaps are the study's");
   }
   auto description = scene::describe_key(study.scene, leaf.name, place);
-  if (!description) return in_table(description.error(), "settings");
+  if (!description) return study::in_table(description.error(), "settings");
   const auto values = scene::read_values(*leaf.node, *description, study.file);
-  if (!values) return in_table(values.error(), "settings");
+  if (!values) return study::in_table(values.error(), "settings");
   SettingsAxis& axis = accuracy_settings(study.study).settings[block].emplace_back();
   for (const Value& value : *values)
     axis.push_back({leaf.name, value, scene::format_value(*description, value), key, place});
@@ -106,7 +107,7 @@ Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes
   auto scene = with_changes(study.scene, changes);
   if (!scene) return scene.error();
   if (!known.insert(scene::to_toml(scene->scene)).second) return std::nullopt;
-  StudyCase made = case_of(label_of(changes), std::move(*scene));
+  study::StudyCase made = study::case_of(label_of(changes), std::move(*scene));
   made.own_conditions = true;
   study.cases.add(std::move(made));
   return std::nullopt;
@@ -148,7 +149,7 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
   for (const toml::node& element : *node->as_array()) {
     const std::size_t block = accuracy_settings(study.study).settings.size();
     accuracy_settings(study.study).settings.emplace_back();
-    for (const Leaf& leaf : leaves_as_written(*element.as_table())) {
+    for (const study::Leaf& leaf : study::leaves_as_written(*element.as_table())) {
       if (Fault fault = read_axis(leaf, block, study)) return fault;
     }
   }
@@ -225,7 +226,7 @@ Fault add_variant(const StudySource& source, std::size_t index, StudyFile& study
   auto variant = read_study_table({*root, source.text, source.folder, source.tolerance}, study.file,
                                   study.most_cases - std::min(study.most_cases, study.cases.size()));
   if (!variant) return variant.error();
-  for (StudyCase each : variant->cases) {
+  for (study::StudyCase each : variant->cases) {
     each.label = *name + ": " + each.label;
     study.cases.add(std::move(each));
   }

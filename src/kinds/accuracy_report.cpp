@@ -15,11 +15,13 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::Mark, report::Plot, report::ReportTable, report::Row, report::Series, report::Shown,
+    report::shown_gap, report::Statement;
+using study::RecordedSetting, study::ReferenceValue;
+
 namespace {
 
-std::string kelvins(double value) { return in_words(value, keys::significant(2, kelvin)); }
+std::string kelvins(double value) { return report::in_words(value, keys::significant(2, keys::kelvin)); }
 
 /// A setting with its bound and its cost.
 Row facts_of(const RecordedSetting& setting) {
@@ -41,7 +43,7 @@ Row facts_of(const VariantAccuracy& variant, const AccuracyRow& own) {
                 {"distance_K", own.largest_temperature_error},
                 {"reference_K", variant.reference_uncertainty()},
                 {"gap_cm", shown_gap(own.setting.critical_gap)},
-                {"gap_bound_cm", number(shown_gap(own.setting.critical_gap_bound))},
+                {"gap_bound_cm", report::number(shown_gap(own.setting.critical_gap_bound))},
                 {"gap_limit", gap.limit.justified},
                 {"gap_reference_cm", shown_gap(gap.limit.value)},
                 {"gap_larger", own.critical_gap_error > 0},
@@ -86,7 +88,7 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"gaps", limits.size()},
           {"sound", sound},
           {"settings", variant.rows.size()},
-          {"drift_percent", shown_value(drift, keys::significant(2, percent))},
+          {"drift_percent", report::shown_value(drift, keys::significant(2, keys::percent))},
           {"inexactness_K", inexactness}};
 }
 
@@ -94,7 +96,7 @@ constexpr int grey = 7;
 
 /// Marks at the bounds, with bars down to the distances.
 Series bars(std::string label, int colour, Mark mark, const std::vector<const AccuracyRow*>& rows) {
-  Series series{std::move(label), {}, {}, Style::vertical_bars};
+  Series series{std::move(label), {}, {}, report::Style::vertical_bars};
   series.colour = colour;
   series.mark = mark;
   for (const AccuracyRow* row : rows) {
@@ -112,7 +114,7 @@ Series front_of(std::vector<const AccuracyRow*> rows) {
     return std::pair(row->setting.processor_time, row->error_to_go_by());
   });
   const Series marks = bars({}, grey, {}, rows);
-  Series front{"Pareto front", marks.x, marks.y, Style::steps};
+  Series front{"Pareto front", marks.x, marks.y, report::Style::steps};
   front.colour = grey;
   return front;
 }
@@ -132,11 +134,12 @@ Plot error_plot(const VariantAccuracy& variant) {
   const bool bounded = variant.record.unvaried.empty();
   Plot plot;
   plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
-  plot.x = {headed("processor time of a run", quantity::processor_time()).label(), Scale::logarithmic};
-  plot.y = {
-      headed(bounded ? "error of T max" : "distance of T max from the reference", quantity::temperature_max())
-          .label(),
-      Scale::logarithmic};
+  plot.x = {headed("processor time of a run", report::quantity::processor_time()).label(),
+            report::Scale::logarithmic};
+  plot.y = {headed(bounded ? "error of T max" : "distance of T max from the reference",
+                   report::quantity::temperature_max())
+                .label(),
+            report::Scale::logarithmic};
   plot.width = 1100;
   plot.height = 640;
   plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
@@ -181,10 +184,10 @@ std::string answer(const AccuracyResult& result) {
                      settings.empty() ? "" : "\nCheapest settings:\n" + settings);
 }
 
-Report report_of(const AccuracyResult& result) {
+report::Report report_of(const AccuracyResult& result) {
   const VariantAccuracy& first = result.variants.front();
   const bool several = result.variants.size() > 1;
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   std::vector<const VariantAccuracy*> drawn;
   for (const VariantAccuracy& each : result.variants) {
     if (!each.reference) continue;
@@ -193,7 +196,8 @@ Report report_of(const AccuracyResult& result) {
     report.files.push_back({name, study::to_json_text(each.record)});
   }
   if (!drawn.empty())
-    report.items.push_back(Picture{"error_against_time.svg", picture_of(drawn), "error against run time"});
+    report.items.push_back(
+        report::Picture{"error_against_time.svg", picture_of(drawn), "error against run time"});
   if (several) report.items.push_back(ReportTable{variant_table(result), "variants.csv", "variants"});
   const Shown settings = several ? Shown::file : Shown::page_and_terminal;
   report.items.push_back(ReportTable{setting_table(result), "accuracy.csv", "settings", settings});
@@ -203,9 +207,9 @@ Report report_of(const AccuracyResult& result) {
   if (first.baseline() != nullptr)
     report.items.push_back(
         Statement{"## Why believe that?\n\n" + said_below("accuracy.belief", belief_facts(first))});
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(first.study)});
-  report.items.push_back(Statement{timing_sentence(result.timing)});
-  report.json = study_json(result.study, report, {{"timing", timing_json(result.timing)}});
+  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(first.study)});
+  report.items.push_back(Statement{report::timing_sentence(result.timing)});
+  report.json = study_json(result.study, report, {{"timing", report::timing_json(result.timing)}});
   return report;
 }
 

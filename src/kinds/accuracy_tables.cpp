@@ -11,13 +11,14 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::Cell, keys::fixed, keys::Form, keys::kelvin, keys::significant, keys::text;
+using report::centimetres, report::Column, report::Quantities, report::Row, report::Table, report::table_of;
+using study::RecordedSetting, study::ReferenceValue;
+namespace quantity = report::quantity;
+
 namespace {
 
-using keys::fixed, keys::significant, keys::text;
-
-std::string gap_text(double gap) { return digits_of(gap, quantity::gap().form); }
+std::string gap_text(double gap) { return report::digits_of(gap, quantity::gap().form); }
 
 const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
 const std::vector<double>& times_of(const VariantAccuracy& variant) {
@@ -30,7 +31,7 @@ const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
 /// The one that stands at the place of `key` in a list of keys; none where that is not there.
 double value_at(const std::vector<double>& values, const std::vector<double>& keys, double key) {
   const auto place = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
-  return place < values.size() ? values[place] : not_a_number;
+  return place < values.size() ? values[place] : study::not_a_number;
 }
 
 /// What all variants with a reference have, each once: they may differ.
@@ -63,7 +64,7 @@ struct ReferenceRow {
 /// Numbers are in the unit of the row.
 Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) {
   const auto in_unit = [](auto get) {
-    return [get](const ReferenceRow& row) { return shown_value(get(*row.value), row.what.form); };
+    return [get](const ReferenceRow& row) { return report::shown_value(get(*row.value), row.what.form); };
   };
   const auto if_justified = [](auto get) {
     return [get](const ReferenceRow& row) {
@@ -73,11 +74,12 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
   Quantities<ReferenceRow> quantities{{quantity::subject(), &ReferenceRow::what, &Column::heading},
                                       {quantity::unit(), &ReferenceRow::what, &Column::form, &Form::unit}};
   for (const double size : sizes) {
-    const std::string cells = digits_of(size, quantity::cell_size().form);
+    const std::string cells = report::digits_of(size, quantity::cell_size().form);
     quantities.emplace_back(
         Column{"cells_" + cells + "_mm", cells + " mm", significant(7), "Value on that reference mesh."},
         [size](const ReferenceRow& row) {
-          return shown_value(value_at(row.value->values, cell_sizes_of(*row.variant), size), row.what.form);
+          return report::shown_value(value_at(row.value->values, cell_sizes_of(*row.variant), size),
+                                     row.what.form);
         });
   }
   return keys::joined<ReferenceRow>(
@@ -146,9 +148,12 @@ Column temperature_bound() {
   return {"temperature_bound", "T bound", fixed(2, kelvin), "By how much T max may be off, over all gaps."};
 }
 Column critical_gap_bound() {
-  return {"critical_gap_bound", "its bound", significant(2, centimetre), "By how much that may be off."};
+  return {"critical_gap_bound", "its bound", significant(2, keys::centimetre),
+          "By how much that may be off."};
 }
-Column processor_time() { return {"processor_time", "processor time", fixed(1, second), "Of the run."}; }
+Column processor_time() {
+  return {"processor_time", "processor time", fixed(1, keys::second), "Of the run."};
+}
 
 /// An error at every gap.
 Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string& heading,
@@ -174,7 +179,8 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
        &SettingRow::row,
        &AccuracyRow::setting,
        &RecordedSetting::label},
-      {{"cell", "cell", significant(3, millimetre), "Size of the charge's smallest cells, as computed."},
+      {{"cell", "cell", significant(3, keys::millimetre),
+        "Size of the charge's smallest cells, as computed."},
        &SettingRow::row,
        &AccuracyRow::setting,
        &RecordedSetting::cell},
@@ -189,24 +195,26 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
        by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
        {{temperature_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
         {quantity::critical_gap(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap},
-        {{"critical_gap_error", "its error", significant(2, centimetre), "Critical gap minus the reference."},
+        {{"critical_gap_error", "its error", significant(2, keys::centimetre),
+          "Critical gap minus the reference."},
          &SettingRow::row,
          &AccuracyRow::critical_gap_error},
         {critical_gap_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
-        {{"bottom_pressure_error", "p(t)", fixed(2, percent),
+        {{"bottom_pressure_error", "p(t)", fixed(2, keys::percent),
           "Relative L2 difference of the bottom pressure from the finest mesh."},
          &SettingRow::row,
          &AccuracyRow::pressure_error},
-        {{"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak."},
+        {{"bottom_pressure_peak_error", "p peak", fixed(2, keys::percent), "Relative error of its peak."},
          &SettingRow::row,
          &AccuracyRow::peak_pressure_error}},
-       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
+       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, keys::millisecond),
               &AccuracyRow::ignition_time_error)});
   for (const double time : at.times)
     quantities.emplace_back(
-        for_programs(Column{"temperature_error_" + digits_of(time, significant(6, millisecond)) + "_ms",
-                            "T error at " + milliseconds(time), fixed(2, kelvin),
-                            "Error of the hottest point then, first gap, without reaction."}),
+        for_programs(
+            Column{"temperature_error_" + report::digits_of(time, significant(6, keys::millisecond)) + "_ms",
+                   "T error at " + report::milliseconds(time), fixed(2, kelvin),
+                   "Error of the hottest point then, first gap, without reaction."}),
         of_list(&AccuracyRow::error_at_times, times_of, time));
   return keys::joined<SettingRow>(
       {quantities,
@@ -252,7 +260,9 @@ Quantities<VariantRow> variant_quantities() {
       {critical_gap_bound(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
       {{"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
         "By how much the reference of T max may itself be off."},
-       [](const VariantRow& row) { return row.own ? row.variant->reference_uncertainty() : not_a_number; }},
+       [](const VariantRow& row) {
+         return row.own ? row.variant->reference_uncertainty() : study::not_a_number;
+       }},
       {processor_time(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
       {{"half_bound_setting", "cheapest with half the bound", text(),
         "The cheapest setting with half the bound."},
@@ -260,7 +270,7 @@ Quantities<VariantRow> variant_quantities() {
          if (row.half_bound != nullptr) return Cell(row.half_bound->label);
          return row.own != nullptr ? Cell(std::string("none here")) : Cell();
        }},
-      {{"half_bound_processor_time", "its time", fixed(1, second), "Its processor time."},
+      {{"half_bound_processor_time", "its time", fixed(1, keys::second), "Its processor time."},
        &VariantRow::half_bound,
        &RecordedSetting::processor_time},
       {{"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference."},
@@ -286,7 +296,8 @@ Table reference_table(const AccuracyResult& result) {
     to.add("critical gap", quantity::critical_gap().form, reference.critical_gap);
     to.add("peak pressure of the charge bottom", quantity::pressure().form, reference.peak_pressure);
     for (std::size_t i = 0; i < reference.at_times.size(); ++i)
-      to.add(fmt::format("T without reaction at {}, gap {}", milliseconds(accuracy_settings(study).times[i]),
+      to.add(fmt::format("T without reaction at {}, gap {}",
+                         report::milliseconds(accuracy_settings(study).times[i]),
                          centimetres(study.gaps.front())),
              quantity::temperature_max().form, reference.at_times[i]);
   });

@@ -10,15 +10,14 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::CaseAnswer, study::StudyFile;
 
-SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers) {
+SweepCounts counts_of(const std::vector<CaseAnswer>& answers) {
   SweepCounts counts;
   counts.cases = answers.size();
-  for (const study::CaseAnswer& answer : answers) {
+  for (const CaseAnswer& answer : answers) {
     if (!answer.completed()) ++counts.failed;
-    if (acted(answer.run.limiters)) ++counts.limited;
+    if (report::acted(answer.run.limiters)) ++counts.limited;
     counts.limiters.crack_at_bound += answer.run.limiters.crack_at_bound;
     counts.limiters.tension_cutoff += answer.run.limiters.tension_cutoff;
     counts.limiters.hugoniot_guard += answer.run.limiters.hugoniot_guard;
@@ -28,18 +27,18 @@ SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers) {
   return counts;
 }
 
-std::string status_of(const study::CaseAnswer& answer) {
+std::string status_of(const CaseAnswer& answer) {
   if (answer.completed()) return "completed";
   return answer.run.status == run::RunStatus::completed ? "failed" : run::to_string(answer.run.status);
 }
 
-std::string name_of(const std::vector<ShownKey>& keys, const study::StudyCase& input) {
+std::string name_of(const std::vector<report::ShownKey>& keys, const study::StudyCase& input) {
   std::string place = place_text(keys, input.coordinates);
   return place.empty() ? input.label : place;
 }
 
-std::string failures_list(const std::vector<ShownKey>& keys, const study::StudyFile& study,
-                          const std::vector<study::CaseAnswer>& answers) {
+std::string failures_list(const std::vector<report::ShownKey>& keys, const StudyFile& study,
+                          const std::vector<CaseAnswer>& answers) {
   constexpr std::size_t named = 3;
   std::size_t failed = 0;
   std::string list;
@@ -56,11 +55,11 @@ std::string failures_list(const std::vector<ShownKey>& keys, const study::StudyF
 std::string limited_text(const SweepCounts& counts, const std::string& noun) {
   if (counts.limited == 0) return {};
   return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",
-                     counted(counts.limited, noun), limiters_text(counts.limiters));
+                     counted(counts.limited, noun), report::limiters_text(counts.limiters));
 }
 
 std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {
-  for (std::string& note : mesh_notes(study)) lines.push_back(std::move(note));
+  for (std::string& note : report::mesh_notes(study)) lines.push_back(std::move(note));
   std::erase(lines, "");
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
@@ -71,8 +70,8 @@ std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<Cas
   return cases;
 }
 
-Quantities<AnsweredCase> answered_axes(const Study& study) {
-  return of_part<AnsweredCase>(axis_quantities(study), &AnsweredCase::coordinates);
+report::Quantities<AnsweredCase> answered_axes(const study::Study& study) {
+  return of_part<AnsweredCase>(report::axis_quantities(study), &AnsweredCase::coordinates);
 }
 
 }  // namespace launchsafe::kinds

@@ -12,8 +12,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::not_a_number, study::StudyFile, study::StudyOptions;
 
 namespace {
 
@@ -48,13 +47,14 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   StudyFile study = result.study;
   for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases.replace(i, result.runs[i].input);
-  run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    CalibrationRun& run = result.runs[i];
-    run.outcome = finished.front().outcome;
-    run.failure = finished.front().failure;
-    run.mechanics = finished.front().result.mechanics;
-    run.mechanics.trace = trace::until(run.mechanics.trace, scene::read_time(run.input.scene.scene.load));
-  });
+  run_every_case(
+      study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
+        CalibrationRun& run = result.runs[i];
+        run.outcome = finished.front().outcome;
+        run.failure = finished.front().failure;
+        run.mechanics = finished.front().result.mechanics;
+        run.mechanics.trace = trace::until(run.mechanics.trace, scene::read_time(run.input.scene.scene.load));
+      });
 }
 
 CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
@@ -150,7 +150,7 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
   }
   result.recommendation = {
       place, fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
-                         to_string(own.closure), 1e3 * mesh)};
+                         study::to_string(own.closure), 1e3 * mesh)};
 }
 
 /// What the misfits and the meshes say of the two closures with the scene's own kinetics.
@@ -182,15 +182,15 @@ void recommend(CalibrationResult& result) {
       "On the finest mesh ({:.6g} mm) \"{}\" misses the temperatures that nothing was fitted to by {:.4g} K "
       "(RMS), \"{}\" by "
       "{:.4g} K{}. {}",
-      1e3 * finest, to_string(better->closure), better->root_mean_square, to_string(other->closure),
-      other->root_mean_square,
+      1e3 * finest, study::to_string(better->closure), better->root_mean_square,
+      study::to_string(other->closure), other->root_mean_square,
       std::isfinite(better->spread_root_mean_square) && std::isfinite(other->spread_root_mean_square)
           ? fmt::format("; the spreads by {:.4g} K and {:.4g} K", better->spread_root_mean_square,
                         other->spread_root_mean_square)
           : std::string{},
       separates ? "That separates them."
                 : fmt::format("A difference below {} K does not separate them, and the scene keeps \"{}\".",
-                              distinguishable_rms, to_string(better->closure)));
+                              distinguishable_rms, study::to_string(better->closure)));
   const double change = change_of(result, better->closure, kinetics);
   const double other_change = change_of(result, other->closure, kinetics);
   if (std::isfinite(change) && std::isfinite(other_change)) {
@@ -263,7 +263,7 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
                      scene.charge().kinetics.ignition_temperature};
   const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
-  for (const StudyCase& input : study.cases) {
+  for (const study::StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;
     if (result.load) run.input.scene = with_load(input.scene, *result.load);

@@ -13,7 +13,8 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::fitted_keys, study::StudyFile;
+
 namespace {
 
 scene::InputError missing(const StudyFile& study, std::string found, std::string allowed) {
@@ -51,7 +52,7 @@ scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) 
   CalibrationTargets targets;
   double safe = -1.0, igniting = 1e300;
   int zero = 0, wide = 0;
-  for (const Reference& row : study.study.references) {
+  for (const study::Reference& row : study.study.references) {
     if (row.ignited()) {
       igniting = std::min(igniting, row.gap);
       continue;
@@ -138,7 +139,9 @@ Fault read_calibration(const StudySource& source, StudyFile& study) {
   return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
 }
 
-std::string mesh_label(const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }
+std::string mesh_label(const study::StudyCase& made) {
+  return fmt::format("{:.6g} mm", 1e3 * made.cell_size);
+}
 
 Fault make_calibration_cases(const StudySource&, StudyFile& study) {
   if (has_firings(study.study)) return make_firing_cases(study);
@@ -160,7 +163,7 @@ std::vector<Failure> firing_failures(const FiringResult& result) {
   return failures;
 }
 
-StudyOutcome run(const StudyFile& study, const StudyOptions& options) {
+StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
   return has_firings(study.study) ? outcome_of<run_firings, firing_failures>(study, options)
                                   : outcome_of<run_calibration, calibration_failures>(study, options);
 }

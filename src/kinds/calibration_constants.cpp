@@ -12,9 +12,6 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
-
 namespace {
 
 constexpr double tightness = 1e-7;  ///< K, how well the fitted rows are met at least
@@ -66,7 +63,7 @@ CalibratedConstants failed(CalibratedConstants result, std::string why) {
 /// Alternates the two fits until both rows are met; empty when they are.
 std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
                      const CalibrationTargets& targets, CalibratedConstants& result) {
-  const auto misfit = [&](const Reference& row) {
+  const auto misfit = [&](const study::Reference& row) {
     return maximum_at(model, trace, row.gap) - row.maximum_temperature;
   };
   for (int round = 0; round < most_rounds; ++round) {
@@ -119,7 +116,7 @@ std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace&
   const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
   if (std::string failure = text_of(fit); !failure.empty()) return failure;
   set(fit.unknowns);
-  const auto misfit = [&](const Reference& row) {
+  const auto misfit = [&](const study::Reference& row) {
     return maximum_at(model, trace, row.gap) - row.maximum_temperature;
   };
   result.zero_gap_misfit = misfit(targets.zero_gap);

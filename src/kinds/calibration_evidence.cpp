@@ -9,13 +9,11 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-
 namespace {
 
-std::string digest_of(const std::vector<Reference>& references) {
+std::string digest_of(const std::vector<study::Reference>& references) {
   std::string text;
-  for (const Reference& row : references) {
+  for (const study::Reference& row : references) {
     text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
                         row.early_temperature, row.early_point, row.spread, row.early_spread,
                         row.ignition_time, row.rise_begins, row.rise_ends, row.calibrated, row.selection);
@@ -36,22 +34,22 @@ scene::Scene calibrated_scene(const CalibrationResult& result, const Calibration
 
 }  // namespace
 
-std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
+std::optional<study::CalibrationRecord> record_of(const CalibrationResult& result) {
   const auto targets = calibration_targets(result.study);
   if (!targets || result.interrupted) return std::nullopt;
-  CalibrationRecord record;
+  study::CalibrationRecord record;
   record.title = result.study.study.title;
   record.model_version = run::model_version;
   record.load_fitted = result.load.has_value();
   record.references_digest = digest_of(result.study.study.references);
   if (!result.recommendation.row) {
     record.failure = result.recommendation.reason;
-    record.calibration = {result.study.scene.scene, no_evidence};
+    record.calibration = {result.study.scene.scene, study::no_evidence};
     return record;
   }
   const CalibrationRow& row = *result.recommended();
   record.calibration.scene = calibrated_scene(result, row);
-  CalibrationEvidence& evidence = record.calibration.evidence;
+  study::CalibrationEvidence& evidence = record.calibration.evidence;
   evidence.friction_rise =
       targets->zero_gap.maximum_temperature - record.calibration.scene.initial_temperature;
   evidence.air_rise = targets->wide_gap.maximum_temperature - targets->zero_gap.maximum_temperature;
@@ -65,7 +63,7 @@ std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
   const double half = 0.5 * (record.ignition_highest - record.ignition_lowest);
   // Without a misfit that tells, that of the shipped calibration stays.
   evidence.fit_uncertainty =
-      std::max(half, misfits.count > 0 ? misfits.bound() : CalibrationEvidence{}.fit_uncertainty);
+      std::max(half, misfits.count > 0 ? misfits.bound() : study::CalibrationEvidence{}.fit_uncertainty);
   record.selection_root_mean_square = row.selection_root_mean_square;
   record.stations = result.stations;
   return record;

@@ -15,7 +15,8 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::FinishedRun, study::fitted_keys, study::StudyFile, study::StudyOptions, study::Timing;
+
 namespace {
 
 /// The load and the constants of one trial.
@@ -115,15 +116,15 @@ class LoadTrials {
     std::map<LoadNumbers, scene::Load> untried;
     for (const scene::Load& load : loads)
       if (!traces_.contains(numbers_of(load))) untried[numbers_of(load)] = load;
-    std::vector<CaseRuns> cases;
+    std::vector<study::CaseRuns> cases;
     std::vector<scene::Load> tried;
     for (const auto& [numbers, load] : untried) {
-      CaseRun run = mechanics_run(scene_under(load), label_of(load));
+      study::CaseRun run = study::mechanics_run(scene_under(load), label_of(load));
       cases.push_back({{}, {planned_run(std::move(run))}, options_.shard.index});
       tried.push_back(load);
     }
     std::vector<FinishedRun> finished(tried.size());
-    ProgressTracker untold({});
+    study::ProgressTracker untold({});
     run_cases(cases, options_, untold, timing_,
               [&](std::size_t i, std::vector<FinishedRun>& runs) { finished[i] = std::move(runs.front()); });
     for (std::size_t i = 0; i < tried.size(); ++i) {

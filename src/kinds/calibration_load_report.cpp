@@ -12,8 +12,10 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::Quantities;
+using study::fitted_keys;
+namespace quantity = report::quantity;
+
 namespace {
 
 bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
@@ -28,12 +30,12 @@ Quantities<FittedRow> fitted_quantities() {
   Quantities<FittedRow> quantities{
       {{"key", "key", keys::text(), "Key of the scene."},
        [](const FittedRow& row) { return std::string(fitted_keys[row.place]); }},
-      {{"standard_deviation", "standard deviation", keys::fixed(2, percent), "Of its logarithm."},
+      {{"standard_deviation", "standard deviation", keys::fixed(2, keys::percent), "Of its logarithm."},
        [](const FittedRow& row) { return row.load->deviation(row.place); }}};
   for (std::size_t other = 0; other < fitted_keys.size(); ++other) {
     const std::string key(fitted_keys[other]);
     quantities.emplace_back(
-        Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
+        report::Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
         [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
   }
   return quantities;
@@ -41,22 +43,24 @@ Quantities<FittedRow> fitted_quantities() {
 
 }  // namespace
 
-std::vector<Column> fitted_columns() { return keys::described(fitted_quantities()); }
+std::vector<report::Column> fitted_columns() { return keys::described(fitted_quantities()); }
 
-Table fitted_table(const CalibrationResult& result) {
+report::Table fitted_table(const CalibrationResult& result) {
   if (!has_load(result)) return {};
   std::vector<FittedRow> rows;
   for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
-  Table table = table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
+  report::Table table =
+      report::table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
   table.notes = said("calibration.note.fitted");
   return table;
 }
 
 std::string fit_text(const CalibrationResult& result) {
   if (!has_load(result)) return {};
-  Row facts = load_json(result);
-  facts.update({{"temperature_weight_K", temperature_weight},
-                {"instant_weight_ms", shown_value(instant_weight, keys::significant(6, millisecond))}});
+  report::Row facts = load_json(result);
+  facts.update(
+      {{"temperature_weight_K", temperature_weight},
+       {"instant_weight_ms", report::shown_value(instant_weight, keys::significant(6, keys::millisecond))}});
   return said_below("calibration.fit", facts);
 }
 
@@ -75,18 +79,18 @@ nlohmann::ordered_json load_json(const CalibrationResult& result) {
       {quantity::load_peak_time(), &FittedLoad::peak_time},
       {quantity::load_width(), &FittedLoad::width},
       {quantity::load_steepness(), &FittedLoad::steepness},
-      {{"numbers", "numbers", count(), "Published numbers that were fitted to."}, &FittedLoad::numbers},
+      {{"numbers", "numbers", keys::count(), "Published numbers that were fitted to."}, &FittedLoad::numbers},
       {{"sum_of_squares", "sum of squares", keys::fixed(2), "Of what is left, over the weights."},
        &FittedLoad::sum_of_squares},
       {{"condition", "condition", keys::fixed(0), "Of the fit, in logarithms."}, &FittedLoad::condition},
-      {{"base_change", "change of the base", keys::significant(2, megapascal),
+      {{"base_change", "change of the base", keys::significant(2, keys::megapascal),
         "By which load.base would move as a sixth unknown."},
        &FittedLoad::base_change},
       {{"base_gain", "gain", keys::significant(2), "By which the sum of squares would fall."},
        &FittedLoad::base_gain},
-      {{"runs", "runs", count(), "Mechanical runs that it took."}, &FittedLoad::runs},
+      {{"runs", "runs", keys::count(), "Mechanical runs that it took."}, &FittedLoad::runs},
       {quantity::reason(), &FittedLoad::failure}};
-  nlohmann::ordered_json json = json_of(quantities, *result.load);
+  nlohmann::ordered_json json = report::json_of(quantities, *result.load);
   json["covariance_of_logarithms"] = result.load->covariance;
   json["frozen_at"] = settings_of<CalibrationSettings>(result.study.study).frozen_at;
   return json;

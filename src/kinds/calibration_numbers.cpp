@@ -7,7 +7,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Reference;
 
 namespace {
 

@@ -13,8 +13,12 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::fixed, keys::kelvin, keys::millisecond, keys::percent, keys::significant, keys::text;
+using report::in_words, report::json_of, report::Quantities, report::ReportTable, report::Row, report::Shown,
+    report::Statement, report::Table, report::table_of;
+using study::StationConvergence;
+namespace quantity = report::quantity;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -33,8 +37,6 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
   return value >= own.ignition_lowest && value <= own.ignition_highest ? "inside" : "outside";
 }
 
-using keys::fixed, keys::significant, keys::text;
-
 /// What tells one calibration from another.
 Quantities<CalibrationRow> calibration_setting_quantities() {
   return {{quantity::cell_size(), &CalibrationRow::cell_size},
@@ -51,7 +53,7 @@ Quantities<Constants> constant_quantities() {
 Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
   const auto left_over = [](const char* name, const char* heading, const char* meaning) {
     return for_programs(
-        Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
+        report::Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
   };
   return keys::joined<CalibrationRow>(
       {calibration_setting_quantities(),
@@ -108,12 +110,13 @@ Quantities<RowOf<Compared>> with_setting(const Quantities<Compared>& quantities)
 Quantities<ComparedNumber> compared_quantities() {
   const auto form = [](const ComparedNumber& row) { return fixed(2, row.in_seconds ? millisecond : kelvin); };
   const auto in_unit = [form](auto member) {
-    return [=](const ComparedNumber& row) { return shown_value(std::invoke(member, row), form(row)); };
+    return
+        [=](const ComparedNumber& row) { return report::shown_value(std::invoke(member, row), form(row)); };
   };
   return {{quantity::subject(), &ComparedNumber::quantity},
           {quantity::gap(), &ComparedNumber::gap},
           {{"computed", "computed", fixed(2), "Computed number."}, in_unit(&ComparedNumber::computed)},
-          {always({"published", "published", fixed(2), "Published number."}),
+          {keys::always({"published", "published", fixed(2), "Published number."}),
            in_unit(&ComparedNumber::published)},
           {{"computed_minus_published", "computed - published", fixed(2), "Their difference."},
            in_unit(&ComparedNumber::misfit)},
@@ -133,7 +136,7 @@ Table compared_table(const CalibrationResult& result, const CalibrationRow& row)
   Row facts{{"places", Row::array()}, {"without_rows", result.study.study.references.empty()}};
   for (const Placement& each : row.placements)
     facts["places"].push_back({{"quantity", each.quantity},
-                               {"gap", centimetres(each.gap)},
+                               {"gap", report::centimetres(each.gap)},
                                {"computed", each.computed},
                                {"published", each.published}});
   table.notes = said("calibration.note.compared", facts);
@@ -186,17 +189,17 @@ Json in_scene_json(const CalibrationResult& result) {
   return json;
 }
 
-Json stations_json(const study::StationConvergence& stations) {
-  Json json = json_of<study::StationConvergence>(
-      {{named("change_to_finer", quantity::change_to_finer()), &study::StationConvergence::finer},
-       {named("change_from_coarser", quantity::change_from_coarser()), &study::StationConvergence::coarser}},
+Json stations_json(const StationConvergence& stations) {
+  Json json = json_of<StationConvergence>(
+      {{named("change_to_finer", quantity::change_to_finer()), &StationConvergence::finer},
+       {named("change_from_coarser", quantity::change_from_coarser()), &StationConvergence::coarser}},
       stations);
   json["converge"] = stations.converges();
   return json;
 }
 
 Table run_table(const CalibrationResult& result) {
-  std::vector<NamedRun> runs;
+  std::vector<report::NamedRun> runs;
   for (const CalibrationRun& run : result.runs)
     runs.push_back({run.input.label, run.failure, &run.mechanics, {}});
   return report::run_table(runs);
@@ -215,7 +218,7 @@ Table table_of_all(const CalibrationResult& result, const Quantities<Compared>& 
 /// A constant that was calibrated, beside that of the scene.
 struct ConstantRow {
   std::string key, calibrated, in_scene;
-  double difference = not_a_number;  ///< as a share of the calibrated one
+  double difference = study::not_a_number;  ///< as a share of the calibrated one
 };
 
 Quantities<ConstantRow> scene_quantities() {
@@ -262,8 +265,8 @@ std::string answer(const CalibrationResult& result) {
   return said("calibration.answer", facts).front();
 }
 
-Report report_of(const CalibrationResult& result) {
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+report::Report report_of(const CalibrationResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
   report.items.push_back(Statement{said_below("calibration.stations", stations_json(result.stations))});
@@ -287,15 +290,15 @@ Report report_of(const CalibrationResult& result) {
   report.items.push_back(
       ReportTable{table_of_all(result, placement_quantities(), &CalibrationRow::placements), "", "placements",
                   Shown::file});
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result), "", "runs", Shown::page});
-  report.items.push_back(Statement{timing_sentence(result.timing)});
+  report.items.push_back(Statement{report::timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"recommendation", recommendation_json(result)},
                             {"in_scene", in_scene_json(result)},
                             {"load", load_json(result)},
                             {"stations", stations_json(result.stations)},
-                            {"timing", timing_json(result.timing)}});
+                            {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
@@ -309,7 +312,7 @@ std::vector<ResultTable> calibration_results() {
       {"convergence", "", keys::described(convergence_quantities())},
       {"compared", "compared.csv", keys::described(with_setting(compared_quantities()))},
       {"placements", "", keys::described(with_setting(placement_quantities()))},
-      {"runs", "", run_columns()}};
+      {"runs", "", report::run_columns()}};
   results.insert(results.end(), of_rows.begin(), of_rows.end());
   return results;
 }

@@ -13,7 +13,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::not_a_number, study::Reference, study::Study, study::Use;
 
 namespace {
 

@@ -16,7 +16,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::StudyFile;
 
 namespace {
 
@@ -31,11 +31,13 @@ std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
 }
 
 /// The record of a calibration, with or without constants.
-scene::Expected<CalibrationRecord> read_calibration_record(const StudyFile& study, const StudySource& source,
-                                                           const std::string& name, const std::string& key) {
+scene::Expected<study::CalibrationRecord> read_calibration_record(const StudyFile& study,
+                                                                  const StudySource& source,
+                                                                  const std::string& name,
+                                                                  const std::string& key) {
   const auto text = read_named_file(study, source.folder, key, name, "the calibration.json of a calibration");
   if (!text) return text.error();
-  return parse_calibration_record(*text, (source.folder / name).string());
+  return study::parse_calibration_record(*text, (source.folder / name).string());
 }
 
 /// Makes the cases of one variant after another.
@@ -53,7 +55,7 @@ class VariantMaker {
   Fault add_variant(const toml::table& table, const std::string& key) {
     VariantText text;
     auto read = scene::read_table(table, variant_keys(), {"set", "accept"}, study_.file, text);
-    if (!read) return in_table(read.error(), "vary.variants");
+    if (!read) return study::in_table(read.error(), "vary.variants");
     for (const auto& [name, place] : *read) study_.places[key + "." + name] = place;
     for (const Variant& other : variants()) {
       if (other.name == text.name)
@@ -79,7 +81,7 @@ class VariantMaker {
   Fault check_gaps(const toml::table& table) const {
     const toml::node* set = table.get("set");
     if (!set || !set->is_table()) return std::nullopt;
-    for (const Leaf& leaf : leaves_as_written(*set->as_table())) {
+    for (const study::Leaf& leaf : study::leaves_as_written(*set->as_table())) {
       if (leaf.name != "gap.thickness") continue;
       return scene::error_at(scene::place_of(*leaf.node, study_.file), "vary.variants.set.gap.thickness",
                              "gaps of a variant", "the study's gaps, which all variants share");
@@ -91,10 +93,10 @@ class VariantMaker {
   Fault add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
             const toml::table& acceptances) {
     StudyFile own = start(calibration);
-    std::optional<AccuracyRecord> record;
+    std::optional<study::AccuracyRecord> record;
     if (Fault fault = settle_scene(source_, overrides, own, record)) return fault;
     if (Fault fault = check_load_axes(own)) return fault;
-    for (const Axis& axis : own.study.axes) {
+    for (const study::Axis& axis : own.study.axes) {
       if (own.overrides.contains(axis.key.name))
         return fault_at(study_, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
                         axis.key.name + " either here or there");
@@ -118,8 +120,8 @@ class VariantMaker {
     own.study = study_.study;
     own.study.settings.reset();
     own.study.implausible.clear();
-    own.study.calibration = shipped_calibration();
-    own.study.fit_uncertainty = not_a_number;  // of its own calibration
+    own.study.calibration = study::shipped_calibration();
+    own.study.fit_uncertainty = study::not_a_number;  // of its own calibration
     if (!calibration.empty()) own.study.calibration_record = calibration;
     own.file = study_.file;
     own.places = study_.places;
@@ -130,7 +132,7 @@ class VariantMaker {
   /// A variant accepts for itself.
   Fault accept_also(const toml::table& table, StudyFile& own) const {
     auto accepted = scene::read_acceptances(table, scene::acceptable_keys(own.scene.scene), study_.file);
-    if (!accepted) return in_table(accepted.error(), "vary.variants");
+    if (!accepted) return study::in_table(accepted.error(), "vary.variants");
     for (scene::Acceptance& each : *accepted) scene::accept(own.scene.scene.accepted, std::move(each));
     return std::nullopt;
   }
@@ -156,7 +158,7 @@ class VariantMaker {
       return fault_at(study_, "vary", fmt::format("\"{}\", which is the scene as it is", variant.name),
                       "a variant with set or calibration");
     variant.scene = own.scene.scene;
-    for (StudyCase each : own.cases) {
+    for (study::StudyCase each : own.cases) {
       each.label = variant.name + ": " + each.label;
       each.own_conditions = each.own_conditions && variants().empty();
       study_.cases.add(std::move(each));

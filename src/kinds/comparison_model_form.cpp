@@ -15,8 +15,11 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::centimetre, keys::kelvin, keys::significant, keys::text;
+using report::digits_of, report::Quantities, report::Table;
+using study::CalibrationRecord, study::ModelAlternative, study::ModelFormEntry, study::ModelFormRecord,
+    study::StationConvergence;
+namespace quantity = report::quantity;
 
 namespace {
 
@@ -27,9 +30,9 @@ struct ModelForm {
   double largest_gap;  ///< m, where the searches ended
 };
 
-using keys::significant, keys::text;
-
-std::string megapascals(double pressure) { return digits_of(pressure, quantity::peak_pressure().form); }
+std::string megapascals(double pressure) {
+  return report::digits_of(pressure, quantity::peak_pressure().form);
+}
 
 /// "0.0395", "none to 0.3", "ignites without a gap" or "not known"; cm.
 std::string gap_text(study::GapOrBound gap, double largest) {
@@ -39,19 +42,19 @@ std::string gap_text(study::GapOrBound gap, double largest) {
   return digits_of(gap, significant(4, centimetre));
 }
 
-const study::ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
+const ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
   const auto found = std::find_if(record.alternatives.begin(), record.alternatives.end(),
                                   [&](const auto& each) { return each.name == name; });
   return found == record.alternatives.end() ? nullptr : &*found;
 }
 
-constexpr std::size_t mark_count = static_cast<std::size_t>(Mark::cross) + 1;
+constexpr std::size_t mark_count = static_cast<std::size_t>(report::Mark::cross) + 1;
 
 /// m; critical gaps are bracketed to a tenth of it.
 constexpr double least_shift = 1e-6;
 
 /// Pressures at which an alternative ignites at smaller gaps than the default, in MPa.
-std::string towards_ignition(const ModelFormRecord& record, const study::ModelAlternative& alternative) {
+std::string towards_ignition(const ModelFormRecord& record, const ModelAlternative& alternative) {
   std::string pressures;
   for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
     if (!(alternative.critical_gap[i] < record.critical_gap[i] - least_shift)) continue;
@@ -60,11 +63,12 @@ std::string towards_ignition(const ModelFormRecord& record, const study::ModelAl
   return pressures;
 }
 
-std::string counts_for(const ModelFormRecord& record, const study::ModelAlternative* alternative) {
+std::string counts_for(const ModelFormRecord& record, const ModelAlternative* alternative) {
   if (alternative == nullptr) return "the default";
   if (!alternative->not_counted.empty()) return "no share; named only: " + alternative->not_counted;
   const std::string pressures = towards_ignition(record, *alternative);
-  if (pressures.empty()) return "no share: nowhere towards ignition by more than " + centimetres(least_shift);
+  if (pressures.empty())
+    return "no share: nowhere towards ignition by more than " + report::centimetres(least_shift);
   return "a share: towards ignition at " + pressures + " " + quantity::peak_pressure().form.unit;
 }
 
@@ -80,13 +84,14 @@ Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
       {{"model", "model", text(), "The model."}, &ModelRow::name},
       {{"what_it_is", "what it is", text(), "What it does otherwise."}, &ModelRow::title}};
   for (std::size_t i = 0; i < pressures.size(); ++i) {
-    const std::string pressure = in_words(pressures[i], quantity::peak_pressure().form);
-    quantities.emplace_back(Column{"critical_gap_at_" + keys::key_text(pressure), pressure, text(),
-                                   "Critical gap, cm, or its bound at that peak pressure."},
+    const std::string pressure = report::in_words(pressures[i], quantity::peak_pressure().form);
+    quantities.emplace_back(report::Column{"critical_gap_at_" + keys::key_text(pressure), pressure, text(),
+                                           "Critical gap, cm, or its bound at that peak pressure."},
                             [i](const ModelRow& row) { return row.gaps[i]; });
   }
-  quantities.emplace_back(Column{"counts_as", "counts as", text(), "Whether verdicts carry a share for it."},
-                          &ModelRow::counts_as);
+  quantities.emplace_back(
+      report::Column{"counts_as", "counts as", text(), "Whether verdicts carry a share for it."},
+      &ModelRow::counts_as);
   return quantities;
 }
 
@@ -106,8 +111,8 @@ Table model_form_table(const ModelForm& form) {
                                               : digits_of(most.gap, significant(3, centimetre)));
   }
   rows.push_back(std::move(shift));
-  return table_of("Critical gap [cm] by model and peak pressure",
-                  model_quantities(form.record.peak_pressures), rows);
+  return report::table_of("Critical gap [cm] by model and peak pressure",
+                          model_quantities(form.record.peak_pressures), rows);
 }
 
 /// A model that was calibrated.
@@ -149,29 +154,30 @@ Table model_constants_table(const ModelForm& form) {
   std::vector<CalibratedModel> rows;
   for (const ModelFormEntry& each : form.entries)
     if (each.calibration->failure.empty()) rows.push_back(&each);
-  Table table =
-      table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(), rows);
+  Table table = report::table_of("Constants of each model, calibrated by the same rule",
+                                 model_constant_quantities(), rows);
   table.notes = said("comparison.note.constants");
   return table;
 }
 
-Plot model_form_plot(const ModelForm& form) {
-  Plot plot;
+report::Plot model_form_plot(const ModelForm& form) {
+  report::Plot plot;
   plot.title = "Critical gap by model, each calibrated by the same rule";
   plot.x.label = headed("peak pressure", quantity::peak_pressure()).label();
   plot.y.label = quantity::critical_gap().label();
   plot.y.minimum = 0.0;
   plot.height = 620;
   for (const ModelFormEntry& each : form.entries) {
-    Series series{each.name, {}, {}, Style::line_and_points};
+    report::Series series{each.name, {}, {}, report::Style::line_and_points};
     // More models than colours: marks repeat at another length, so that no two lines look alike.
-    series.mark = static_cast<Mark>(plot.series.size() % mark_count);
-    const study::ModelAlternative* alternative = alternative_of(form.record, each.name);
-    if (alternative != nullptr && !alternative->not_counted.empty()) series.style = Style::dashed_line;
+    series.mark = static_cast<report::Mark>(plot.series.size() % mark_count);
+    const ModelAlternative* alternative = alternative_of(form.record, each.name);
+    if (alternative != nullptr && !alternative->not_counted.empty())
+      series.style = report::Style::dashed_line;
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
-      series.add(shown_value(form.record.peak_pressures[i], quantity::peak_pressure().form),
-                 shown_gap(each.critical_gap[i]));
+      series.add(report::shown_value(form.record.peak_pressures[i], quantity::peak_pressure().form),
+                 report::shown_gap(each.critical_gap[i]));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
@@ -210,7 +216,7 @@ std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::stri
   }
   std::vector<double> pressures;
   for (const std::size_t i : order) pressures.push_back(result.study.cases[i].peak_pressure);
-  ModelFormOrError made = make_model_form(form.entries, std::move(pressures));
+  study::ModelFormOrError made = make_model_form(form.entries, std::move(pressures));
   reason = std::move(made.error);
   if (!made.record) return std::nullopt;
   form.record = std::move(*made.record);
@@ -219,19 +225,20 @@ std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::stri
 
 }  // namespace
 
-void add_model_form(const ComparisonResult& result, Report& report) {
+void add_model_form(const ComparisonResult& result, report::Report& report) {
   if (!is_of_models(result)) return;
   std::string reason;
   const std::optional<ModelForm> form = model_form_of(result, reason);
   if (!form) {
-    report.items.push_back(Statement{"There is no record of other models: " + reason + ".\n"});
+    report.items.push_back(report::Statement{"There is no record of other models: " + reason + ".\n"});
     return;
   }
   report.files.push_back({"model_form.json", to_json_text(form->record)});
-  report.items.push_back(Statement{"## Other models\n\n" + said_below("comparison.models")});
-  report.items.push_back(ReportTable{model_form_table(*form), "model_form.csv", "models"});
-  report.items.push_back(Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
-  report.items.push_back(ReportTable{model_constants_table(*form), "", "constants", Shown::page});
+  report.items.push_back(report::Statement{"## Other models\n\n" + said_below("comparison.models")});
+  report.items.push_back(report::ReportTable{model_form_table(*form), "model_form.csv", "models"});
+  report.items.push_back(report::Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
+  report.items.push_back(
+      report::ReportTable{model_constants_table(*form), "", "constants", report::Shown::page});
 }
 
 std::vector<ResultTable> model_form_results() {

@@ -17,12 +17,12 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::fixed, keys::significant;
+using report::Quantities, report::ReportTable, report::Row, report::Statement, report::Table;
+using study::CaseAnswer, study::not_a_number, study::RunSummary, study::StationTemperature, study::Study;
+namespace quantity = report::quantity;
 
 namespace {
-
-using keys::fixed, keys::significant;
 
 /// A case of a comparison.
 struct CaseRow {
@@ -35,9 +35,9 @@ struct CaseRow {
 };
 
 /// Variant, and peak pressure where there are several.
-Quantities<CaseRow> place_quantities(const study::Study& study) {
+Quantities<CaseRow> place_quantities(const Study& study) {
   return keys::joined<CaseRow>({{{quantity::variant(), &CaseRow::variant}},
-                                of_part<CaseRow>(axis_quantities(study), &CaseRow::coordinates)});
+                                of_part<CaseRow>(report::axis_quantities(study), &CaseRow::coordinates)});
 }
 
 double hottest(const ComparedCase& each) {
@@ -50,11 +50,11 @@ double hottest(const ComparedCase& each) {
 
 /// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
 double shift_of(const ComparisonResult& result, std::size_t index) {
-  return value_of(result.answers[index].critical) -
-         value_of(result.answers[result.counterpart(index)].critical);
+  return report::value_of(result.answers[index].critical) -
+         report::value_of(result.answers[result.counterpart(index)].critical);
 }
 
-Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
+Quantities<CaseRow> compared_case_quantities(const Study& study) {
   const auto unless_own = [](double (*difference)(const CaseRow&)) {
     return [difference](const CaseRow& row) {
       return row.compared().variant == 0 ? not_a_number : difference(row);
@@ -62,12 +62,12 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
   };
   return keys::joined<CaseRow>(
       {place_quantities(study),
-       of_part<CaseRow>(critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
-       {{{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
+       of_part<CaseRow>(report::critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
+       {{{"critical_gap_difference", "less that of the scene", significant(3, keys::centimetre),
           "Critical gap minus that of the scene as it is."},
          unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
         {quantity::temperature_max_inert(), [](const CaseRow& row) { return hottest(row.compared()); }},
-        {{"temperature_max_inert_difference", "less that of the scene", fixed(1, kelvin),
+        {{"temperature_max_inert_difference", "less that of the scene", fixed(1, keys::kelvin),
           "The same minus that of the scene as it is."},
          unless_own([](const CaseRow& row) {
            return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
@@ -86,7 +86,7 @@ Quantities<CaseRow> compared_case_quantities(const study::Study& study) {
 Table comparison_table(const ComparisonResult& result) {
   std::vector<CaseRow> rows;
   for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
-  Table table = table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
+  Table table = report::table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
   table.notes = said("comparison.note.cases");
   return table;
 }
@@ -98,7 +98,7 @@ struct StationRow {
   const StationTemperature* station;
 };
 
-Quantities<StationRow> station_quantities(const study::Study& study) {
+Quantities<StationRow> station_quantities(const Study& study) {
   return keys::joined<StationRow>({of_part<StationRow>(place_quantities(study), &StationRow::of),
                                    {{quantity::gap(), &StationRow::gap},
                                     {quantity::station(), &StationRow::station, &StationTemperature::name},
@@ -115,7 +115,8 @@ Table station_table(const ComparisonResult& result) {
       for (const StationTemperature& each : stations[gap])
         rows.push_back({{&result, i}, result.study.study.gaps[gap], &each});
   }
-  return table_of("T max of every station, without reaction", station_quantities(result.study.study), rows);
+  return report::table_of("T max of every station, without reaction", station_quantities(result.study.study),
+                          rows);
 }
 
 /// Stations side by side at the largest gap: a column for each variant. Peak pressures are compared in the
@@ -132,16 +133,16 @@ Table stations_side_by_side(const ComparisonResult& result) {
       if (std::find(rows.begin(), rows.end(), station.name) == rows.end()) rows.push_back(station.name);
     if (result.counterpart(i) != 0) continue;
     const std::string& variant = result.variants()[each.variant].name;
-    quantities.emplace_back(Column{variant, variant, fixed(1), "T max of the station under that variant."},
-                            [&each, gap](const std::string& name) {
-                              if (each.stations.empty()) return not_a_number;
-                              const auto found =
-                                  std::ranges::find(each.stations[gap], name, &StationTemperature::name);
-                              return found == each.stations[gap].end() ? not_a_number : found->temperature;
-                            });
+    quantities.emplace_back(
+        report::Column{variant, variant, fixed(1), "T max of the station under that variant."},
+        [&each, gap](const std::string& name) {
+          if (each.stations.empty()) return not_a_number;
+          const auto found = std::ranges::find(each.stations[gap], name, &StationTemperature::name);
+          return found == each.stations[gap].end() ? not_a_number : found->temperature;
+        });
   }
-  Table table =
-      table_of("T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction", quantities, rows);
+  Table table = report::table_of(
+      "T max [K] by station at " + report::centimetres(gaps[gap]) + ", without reaction", quantities, rows);
   if (!result.study.study.axes.empty())
     table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
   return table;
@@ -159,14 +160,15 @@ std::string answer(const ComparisonResult& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const std::string& label = result.study.cases[i].label;
     if (result.answers[i].variant == 0) {
-      facts["own"].push_back({{"case", label}, {"critical_gap", reads_as(result.answers[i].critical)}});
+      facts["own"].push_back(
+          {{"case", label}, {"critical_gap", report::reads_as(result.answers[i].critical)}});
       continue;
     }
     const double shift = shift_of(result, i);
     unknown += std::isnan(shift);
     if (!(shift < least)) continue;
     least = shift;
-    facts["least"] = in_words(shift, significant(3, centimetre)) + ", of " + label;
+    facts["least"] = report::in_words(shift, significant(3, keys::centimetre)) + ", of " + label;
   }
   facts["unknown"] = unknown;
   return answer_of(said("comparison.answer", facts), result.study);
@@ -187,28 +189,28 @@ std::string variants_text(const ComparisonResult& result) {
 
 }  // namespace
 
-Report report_of(const ComparisonResult& result) {
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+report::Report report_of(const ComparisonResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {ReportTable{comparison_table(result), "comparison.csv", "cases"},
-                  ReportTable{station_table(result), "stations.csv", "stations", Shown::file}};
-  report.items.push_back(
-      ReportTable{.table = stations_side_by_side(result), .shown = Shown::page, .rest = "stations.csv"});
+                  ReportTable{station_table(result), "stations.csv", "stations", report::Shown::file}};
+  report.items.push_back(ReportTable{
+      .table = stations_side_by_side(result), .shown = report::Shown::page, .rest = "stations.csv"});
   add_model_form(result, report);
   report.items.push_back(Statement{"## Variants\n\n" + variants_text(result)});
-  report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
-  report.items.push_back(Statement{station_note(result.study) + "\n"});
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(Statement{timing_sentence(result.timing)});
-  report.json =
-      study_json(result.study, report,
-                 {{"axes", axes_json(result.study.study)},
-                  {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
-                  {"timing", timing_json(result.timing)}});
+  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
+  report.items.push_back(Statement{report::station_note(result.study) + "\n"});
+  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
+  report.items.push_back(Statement{report::timing_sentence(result.timing)});
+  report.json = study_json(
+      result.study, report,
+      {{"axes", report::axes_json(result.study.study)},
+       {"early_time_ms", report::shown_value(result.study.study.early_time, quantity::time(2).form)},
+       {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
 std::vector<ResultTable> comparison_results() {
-  const study::Study study;
+  const Study study;
   std::vector<ResultTable> tables{
       {"cases", "comparison.csv", keys::described(compared_case_quantities(study))},
       {"stations", "stations.csv", keys::described(station_quantities(study))}};

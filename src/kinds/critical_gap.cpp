@@ -15,21 +15,21 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::CaseOutcome, study::CaseRun, study::CaseRuns, study::Confirmation, study::FinishedRun,
+    study::ProgressTracker, study::StudyOptions;
 
 std::string label_with_skin(const CaseOutcome& outcome, double gap) {
-  return fmt::format("{}, coupled at {}", outcome.input.label, centimetres(gap));
+  return fmt::format("{}, coupled at {}", outcome.input.label, report::centimetres(gap));
 }
 
 bool CriticalGapResult::any_indeterminate() const {
-  return std::any_of(answers.begin(), answers.end(), is_indeterminate<CaseAnswer>);
+  return std::any_of(answers.begin(), answers.end(), is_indeterminate<study::CaseAnswer>);
 }
 
 namespace {
 
 /// One case on its runs: the mechanics, those under a raised load where there are, and of its longer launch.
-CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
+CaseOutcome judged(const study::Study& study, const study::StudyCase& input, std::vector<FinishedRun> runs) {
   std::optional<FinishedRun> longer_launch;
   if (scene::longer_launch(input.scene.scene.load)) {
     longer_launch = std::move(runs.back());
@@ -75,7 +75,7 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   if (!gaps.empty()) confirmation.combustion = gaps.front().combustion;
   // What breaks off by itself after it has ignited has ignited. How far a run that was cut off came depends
   // on the machine.
-  const bool cut_off = run.outcome != RunOutcome::ran && run.outcome != RunOutcome::reused;
+  const bool cut_off = run.outcome != study::RunOutcome::ran && run.outcome != study::RunOutcome::reused;
   if (!confirmation.failure.empty() && (cut_off || !confirmation.combustion)) return;
   if (gaps.empty() || !std::isfinite(gaps.front().at_stations.temperature)) {
     confirmation.failure = "its temperature is not a number";
@@ -95,12 +95,12 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
   std::vector<CaseRuns> runs;
   std::vector<std::pair<CaseOutcome*, std::size_t>> places;
   for (CaseOutcome& outcome : result.details) {
-    if (outcome.critical.kind != CriticalGapKind::value) continue;
+    if (outcome.critical.kind != study::CriticalGapKind::value) continue;
     outcome.confirmations = {expectation(outcome.critical.lower, false),
                              expectation(outcome.critical.upper, true)};
     for (std::size_t side = 0; side < 2; ++side) {
       const double gap = outcome.confirmations[side].gap;
-      CaseRun run = skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
+      CaseRun run = study::skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
       run.launch = &outcome.result.mechanics;
       if (run.launch->checkpoints) run.cost = continued_cost(run);
       runs.push_back({{}, {planned_run(std::move(run))}, options.shard.index});
@@ -116,7 +116,7 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
 
 /// The launches of gaps that close, for the cases that ask for them.
 void run_closing_gaps(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
-  const RunBatch run = [&](std::vector<CaseRun> runs) {
+  const study::RunBatch run = [&](std::vector<CaseRun> runs) {
     std::vector<FinishedRun> all(runs.size());
     std::vector<CaseRuns> tasks;
     for (CaseRun& each : runs) tasks.push_back({{}, {planned_run(std::move(each))}, options.shard.index});
@@ -131,7 +131,7 @@ void run_closing_gaps(CriticalGapResult& result, const StudyOptions& options, Pr
 }
 
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
-  const StudyFile& study = result.study;
+  const study::StudyFile& study = result.study;
   const bool confirm = study.confirmations_per_case > 0;
   ProgressTracker tracker(options.progress);
   result.details.resize(study.cases.size());
@@ -153,7 +153,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
 
 }  // namespace
 
-CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
+CriticalGapResult run_critical_gap(const study::StudyFile& study, const StudyOptions& options) {
   return run_timed<CriticalGapResult>(
       study, options,
       [&](CriticalGapResult& result) {

@@ -11,7 +11,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault;
 
 namespace {
 
@@ -30,12 +30,12 @@ std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
   };
 }
 
-Fault read_critical_gap(const StudySource& source, StudyFile& study) {
+Fault read_critical_gap(const StudySource& source, study::StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
   return read_cited_limits(source.root, study);
 }
 
-Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
+Fault make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
   if (settings_of<CriticalGapSettings>(study.study).surrogate)
     if (Fault fault = check_sweep_surrogate(study)) return fault;
   if (Fault fault = make_factorial(study)) return fault;
@@ -52,8 +52,8 @@ Fault make_critical_gap_cases(const StudySource&, StudyFile& study) {
 
 std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   std::vector<Failure> failures = failures_of(result);
-  for (const CaseOutcome& each : result.details) {
-    for (const Confirmation& confirmation : each.confirmations)
+  for (const study::CaseOutcome& each : result.details) {
+    for (const study::Confirmation& confirmation : each.confirmations)
       add_failure(failures, label_with_skin(each, confirmation.gap), confirmation.outcome,
                   confirmation.failure);
   }

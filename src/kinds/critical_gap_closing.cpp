@@ -10,11 +10,12 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
-namespace {
-
 using keys::fixed, keys::text;
+using report::Table;
+using study::CaseOutcome, study::ClosingAnswer, study::ClosingPoint, study::GapVerdict, study::not_a_number;
+namespace quantity = report::quantity;
+
+namespace {
 
 /// A gap of a case, under the reservoir and where it closes.
 struct ClosingRow {
@@ -46,12 +47,12 @@ std::string why_unknown(const ClosingRow& row) {
   return {};
 }
 
-Quantities<ClosingRow> closing_quantities() {
+report::Quantities<ClosingRow> closing_quantities() {
   const auto heading = [](const char* name, const char* label, const char* meaning) {
-    return Column{name, label, fixed(1, kelvin), meaning};
+    return report::Column{name, label, fixed(1, keys::kelvin), meaning};
   };
   return {
-      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &StudyCase::label},
+      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
       {quantity::gap(), &ClosingRow::gap},
       {heading("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
        [](const ClosingRow& row) {
@@ -68,7 +69,7 @@ Quantities<ClosingRow> closing_quantities() {
        temperature_of(corner)},
       {{"corner_place", "at", text(), "Station of that."},
        [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->place : std::string{}; }},
-      {{"corner_release", "release", fixed(2, millisecond), "Until when the charge is held there."},
+      {{"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there."},
        [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->release : not_a_number; }},
       {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
 }
@@ -79,21 +80,22 @@ struct BoundRow {
   const ClosingAnswer* answer;
 };
 
-Quantities<BoundRow> closing_bound_quantities() {
-  return {{quantity::case_name(), &BoundRow::outcome, &CaseOutcome::input, &StudyCase::label},
-          {{"bound", "where the gap closes", text(), "Terms on which it closes."},
-           [](const BoundRow& row) {
-             return said("critical_gap.closing_bound", {{row.answer->name, true}}).front();
-           }},
-          {{"no_ignition_up_to", "no ignition up to", keys::significant(4, centimetre),
-            "Largest gap below the first that ignites."},
-           &BoundRow::answer,
-           &ClosingAnswer::lower},
-          {{"ignition_from", "ignites at", keys::significant(4, centimetre), "Smallest gap that ignites."},
-           &BoundRow::answer,
-           &ClosingAnswer::upper},
-          {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
-           [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
+report::Quantities<BoundRow> closing_bound_quantities() {
+  return {
+      {quantity::case_name(), &BoundRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+      {{"bound", "where the gap closes", text(), "Terms on which it closes."},
+       [](const BoundRow& row) {
+         return said("critical_gap.closing_bound", {{row.answer->name, true}}).front();
+       }},
+      {{"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
+        "Largest gap below the first that ignites."},
+       &BoundRow::answer,
+       &ClosingAnswer::lower},
+      {{"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites."},
+       &BoundRow::answer,
+       &ClosingAnswer::upper},
+      {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
+       [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
 }
 
 }  // namespace
@@ -105,7 +107,7 @@ Table closing_table(const CriticalGapResult& result) {
     for (const ClosingPoint& point : outcome.closing.front().points)
       if (outcome.closing[corner].at(point.gap) != nullptr) rows.push_back({&outcome, point.gap});
   }
-  Table table = table_of("Where the gap closes", closing_quantities(), rows);
+  Table table = report::table_of("Where the gap closes", closing_quantities(), rows);
   if (!rows.empty()) table.notes = said("critical_gap.note.closing");
   return table;
 }
@@ -114,13 +116,13 @@ Table closing_bound_table(const CriticalGapResult& result) {
   std::vector<BoundRow> rows;
   for (const CaseOutcome& outcome : result.details)
     for (const ClosingAnswer& answer : outcome.closing) rows.push_back({&outcome, &answer});
-  return table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
+  return report::table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
 }
 
-std::optional<Plot> closing_plot(const CriticalGapResult& result) {
+std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
   const CaseOutcome& outcome = result.details.front();
-  Plot plot;
+  report::Plot plot;
   plot.title = "Highest temperature where the gap closes";
   plot.subtitle = "what ignites is drawn above the ignition temperature";
   plot.x.label = quantity::gap().label();
@@ -128,19 +130,19 @@ std::optional<Plot> closing_plot(const CriticalGapResult& result) {
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
   // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
   const double burning = ignition + 20.0;
-  Series reservoir{"reservoir, as published"};
+  report::Series reservoir{"reservoir, as published"};
   for (const GapVerdict& row : outcome.verdicts)
-    reservoir.add(shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
+    reservoir.add(report::shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
   plot.series.push_back(std::move(reservoir));
   for (const ClosingAnswer& answer : outcome.closing) {
-    Series series{said("critical_gap.closing_bound", {{answer.name, true}}).front()};
+    report::Series series{said("critical_gap.closing_bound", {{answer.name, true}}).front()};
     for (const ClosingPoint& point : answer.points)
       if (point.ignited || std::isfinite(point.maximum_temperature))
-        series.add(shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
+        series.add(report::shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
     plot.series.push_back(std::move(series));
   }
   plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin))});
+      {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
   return plot;
 }
 

@@ -16,39 +16,42 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::fixed, keys::kelvin, keys::scientific, keys::text;
+using report::centimetres, report::Column, report::Quantities, report::reads_as, report::ReportTable,
+    report::Row, report::Shown, report::Table, report::table_of;
+using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::GapVerdict, study::Line,
+    study::StudyCase;
+namespace quantity = report::quantity;
+
 namespace {
 
-using keys::fixed, keys::scientific, keys::text;
 using NamedOutcome = const CaseOutcome*;
 
 /// One gap of a case with one constant as calibrated.
 struct CalibratedRow {
-  const study::CaseOutcome* outcome;
-  const study::GapVerdict* gap;
-  const study::AsCalibrated* constant;
+  const CaseOutcome* outcome;
+  const GapVerdict* gap;
+  const AsCalibrated* constant;
 };
 
 Quantities<CalibratedRow> calibrated_quantities() {
   using keys::text;
-  return {
-      {quantity::case_name(), &CalibratedRow::outcome, &study::CaseOutcome::input, &study::StudyCase::label},
-      {quantity::gap(), &CalibratedRow::gap, &study::GapVerdict::gap},
-      {quantity::verdict(), &CalibratedRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
-      {{"key", "constant", text(), "The constant that is put back."},
-       [](const CalibratedRow& row) {
-         return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
-       }},
-      {quantity::temperature_max(),
-       [](const CalibratedRow& row) { return known(row.gap->maximum.temperature); }},
-      {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
-        "Highest temperature with that constant as calibrated."},
-       &CalibratedRow::constant,
-       &study::AsCalibrated::temperature},
-      {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
-       &CalibratedRow::constant,
-       &study::AsCalibrated::ignites}};
+  return {{quantity::case_name(), &CalibratedRow::outcome, &CaseOutcome::input, &StudyCase::label},
+          {quantity::gap(), &CalibratedRow::gap, &GapVerdict::gap},
+          {quantity::verdict(), &CalibratedRow::gap, &GapVerdict::judgement, &study::Judgement::verdict},
+          {{"key", "constant", text(), "The constant that is put back."},
+           [](const CalibratedRow& row) {
+             return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
+           }},
+          {quantity::temperature_max(),
+           [](const CalibratedRow& row) { return report::known(row.gap->maximum.temperature); }},
+          {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+            "Highest temperature with that constant as calibrated."},
+           &CalibratedRow::constant,
+           &AsCalibrated::temperature},
+          {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
+           &CalibratedRow::constant,
+           &AsCalibrated::ignites}};
 }
 
 std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
@@ -72,12 +75,12 @@ Quantities<CoupledRow> coupled_quantities() {
         {{"outcome", "outcome", text(), "What the coupled run did."},
          [](const CoupledRow& row) { return outcome_word(*row.run); }},
         {quantity::temperature_max(),
-         [](const CoupledRow& row) { return known(row.run->maximum_temperature); }},
+         [](const CoupledRow& row) { return report::known(row.run->maximum_temperature); }},
         {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
           "T max of the coupled run less that on the trace; none where either ignited."},
          &CoupledRow::run,
          &Confirmation::difference}},
-       of_part<CoupledRow>(burnt_state_quantities(), &CoupledRow::run,
+       of_part<CoupledRow>(report::burnt_state_quantities(), &CoupledRow::run,
                            [](const Confirmation& run) {
                              const auto& combustion = run.combustion;
                              return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
@@ -93,7 +96,7 @@ struct OtherRow {
 
 /// T max with and without those terms. `name`: of what stands beside the answer.
 Quantities<OtherRow> other_quantities(Column usual, Column other,
-                                      std::optional<OtherAnswer> CaseOutcome::*member) {
+                                      std::optional<study::OtherAnswer> CaseOutcome::*member) {
   return {
       {quantity::case_name(), &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
       {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
@@ -126,7 +129,7 @@ Quantities<OtherRow> longer_launch_quantities() {
 /// A line over the gap; only that of least squares has errors.
 struct FittedLine {
   std::string label, name;
-  const study::Line* line;
+  const Line* line;
   const math::LeastSquares* errors = nullptr;
 };
 
@@ -134,27 +137,28 @@ Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
   Quantities<FittedLine> quantities{
       {for_programs(quantity::case_name()), &FittedLine::label},
       {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
-      {{"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap."},
+      {{"slope", "slope", fixed(1, keys::kelvin_per_centimetre), "Rise of T max over the gap."},
        &FittedLine::line,
-       &study::Line::slope},
+       &Line::slope},
       {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."},
        &FittedLine::line,
-       &study::Line::intercept},
+       &Line::intercept},
       {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
        &FittedLine::line,
-       &study::Line::root_mean_square}};
+       &Line::root_mean_square}};
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Form form = quantity::gap().form;
-    quantities.emplace_back(
-        Column{"residual_" + digits_of(gaps[i], form) + "_" + form.unit,
-               "residual " + digits_of(gaps[i], form), fixed(2, kelvin), "T max at that gap less the line."},
-        [i](const FittedLine& row) {
-          return i < row.line->residuals.size() ? row.line->residuals[i] : not_a_number;
-        });
+    const keys::Form form = quantity::gap().form;
+    quantities.emplace_back(Column{"residual_" + report::digits_of(gaps[i], form) + "_" + form.unit,
+                                   "residual " + report::digits_of(gaps[i], form), fixed(2, kelvin),
+                                   "T max at that gap less the line."},
+                            [i](const FittedLine& row) {
+                              return i < row.line->residuals.size() ? row.line->residuals[i]
+                                                                    : study::not_a_number;
+                            });
   }
   return keys::joined<FittedLine>(
       {quantities,
-       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre),
+       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, keys::kelvin_per_centimetre),
                              "Standard error of the slope."}),
          &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[1]; }},
         {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
@@ -178,7 +182,7 @@ Table as_calibrated_table(const CriticalGapResult& result) {
 }
 
 Table air_energy_table(const CriticalGapResult& result) {
-  std::vector<AuditedGap> gaps;
+  std::vector<report::AuditedGap> gaps;
   for (const CaseOutcome& outcome : result.details) {
     const std::string label = result.details.size() > 1 ? outcome.input.label : std::string{};
     for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
@@ -189,7 +193,7 @@ Table air_energy_table(const CriticalGapResult& result) {
 
 /// Answers on other terms, where a case has them.
 Table other_table(const CriticalGapResult& result, const char* title, const Quantities<OtherRow>& quantities,
-                  std::optional<OtherAnswer> CaseOutcome::*member, const char* note) {
+                  std::optional<study::OtherAnswer> CaseOutcome::*member, const char* note) {
   std::vector<OtherRow> rows;
   Row facts = Row::object();
   for (const CaseOutcome& outcome : result.details) {
@@ -228,12 +232,12 @@ Table fit_table(const CaseOutcome& outcome) {
   const Quantities<FittedLine> quantities = line_quantities(fit.gaps);
   Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
                          quantities, rows);
-  table.notes = said("critical_gap.note.fit", json_of(quantities, rows.front()));
+  table.notes = said("critical_gap.note.fit", report::json_of(quantities, rows.front()));
   return table;
 }
 
 Table run_table(const CriticalGapResult& result) {
-  std::vector<NamedRun> runs;
+  std::vector<report::NamedRun> runs;
   for (const CaseOutcome& outcome : result.details)
     runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
                     outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
@@ -241,12 +245,12 @@ Table run_table(const CriticalGapResult& result) {
 }
 
 Table gap_share_table(const CriticalGapResult& result) {
-  std::vector<NamedGap> cases;
+  std::vector<report::NamedGap> cases;
   for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
   return report::gap_share_table(cases);
 }
 
-bool is_within_bounds(const CaseOutcome& outcome, const study::GapVerdict& row) {
+bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
          row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
@@ -258,10 +262,10 @@ std::string undecided_text(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.details) {
     const study::CriticalGap& gap = outcome.critical;
     Row row{{"case", outcome.input.label}, {"at_least", centimetres(gap.bounds.at_least)}};
-    for (const study::GapVerdict& each : outcome.verdicts)
+    for (const GapVerdict& each : outcome.verdicts)
       if (is_within_bounds(outcome, each)) row["gaps"].push_back(centimetres(each.gap));
     if (!row.contains("gaps")) continue;
-    const auto moves = [&](const GapShare& share) { return move_towards_ignition(gap.lower, share); };
+    const auto moves = [&](const study::GapShare& share) { return move_towards_ignition(gap.lower, share); };
     if (const auto largest = std::ranges::max_element(gap.shares, {}, moves); largest != gap.shares.end())
       row.update({{"moves", centimetres(moves(*largest))},
                   {"cause", traits_of(largest->kind).title},
@@ -282,7 +286,7 @@ Table coupled_run_table(const CriticalGapResult& result) {
       rows.push_back({&outcome, &each});
       if (!each.combustion || !notes.empty()) continue;
       const scene::Scene& scene = outcome.input.scene.scene;
-      notes = {flame_kinetics_note(scene)};
+      notes = {report::flame_kinetics_note(scene)};
       for (const std::string& warning : run::combustion_validity_warnings(scene, *each.combustion))
         notes.push_back(fmt::format("What follows ignition is indicative: {}.", warning));
     }
@@ -294,7 +298,7 @@ Table coupled_run_table(const CriticalGapResult& result) {
 std::string confirmation_text(const CaseOutcome& outcome) {
   if (outcome.confirmations.empty()) return "not confirmed";
   std::string text;
-  for (const study::Confirmation& each : outcome.confirmations)
+  for (const Confirmation& each : outcome.confirmations)
     text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), outcome_word(each));
   return text;
 }
@@ -302,17 +306,17 @@ std::string confirmation_text(const CaseOutcome& outcome) {
 std::string limiter_remark(const CriticalGapResult& result) {
   Row runs = Row::array();
   for (const CaseOutcome& outcome : result.details)
-    runs.push_back(
-        {{"case", outcome.input.label}, {"limiters", limiters_text(outcome.result.mechanics.limiters)}});
+    runs.push_back({{"case", outcome.input.label},
+                    {"limiters", report::limiters_text(outcome.result.mechanics.limiters)}});
   return said_below("critical_gap.limiters", {{"runs", runs}});
 }
 
-void add_details(const CriticalGapResult& result, Report& report) {
+void add_details(const CriticalGapResult& result, report::Report& report) {
   for (ReportTable table : {ReportTable{closing_bound_table(result), "closing_bounds.csv", "closing_bounds"},
                             ReportTable{closing_table(result), "closing.csv", "closing"}})
     if (!table.table.rows.empty()) report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
-    report.items.push_back(Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
+    report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
   for (ReportTable table : {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
                             ReportTable{without_exit_table(result), "", "without_exit"},
                             ReportTable{air_model_table(result), "", "air_models"},
@@ -321,17 +325,17 @@ void add_details(const CriticalGapResult& result, Report& report) {
     report.items.push_back(std::move(table));
   for (const CaseOutcome& outcome : result.details)
     report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});
-  report.items.push_back(Statement{undecided_text(result)});
+  report.items.push_back(report::Statement{undecided_text(result)});
 }
 
-void add_runs(const CriticalGapResult& result, Report& report) {
+void add_runs(const CriticalGapResult& result, report::Report& report) {
   for (const CaseOutcome& outcome : result.details) {
-    Table faces = interface_table(outcome.result.mechanics);
+    Table faces = report::interface_table(outcome.result.mechanics);
     if (result.details.size() > 1) faces.title += ", " + outcome.input.label;
     report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
   }
   report.items.push_back(ReportTable{run_table(result), "", "runs"});
-  report.items.push_back(Statement{timing_sentence(result.timing)});
+  report.items.push_back(report::Statement{report::timing_sentence(result.timing)});
 }
 
 std::vector<ResultTable> detail_results() {
@@ -339,10 +343,10 @@ std::vector<ResultTable> detail_results() {
                                {"as_calibrated", "", keys::described(calibrated_quantities())},
                                {"without_exit", "", keys::described(longer_launch_quantities())},
                                {"air_models", "", keys::described(film_quantities())},
-                               {"air_energy", "", air_energy_columns()},
-                               {"gap_shares", "", gap_share_columns()},
+                               {"air_energy", "", report::air_energy_columns()},
+                               {"gap_shares", "", report::gap_share_columns()},
                                {"fit", "", keys::described(line_quantities({}))},
-                               {"runs", "", run_columns()}};
+                               {"runs", "", report::run_columns()}};
   std::ranges::move(closing_results(), std::back_inserter(all));
   return all;
 }

@@ -11,12 +11,11 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::significant, keys::text;
+using report::Row;
+using study::StudyCase;
 
 namespace {
-
-using keys::significant, keys::text;
 
 /// Least and greatest of what was seen; nothing before the first.
 struct Range {
@@ -51,14 +50,14 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts count
   std::map<std::vector<double>, Line> lines;
   Range extent;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::StudyCase& input = result.study.cases[i];
+    const StudyCase& input = result.study.cases[i];
     const study::CaseAnswer& answer = result.answers[i];
     if (input.coordinates.size() <= axis || !answer.completed() || !counts(input)) continue;
     std::vector<double> others = input.coordinates;
     extent.add(others[axis]);
     others[axis] = 0.0;
     Line& line = lines[others];
-    line.critical.add(value_of(answer.critical));
+    line.critical.add(report::value_of(answer.critical));
     for (const study::GapVerdict& row : answer.verdicts) {
       if (row.ignition) line.ignited[row.gap] = true;
       line.temperature[row.gap].add(row.maximum.temperature);
@@ -77,27 +76,27 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts count
 /// What an axis changes.
 struct EffectRow {
   std::string axis;
-  ShownKey key;
+  report::ShownKey key;
   Effect effect;
 };
 
-Quantities<EffectRow> effect_quantities() {
+report::Quantities<EffectRow> effect_quantities() {
   return {{{"axis", "axis", text(), "The axis."}, &EffectRow::axis},
           {{"from", "from", text(), "Its lowest value."},
            [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
           {{"to", "to", text(), "Its highest value."},
            [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
-          {{"temperature_max_change", "T max by at most", significant(3, kelvin),
+          {{"temperature_max_change", "T max by at most", significant(3, keys::kelvin),
             "Largest change of T max over the axis, all else the same, where nothing ignites."},
            &EffectRow::effect,
            &Effect::temperature},
-          {{"critical_gap_change", "critical gap by at most", significant(3, centimetre),
+          {{"critical_gap_change", "critical gap by at most", significant(3, keys::centimetre),
             "Largest change of the critical gap over the axis, all else the same."},
            &EffectRow::effect,
            &Effect::critical}};
 }
 
-bool below_flaw(const study::StudyCase& input) { return input.crack_radius < input.flaw_size; }
+bool below_flaw(const StudyCase& input) { return input.crack_radius < input.flaw_size; }
 
 /// What there is to say of a crack radius that changes little below the flaw size; nothing where it changes
 /// much.
@@ -107,30 +106,30 @@ Row crack_facts(const CriticalGapResult& result, const Effect& below) {
   const bool friction_varies = std::ranges::any_of(result.study.study.axes, [](const study::Axis& axis) {
     return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
   });
-  return {{"temperature", in_words(below.temperature, significant(2, kelvin))},
-          {"critical_gap", in_words(below.critical, significant(2, centimetre))},
+  return {{"temperature", report::in_words(below.temperature, significant(2, keys::kelvin))},
+          {"critical_gap", report::in_words(below.critical, significant(2, keys::centimetre))},
           {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
 }
 
 }  // namespace
 
-std::vector<Column> axis_effect_columns() { return keys::described(effect_quantities()); }
+std::vector<report::Column> axis_effect_columns() { return keys::described(effect_quantities()); }
 
-Table axis_effect_table(const CriticalGapResult& result) {
+report::Table axis_effect_table(const CriticalGapResult& result) {
   std::vector<EffectRow> rows;
   Row facts = Row::object();
-  const auto keys = shown_axes(result.study.study);
-  const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
+  const auto keys = report::shown_axes(result.study.study);
+  const auto add = [&](const report::ShownKey& key, const char* which, const Effect& effect) {
     if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
   };
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
-    add(keys[axis], "", effect_of(result, axis, [](const study::StudyCase&) { return true; }));
+    add(keys[axis], "", effect_of(result, axis, [](const StudyCase&) { return true; }));
     if (keys[axis].scene_key != "charge.crack_radius") continue;
     const Effect below = effect_of(result, axis, below_flaw);
     add(keys[axis], ", below the flaw size", below);
     facts["cracks"] = crack_facts(result, below);
   }
-  Table table = table_of("What each axis changes", effect_quantities(), rows);
+  report::Table table = report::table_of("What each axis changes", effect_quantities(), rows);
   table.notes = said("critical_gap.note.axis_effects", facts);
   return table;
 }

@@ -14,8 +14,9 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::Mark, report::Plot, report::Scale, report::Series, report::shown_gap, report::Style;
+using study::CaseAnswer, study::CriticalGap, study::CriticalGapKind, study::StudyCase;
+
 namespace {
 
 constexpr std::size_t most_pictures = 9, most_lines = 6;
@@ -25,14 +26,14 @@ constexpr const char* picture_text = "critical gap";
 /// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
   std::size_t index;  ///< among the study's axes
-  ShownKey key;
+  report::ShownKey key;
   std::vector<double> values;
 };
 
 std::vector<SweptAxis> swept_axes(const study::Study& study) {
   std::vector<SweptAxis> axes;
   for (std::size_t i = 0; i < study.axes.size(); ++i) {
-    SweptAxis axis{i, shown(study.axes[i]), {}};
+    SweptAxis axis{i, report::shown(study.axes[i]), {}};
     for (const double value : study.axes[i].values) axis.values.push_back(axis.key.value(value));
     std::sort(axis.values.begin(), axis.values.end());
     axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
@@ -42,13 +43,13 @@ std::vector<SweptAxis> swept_axes(const study::Study& study) {
 }
 
 /// Tics at the values themselves, where these are few and stand far enough apart to be read.
-std::vector<Tic> tics_at(const std::vector<double>& values, Scale scale) {
+std::vector<report::Tic> tics_at(const std::vector<double>& values, Scale scale) {
   constexpr std::size_t most = 12;
   constexpr double least_share = 0.07;
   const auto place = [scale](double value) { return scale == Scale::linear ? value : std::log10(value); };
   if (values.size() > most) return {};
   const double whole = place(values.back()) - place(values.front());
-  std::vector<Tic> tics;
+  std::vector<report::Tic> tics;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0 && place(values[i]) - place(values[i - 1]) < least_share * whole) return {};
     tics.push_back({values[i], report::significant(values[i], 6)});
@@ -56,8 +57,8 @@ std::vector<Tic> tics_at(const std::vector<double>& values, Scale scale) {
   return tics;
 }
 
-PlotAxis picture_axis(const SweptAxis& swept) {
-  PlotAxis axis;
+report::PlotAxis picture_axis(const SweptAxis& swept) {
+  report::PlotAxis axis;
   axis.label = swept.key.label();
   if (swept.values.front() > 0 && swept.values.back() > 10.0 * swept.values.front())
     axis.scale = Scale::logarithmic;
@@ -67,7 +68,7 @@ PlotAxis picture_axis(const SweptAxis& swept) {
 
 /// "Critical gap at flaw size 1 mm": with the values of the axes that the picture does not show.
 std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::size_t>& shown_axes,
-                     const study::StudyCase& input) {
+                     const StudyCase& input) {
   std::string fixed;
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
@@ -86,7 +87,7 @@ std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind 
   std::string label;
   for (const CaseAnswer& answer : answers) {
     if (answer.critical.kind != kind) continue;
-    const std::string text = reads_as(answer.critical);
+    const std::string text = report::reads_as(answer.critical);
     if (!label.empty() && text != label) return otherwise;
     label = text;
   }
@@ -195,7 +196,7 @@ class GapLines {
     }
   }
 
-  void add(const study::StudyCase& input, const CaseAnswer& answer) {
+  void add(const StudyCase& input, const CaseAnswer& answer) {
     std::size_t line = 0;
     if (across_ != nullptr) {
       const double value = across_->key.value(input.coordinates[across_->index]);
@@ -247,7 +248,7 @@ std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<Sw
   std::vector<Plot> plots;
   std::vector<GapLines> lines;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::StudyCase& input = result.study.cases[i];
+    const StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
     for (const std::size_t axis : shown) others[axis] = 0;
@@ -257,7 +258,7 @@ std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<Sw
       combinations.push_back(std::move(others));
       lines.emplace_back(result, along, across);
       plots.push_back({.title = title_of(axes, shown, input), .x = picture_axis(along)});
-      plots.back().y = {.label = quantity::critical_gap().label(), .minimum = 0.0};
+      plots.back().y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0};
     }
     lines[number].add(input, result.answers[i]);
   }

@@ -17,8 +17,9 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::Mark, report::Plot, report::Series, report::shown_gap, report::Style;
+using study::CaseOutcome, study::Use;
+
 namespace {
 
 /// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
@@ -35,10 +36,10 @@ void give_look(std::size_t index, Series& series) {
 Series inert_series(const CaseOutcome& outcome, const std::string& label) {
   Series series{label, {}, {}, Style::vertical_bars};
   if (!outcome.completed()) return series;  // temperatures of a part of the launch
-  for (const GapVerdict& row : outcome.verdicts) {
+  for (const study::GapVerdict& row : outcome.verdicts) {
     const double temperature = row.maximum.temperature;
     if (row.ignition || !std::isfinite(temperature)) continue;
-    const Uncertainty& uncertainty = row.uncertainty;
+    const study::Uncertainty& uncertainty = row.uncertainty;
     series.x.push_back(shown_gap(row.gap));
     series.y.push_back(temperature);
     // Of one that ignites at an end of the range no more is known.
@@ -52,14 +53,14 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label) {
 /// What ignited: the temperature is that of the burning skin, of which the uncertainty says nothing.
 Series ignited_series(const CaseOutcome& outcome) {
   Series series{"", {}, {}, Style::points};
-  for (const GapVerdict& row : outcome.verdicts) {
+  for (const study::GapVerdict& row : outcome.verdicts) {
     if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
     series.add(shown_gap(row.gap), row.maximum.temperature);
   }
   return series;
 }
 
-Series fitted_line(const GapFit& fit, const std::string& label) {
+Series fitted_line(const study::GapFit& fit, const std::string& label) {
   Series line{label, {}, {}, Style::line};
   for (const double gap : fit.gaps) {
     line.add(shown_gap(gap), fit.ordinary.intercept + fit.ordinary.slope * shown_gap(gap));
@@ -107,9 +108,9 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
   by_use.at(to_string(Use::held_out)).mark = Mark::open_circle;
   by_use.at(to_string(Use::chosen_by)).mark = Mark::open_triangle;
   by_use.at(to_string(Use::fitted)).mark = published.mark = Mark::open_square;
-  for (const Reference& reference : result.study.study.references) {
+  for (const study::Reference& reference : result.study.study.references) {
     if (!std::isfinite(reference.maximum_temperature)) continue;
-    Series& series = foreign ? published : by_use.at(used_for(reference));
+    Series& series = foreign ? published : by_use.at(report::used_for(reference));
     series.add(shown_gap(reference.gap), reference.maximum_temperature);
   }
   std::vector<Series> all{published};
@@ -123,14 +124,14 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
 
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
 void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
-  const CriticalGap& gap = outcome.critical;
-  if (gap.kind != CriticalGapKind::value) {
-    plot.subtitle = "critical gap: " + reads_as(gap);
+  const study::CriticalGap& gap = outcome.critical;
+  if (gap.kind != study::CriticalGapKind::value) {
+    plot.subtitle = "critical gap: " + report::reads_as(gap);
     return;
   }
   const double value = shown_gap(gap.value);
   const auto known = report::measured_gap(gap);
-  const std::string label = "critical gap: " + measured_text(gap);
+  const std::string label = "critical gap: " + report::measured_text(gap);
   plot.vertical_lines = {{value, known ? "" : label}};
   if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
 }
@@ -140,8 +141,8 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
 Plot temperature_plot(const CriticalGapResult& result) {
   Plot plot;
   plot.title = "Highest temperature of the charge bottom";
-  plot.x.label = quantity::gap().label();
-  plot.y.label = quantity::temperature_max().label();
+  plot.x.label = report::quantity::gap().label();
+  plot.y.label = report::quantity::temperature_max().label();
   // The legend stands below and takes two cases a line.
   plot.height = 600 + 14 * static_cast<int>(result.details.size());
   for (std::size_t i = 0; i < result.details.size(); ++i) add_case(result, i, plot);
@@ -150,7 +151,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
   if (result.details.size() == 1) add_critical_gap(result.details.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + in_words(ignition, keys::significant(4, kelvin))});
+      {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
   return plot;
 }
 

@@ -17,8 +17,9 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::Picture, report::ReportTable, report::Row, report::Shown, report::shown_gap, report::Statement,
+    report::Table;
+
 namespace {
 
 /// Rows of a table on the page; the files have all.
@@ -35,7 +36,7 @@ double end_of_search(const CriticalGapResult& result) {
 }
 
 std::string uncertainty_text(const CriticalGapResult& result) {
-  return uncertainty_remark(result.study) +
+  return report::uncertainty_remark(result.study) +
          (result.details.empty() ? " " + said_below("critical_gap.traces") : "\n");
 }
 
@@ -62,7 +63,7 @@ nlohmann::ordered_json counts_json(const SweepCounts& counts) {
 /// What the answer about many cases is filled with.
 Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
   const study::Study& study = result.study.study;
-  const auto keys = shown_axes(study);
+  const auto keys = report::shown_axes(study);
   Row facts = counts_json(counts);
   for (std::size_t i = 0; i < keys.size(); ++i)
     facts["axes"].push_back(
@@ -72,18 +73,18 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
     const auto [least, most] = std::ranges::minmax(study.gaps);
     facts.update({{"least_cm", shown_gap(least)}, {"most_cm", shown_gap(most)}});
   }
-  facts["end_of_search_cm"] = number(shown_gap(end_of_search(result)));
+  facts["end_of_search_cm"] = report::number(shown_gap(end_of_search(result)));
   // The case with the smallest critical gap that is a value, and those that ignite at every gap: their
   // critical gap is below every value.
   double best = study::not_a_number;
   std::size_t without_safe = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::CriticalGap& gap = result.answers[i].critical;
-    if (std::isfinite(value_of(gap)) && !(gap.value >= best)) {
+    if (std::isfinite(report::value_of(gap)) && !(gap.value >= best)) {
       best = gap.value;
-      facts["smallest"] = measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
+      facts["smallest"] = report::measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
     }
-    if (gap.kind == CriticalGapKind::all_ignite && without_safe++ == 0)
+    if (gap.kind == study::CriticalGapKind::all_ignite && without_safe++ == 0)
       facts["without_safe"] = name_of(keys, result.study.cases[i]);
   }
   facts["other_without_safe"] = without_safe > 0 ? without_safe - 1 : 0;
@@ -94,8 +95,8 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
 /// Of few cases, one after the other.
 std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
-  for (const CaseOutcome& outcome : result.details) {
-    Row row = json_of(bounded_gap_quantities(), outcome.critical);
+  for (const study::CaseOutcome& outcome : result.details) {
+    Row row = report::json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update(
         {{"why", study::to_string(outcome.critical.reason)}, {"confirmed", !outcome.confirmations.empty()}});
     lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());
@@ -115,19 +116,19 @@ nlohmann::ordered_json only_critical_gap(const CriticalGapResult& result, const 
 
 nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Table& gaps) {
   nlohmann::ordered_json members{
-      {"axes", axes_json(result.study.study)},
+      {"axes", report::axes_json(result.study.study)},
       {"critical_gap", only_critical_gap(result, gaps)},
-      {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
+      {"early_time_ms", report::shown_value(result.study.study.early_time, report::quantity::time(2).form)},
       {"counts", counts_json(counts_of(result.answers))},
-      {"notes", mesh_notes(result.study)}};
-  if (!result.details.empty()) members["timing"] = timing_json(result.timing);
+      {"notes", report::mesh_notes(result.study)}};
+  if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
   return members;
 }
 
 /// The same table as a text of its own.
-TextFile table_file(const char* name, Table table, const StudyFile& study) {
+report::TextFile table_file(const char* name, Table table, const study::StudyFile& study) {
   if (!study.study.in_detail)
-    for (std::string& note : mesh_notes(study)) table.notes.push_back(std::move(note));
+    for (std::string& note : report::mesh_notes(study)) table.notes.push_back(std::move(note));
   return {name, to_markdown(table)};
 }
 
@@ -141,9 +142,9 @@ std::string answer(const CriticalGapResult& result) {
   return answer_of(std::move(lines), result.study);
 }
 
-Report report_of(const CriticalGapResult& result) {
+report::Report report_of(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
   Table verdicts = verdict_table(result);
@@ -162,20 +163,21 @@ Report report_of(const CriticalGapResult& result) {
   for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
   if (settings_of<CriticalGapSettings>(result.study.study).surrogate) {
-    const SurrogateRecord record = sweep_surrogate(result);
+    const study::SurrogateRecord record = sweep_surrogate(result);
     report.items.push_back(ReportTable{surrogate_table(record), "", "surrogate"});
-    for (TextFile& file : surrogate_files(record, result.study)) report.files.push_back(std::move(file));
+    for (report::TextFile& file : surrogate_files(record, result.study))
+      report.files.push_back(std::move(file));
   }
   report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
   if (in_detail)
     add_details(result, report);
   else
     report.items.push_back(matrix_item(result));
-  report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
+  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{uncertainty_text(result)});
-  if (!in_detail) report.items.push_back(Statement{station_note(result.study) + "\n"});
+  if (!in_detail) report.items.push_back(Statement{report::station_note(result.study) + "\n"});
   report.items.push_back(Statement{limiter_remark(result)});
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
   if (in_detail) add_runs(result, report);
   report.json = study_json(result.study, report, json_of_study(result, gaps));
   return report;

@@ -19,28 +19,31 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
-namespace {
-
 using keys::fixed, keys::text;
+using report::Column, report::Quantities, report::Table, report::table_of, report::VerdictRow;
+using study::CaseAnswer, study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary,
+    study::Study, study::StudyFile, study::Verdict;
+namespace quantity = report::quantity;
+
+namespace {
 
 /// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
 Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
-  Quantities<std::vector<double>> axes = axis_quantities(study.study), launch, others;
-  const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
+  Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch, others;
+  const study::StudyCase first = study.cases.empty() ? study::StudyCase{} : study.cases.front();
   const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure(), first.peak_pressure},
                                                     {quantity::crack_radius(), first.crack_radius},
                                                     {quantity::flaw_size(), first.flaw_size}};
   for (const auto& [column, value] : fixed_values) {
-    const auto axis = std::ranges::find(study.study.axes, column.name, &Axis::name);
+    const auto axis = std::ranges::find(study.study.axes, column.name, &study::Axis::name);
     if (axis == study.study.axes.end())
       launch.emplace_back(column, [value = value](const std::vector<double>&) { return value; });
     else
       launch.push_back(axes[static_cast<std::size_t>(axis - study.study.axes.begin())]);
   }
   for (std::size_t i = 0; i < axes.size(); ++i)
-    if (std::ranges::find(named_axes(), study.study.axes[i].name, &NamedAxis::name) == named_axes().end())
+    if (std::ranges::find(study::named_axes(), study.study.axes[i].name, &study::NamedAxis::name) ==
+        study::named_axes().end())
       others.push_back(axes[i]);
   return keys::joined<std::vector<double>>({launch, others});
 }
@@ -48,7 +51,7 @@ Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
 Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
   return keys::joined<VerdictRow>({{{quantity::gap(), &VerdictRow::width}},
                                    of_part<VerdictRow>(launch_quantities(study), &VerdictRow::coordinates),
-                                   verdict_quantities(study.study)});
+                                   report::verdict_quantities(study.study)});
 }
 
 /// Places of the smallest and largest gap among those judged; one of them where they are the same.
@@ -66,7 +69,7 @@ Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
   for (const std::size_t place : outer_gaps(gaps)) {
     const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
     quantities.emplace_back(
-        Column{name, "T max at " + centimetres(gaps[place]), fixed(1, kelvin),
+        Column{name, "T max at " + report::centimetres(gaps[place]), fixed(1, keys::kelvin),
                "Highest temperature at that gap; of one that ignites the burning skin's."},
         [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
@@ -77,7 +80,7 @@ Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
 }
 
 /// What a case is called, and where it lies: of few cases the name says it.
-Quantities<JudgedCase> place_quantities(const study::Study& study, bool in_detail) {
+Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
   Quantities<JudgedCase> place = of_part<JudgedCase>(answered_axes(study), &JudgedCase::answered);
   if (!in_detail) return place;
   for (auto& each : place) each = for_programs(each);
@@ -95,10 +98,10 @@ Quantities<AnsweredCase> run_quantities(const std::vector<double>& gaps) {
         {for_programs(quantity::particles()), &AnsweredCase::answer, &CaseAnswer::run,
          &RunSummary::particles},
         {quantity::limiters(),
-         [](const AnsweredCase& row) { return limiters_text(row.answer->run.limiters); }}}});
+         [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 
-Quantities<JudgedCase> judged_case_quantities(const study::Study& study, bool in_detail) {
+Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail) {
   Column assumed{"assumed_shares", "assumed", text(),
                  "What the bounds rest on and nothing says of the case."};
   Quantities<JudgedCase> confirmed{
@@ -107,7 +110,7 @@ Quantities<JudgedCase> judged_case_quantities(const study::Study& study, bool in
        [](const JudgedCase& row) { return confirmation_text(*row.detail); }}};
   return keys::joined<JudgedCase>(
       {place_quantities(study, in_detail),
-       of_part<JudgedCase>(bounded_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer,
+       of_part<JudgedCase>(report::bounded_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer,
                            &CaseAnswer::critical),
        in_detail ? confirmed : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
@@ -125,11 +128,11 @@ Quantities<JudgedCase> judged_case_quantities(const study::Study& study, bool in
 }
 
 /// SAFE, UNSAFE or INDET. by gap.
-Quantities<AnsweredCase> matrix_quantities(const study::Study& study) {
+Quantities<AnsweredCase> matrix_quantities(const Study& study) {
   Quantities<AnsweredCase> quantities = answered_axes(study);
   for (std::size_t i = 0; i < study.gaps.size(); ++i)
-    quantities.emplace_back(Column{"gap_" + digits_of(study.gaps[i], quantity::gap().form) + "_cm",
-                                   centimetres(study.gaps[i]), text(), "The verdict at that gap."},
+    quantities.emplace_back(Column{"gap_" + report::digits_of(study.gaps[i], quantity::gap().form) + "_cm",
+                                   report::centimetres(study.gaps[i]), text(), "The verdict at that gap."},
                             [i](const AnsweredCase& row) -> std::string {
                               if (i >= row.answer->verdicts.size()) return {};
                               const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
@@ -139,10 +142,10 @@ Quantities<AnsweredCase> matrix_quantities(const study::Study& study) {
 }
 
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
-std::string air_energy_note(const CriticalGapResult& result, const std::vector<ShownKey>& keys) {
-  std::vector<AuditedGap> worst;
+std::string air_energy_note(const CriticalGapResult& result, const std::vector<report::ShownKey>& keys) {
+  std::vector<report::AuditedGap> worst;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    for (const study::GapVerdict& row : result.answers[i].verdicts) {
+    for (const GapVerdict& row : result.answers[i].verdicts) {
       if (!std::isfinite(row.air.ratio())) continue;
       if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
         worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
@@ -153,7 +156,7 @@ std::string air_energy_note(const CriticalGapResult& result, const std::vector<S
 }
 
 /// What the published temperature at the early time was used for.
-std::string early_used_for(const study::Reference& published) {
+std::string early_used_for(const Reference& published) {
   using enum study::Use;
   if (!std::isfinite(published.early_temperature)) return {};
   return to_string(published.calibrated ? fitted : published.selection ? chosen_by : held_out);
@@ -187,21 +190,21 @@ Quantities<ComparedRow> comparison_quantities(double early_time) {
       {gap(), &GapVerdict::gap},
       {used_for(), &GapVerdict::reference, report::used_for},
       {temperature_max(), [](ComparedRow row) { return row->until_exit.temperature; }},
-      {published(temperature_max()), &GapVerdict::reference, &study::Reference::maximum_temperature},
+      {published(temperature_max()), &GapVerdict::reference, &Reference::maximum_temperature},
       {difference_of(temperature_max()), &GapVerdict::misfit},
       {temperature_max_place(), [](ComparedRow row) { return row->until_exit.point; }},
-      {published_place(temperature_max()), &GapVerdict::reference, &study::Reference::point},
-      {{"temperature_early_used_for", "used for at " + milliseconds(early_time), text(),
+      {published_place(temperature_max()), &GapVerdict::reference, &Reference::point},
+      {{"temperature_early_used_for", "used for at " + report::milliseconds(early_time), text(),
         "The same of the temperature at early_time."},
        &GapVerdict::reference,
        early_used_for},
       {early, [](ComparedRow row) { return row->early.temperature; }},
-      {published(early), &GapVerdict::reference, &study::Reference::early_temperature},
+      {published(early), &GapVerdict::reference, &Reference::early_temperature},
       {difference_of(early), &GapVerdict::early_misfit},
       {temperature_early_place(), [](ComparedRow row) { return row->early.point; }},
-      {published_place(early), &GapVerdict::reference, &study::Reference::early_point},
+      {published_place(early), &GapVerdict::reference, &Reference::early_point},
       {ignition_time(), [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
-      {published(ignition_time()), &GapVerdict::reference, &study::Reference::ignition_time}};
+      {published(ignition_time()), &GapVerdict::reference, &Reference::ignition_time}};
 }
 
 }  // namespace
@@ -217,8 +220,8 @@ Table verdict_table(const CriticalGapResult& result) {
     }
   }
   Table table = table_of("Verdicts", judged_gap_quantities(result.study), rows);
-  table.notes = mesh_notes(result.study);
-  table.notes.push_back(station_note(result.study));
+  table.notes = report::mesh_notes(result.study);
+  table.notes.push_back(report::station_note(result.study));
   return table;
 }
 
@@ -230,8 +233,8 @@ Table critical_gap_table(const CriticalGapResult& result) {
   Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
                          judged_case_quantities(result.study.study, in_detail), rows);
   if (!in_detail)
-    table.notes =
-        said("critical_gap.note.cases", {{"air", air_energy_note(result, shown_axes(result.study.study))}});
+    table.notes = said("critical_gap.note.cases",
+                       {{"air", air_energy_note(result, report::shown_axes(result.study.study))}});
   return table;
 }
 
@@ -244,7 +247,7 @@ Table verdict_matrix(const CriticalGapResult& result) {
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {
-  std::vector<const CriticalGap*> gaps;
+  std::vector<const study::CriticalGap*> gaps;
   for (const CaseAnswer& answer : result.answers) gaps.push_back(&answer.critical);
   return report::cited_limit_table(result.study, gaps);
 }
@@ -264,10 +267,11 @@ Table comparison_table(const CriticalGapResult& result) {
   }
   Table table =
       table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows);
-  Row facts{{"ignited", ignited}};
+  report::Row facts{{"ignited", ignited}};
   if (!(worst <= calibration_slack))
-    facts["not_met"] = std::isfinite(worst) ? "computed - published: " + in_words(worst, fixed(1, kelvin))
-                                            : std::string("one of them ignites");
+    facts["not_met"] = std::isfinite(worst)
+                           ? "computed - published: " + report::in_words(worst, fixed(1, keys::kelvin))
+                           : std::string("one of them ignites");
   table.notes = said("critical_gap.note.comparison", facts);
   return table;
 }
@@ -281,7 +285,7 @@ std::vector<ResultTable> critical_gap_results() {
       {"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(file))},
       {"comparison", "", keys::described(comparison_quantities(file.study.early_time))},
       {"cases", "critical_gaps.csv", std::move(cases)},
-      {"cited_limits", "", cited_limit_columns()},
+      {"cited_limits", "", report::cited_limit_columns()},
       {"surrogate", "", surrogate_columns()},
       {"axis_effects", "", axis_effect_columns()}};
   for (ResultTable& each : detail_results()) tables.push_back(std::move(each));

@@ -10,32 +10,33 @@
 
 namespace launchsafe::kinds {
 
-using namespace report;
+using report::Column, report::Quantities, report::Row;
+namespace quantity = report::quantity;
 
 namespace {
 
 Column initial_temperature() {
-  return {"initial_temperature", "T before", keys::significant(4, kelvin),
+  return {"initial_temperature", "T before", keys::significant(4, keys::kelvin),
           "Temperature of charge and air before."};
 }
 
 Column probability(const char* name, const char* heading, const char* meaning) {
-  return {name, heading, keys::significant(3, percent), meaning};
+  return {name, heading, keys::significant(3, keys::percent), meaning};
 }
 
 Quantities<FiringRow> row_quantities() {
   const auto of_firing = [](Column column, auto member) {
-    return Quantity<FiringRow>(std::move(column), &FiringRow::firing, member);
+    return report::Quantity<FiringRow>(std::move(column), &FiringRow::firing, member);
   };
   return {
       of_firing({"name", "firing", keys::text(), "What the rounds are called."}, &study::Firing::name),
-      of_firing({"rounds", "rounds", count(), "How many there were."}, &study::Firing::rounds),
+      of_firing({"rounds", "rounds", keys::count(), "How many there were."}, &study::Firing::rounds),
       of_firing(quantity::peak_pressure(), &study::Firing::pressure),
       of_firing(initial_temperature(), &study::Firing::temperature),
       of_firing(quantity::gap(), &study::Firing::gap),
-      of_firing(
-          {"gap_most", "gap at most", keys::significant(6, centimetre), "The largest that it can have been."},
-          &study::Firing::most_gap),
+      of_firing({"gap_most", "gap at most", keys::significant(6, keys::centimetre),
+                 "The largest that it can have been."},
+                &study::Firing::most_gap),
       of_firing({"ignited", "ignited", keys::text(), "Whether the rounds ignited."}, &study::Firing::ignited),
       {probability("shown_lowest", "more than",
                    "With 95 % the probability of a round is more, by the rounds of this kind alone."),
@@ -65,7 +66,7 @@ Quantities<ConstantRange> constant_quantities() {
       {column("centre", "mean", "Geometric mean of the posterior, which the record has as the constant."),
        &ConstantRange::centre},
       {column("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::highest},
-      {{"change_of_coarser", "coarser lattice", keys::significant(2, percent),
+      {{"change_of_coarser", "coarser lattice", keys::significant(2, keys::percent),
         "By how much the mean is higher on a lattice of half as many values a constant."},
        &ConstantRange::change_of_coarser}};
 }
@@ -97,17 +98,17 @@ Row facts_of(const FiringResult& result) {
             {"demonstration", result.record && result.record->calibration.firings->demonstration},
             {"rows", Row::array()}};
   for (const FiringRow& row : result.rows) {
-    Row& facts_of_row = facts["rows"].emplace_back(json_of(row_quantities(), row));
+    Row& facts_of_row = facts["rows"].emplace_back(report::json_of(row_quantities(), row));
     facts_of_row["ignited_rounds"] = row.ignited;
     facts_of_row["counted_rounds"] = row.rounds;
   }
-  if (!result.next.empty()) facts["next"] = json_of(next_quantities(), result.next.front());
-  if (result.record) facts["largest"] = centimetres(result.record->calibration.evidence.largest_gap);
+  if (!result.next.empty()) facts["next"] = report::json_of(next_quantities(), result.next.front());
+  if (result.record) facts["largest"] = report::centimetres(result.record->calibration.evidence.largest_gap);
   return facts;
 }
 
-Table run_table_of(const FiringResult& result) {
-  std::vector<NamedRun> runs;
+report::Table run_table_of(const FiringResult& result) {
+  std::vector<report::NamedRun> runs;
   for (const FiredCondition& each : result.conditions)
     runs.push_back({each.input.label, each.failure, &each.mechanics, {}});
   return run_table(runs);
@@ -119,15 +120,15 @@ std::string answer(const FiringResult& result) {
   return said("calibration.firings.answer", facts_of(result)).front();
 }
 
-Report report_of(const FiringResult& result) {
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+report::Report report_of(const FiringResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (result.record) report.files.push_back({"calibration.json", study::to_json_text(*result.record)});
   const Row facts = facts_of(result);
   const auto add = [&](const char* title, const auto& quantities, const auto& rows, const char* csv,
                        const char* member, const char* notes) {
-    Table table = table_of(title, quantities, rows);
+    report::Table table = report::table_of(title, quantities, rows);
     table.notes = said(notes, facts);
-    report.items.push_back(ReportTable{std::move(table), csv, member});
+    report.items.push_back(report::ReportTable{std::move(table), csv, member});
   };
   add("Firings, and the probability that such a round ignites", row_quantities(), result.rows, "firings.csv",
       "firings", "calibration.note.firings");
@@ -135,11 +136,11 @@ Report report_of(const FiringResult& result) {
       "calibration.note.posterior");
   add("What one more round would tell", next_quantities(), result.next, "", "next_firings",
       "calibration.note.next");
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
-  report.items.push_back(ReportTable{run_table_of(result), "", "runs", Shown::page});
-  report.items.push_back(Statement{timing_sentence(result.timing)});
-  report.json =
-      study_json(result.study, report, {{"failure", result.failure}, {"timing", timing_json(result.timing)}});
+  report.items.push_back(report::Statement{"## Setup\n\n" + report::setup_text(result.study)});
+  report.items.push_back(report::ReportTable{run_table_of(result), "", "runs", report::Shown::page});
+  report.items.push_back(report::Statement{report::timing_sentence(result.timing)});
+  report.json = study_json(result.study, report,
+                           {{"failure", result.failure}, {"timing", report::timing_json(result.timing)}});
   return report;
 }
 

@@ -20,7 +20,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::StudyFile;
 
 namespace {
 
@@ -113,7 +113,8 @@ std::vector<Named> names_in(const toml::table& root) {
       names.push_back({name, &node});
       continue;
     }
-    for (const Leaf& leaf : leaves_as_written(*table)) names.push_back({name + "." + leaf.name, leaf.node});
+    for (const study::Leaf& leaf : study::leaves_as_written(*table))
+      names.push_back({name + "." + leaf.name, leaf.node});
   }
   return names;
 }
@@ -147,7 +148,7 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
 }
 
 /// Labels have six digits; cases that they do not tell apart are numbered.
-void tell_cases_apart(Cases& cases) {
+void tell_cases_apart(study::Cases& cases) {
   std::unordered_map<std::string, int> seen;
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (const int before = seen[cases.label(i)]++; before > 0)
@@ -197,7 +198,7 @@ scene::Expected<StudyFile> read_study_table(const StudySource& source, const std
   if (Fault fault = check_bare_uncertainties(source.root, keys, study.file)) return *fault;
   if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
   if (Fault fault = read_keys(source.root, **kind, keys, study)) return *fault;
-  std::optional<AccuracyRecord> record;
+  std::optional<study::AccuracyRecord> record;
   if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, record))
     return unnumbered(*fault, study.file);
   if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);

@@ -11,8 +11,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::Study;
 
 bool SensitivityResult::any_indeterminate() const {
   return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); }) ||
@@ -27,9 +26,9 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
   return inputs;
 }
 
-UncertainInputs uncertain_inputs(const Study& study) {
-  UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
-  for (const Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
+study::UncertainInputs uncertain_inputs(const Study& study) {
+  study::UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
+  for (const study::Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
   return inputs;
 }
 
@@ -41,9 +40,10 @@ bool samples_inputs(const Study& study, std::size_t evaluation) {
 
 namespace {
 
-double number_of(const OutputSensitivity& of, const CaseAnswer& answer, const StudyCase& input) {
+double number_of(const OutputSensitivity& of, const study::CaseAnswer& answer,
+                 const study::StudyCase& input) {
   if (of.output == SensitivityOutput::critical_gap)
-    return answer.completed() ? answer.critical.value : not_a_number;
+    return answer.completed() ? answer.critical.value : study::not_a_number;
   const double temperature = temperature_of(answer, 0, of.inert);
   return of.output == SensitivityOutput::margin
              ? input.scene.scene.charge().kinetics.ignition_temperature - temperature
@@ -94,7 +94,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
   output.output = which;
   output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CaseAnswer& answer = result.answers[i];
+    const study::CaseAnswer& answer = result.answers[i];
     output.values.push_back(number_of(output, answer, result.study.cases[i]));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
@@ -103,7 +103,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
   return output;
 }
 
-SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
+SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options) {
   return run_timed<SensitivityResult>(
       study, options,
       [&](SensitivityResult& result) {

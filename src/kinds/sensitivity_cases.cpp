@@ -15,7 +15,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::Study, study::StudyFile;
 
 namespace {
 
@@ -78,14 +78,14 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   };
 }
 
-bool is_correlated(const Axis& axis) {
+bool is_correlated(const study::Axis& axis) {
   return axis.distribution->kind == math::Distribution::Kind::log_normal;
 }
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
 Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const Axis& axis = study.study.axes[i];
+    const study::Axis& axis = study.study.axes[i];
     const scene::KeyDescription& key = axis.key;
     if (key.limits.contain(coordinates[i])) continue;
     const std::string value = scene::format_quantity(coordinates[i], key.dimension);
@@ -104,7 +104,7 @@ std::string name_of_input(const Study& study, const SensitivityInput& input) {
 
 /// A case for every point of the design.
 Fault add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
-  const UncertainInputs drawn = uncertain_inputs(study.study);
+  const study::UncertainInputs drawn = uncertain_inputs(study.study);
   const std::vector<double> points = design_points(study.study);
   const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
   const auto coordinates = [&](std::size_t evaluation) {
@@ -113,7 +113,7 @@ Fault add_evaluations(StudyFile& study, const std::function<std::string(std::siz
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
     if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
   return add_varied_cases(study, count, coordinates,
-                          [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); });
+                          [&](std::size_t evaluation, const study::StudyCase&) { return label(evaluation); });
 }
 
 Fault make_saltelli(StudyFile& study) {

@@ -14,9 +14,9 @@
 
 namespace launchsafe::kinds {
 
-namespace {
+using study::Study, study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 
-using namespace study;
+namespace {
 
 void widen(math::Estimate& estimate, double by) {
   estimate.lower = std::max(0.0, estimate.lower - by);
@@ -46,7 +46,7 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
                          .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
   scene::clear_remarks(record.scene);
-  for (const Axis& axis : study.axes) record.keys.push_back(axis.key.name);
+  for (const study::Axis& axis : study.axes) record.keys.push_back(axis.key.name);
   for (const std::size_t evaluation : known_evaluations(result)) {
     const std::vector<double> point = math::point_of_row(result.points, evaluation, study.axes.size());
     record.points.insert(record.points.end(), point.begin(), point.end());
@@ -88,7 +88,7 @@ math::SobolIndices process_indices(const Study& study, const Surrogate& surrogat
 double asked_error(const Study& study, SensitivityOutput output) {
   const SensitivitySettings& own = sensitivity_settings(study);
   if (output == SensitivityOutput::maximum_temperature) return own.temperature_error;
-  return output == SensitivityOutput::critical_gap ? own.critical_gap_error : not_a_number;
+  return output == SensitivityOutput::critical_gap ? own.critical_gap_error : study::not_a_number;
 }
 
 /// The output whose error is the most times what is asked, with launches that would lessen it; none where all
@@ -116,21 +116,25 @@ std::vector<double> next_points(const SensitivityResult& result, std::size_t cou
 }
 
 /// Computes launches at these points and adds them; false where they are not all there.
-bool add_round(SensitivityResult& result, const std::vector<double>& points, const StudyOptions& options) {
-  const UncertainInputs inputs = uncertain_inputs(result.study.study);
+bool add_round(SensitivityResult& result, const std::vector<double>& points,
+               const study::StudyOptions& options) {
+  const study::UncertainInputs inputs = uncertain_inputs(result.study.study);
   const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
   const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
-  StudyFile round = result.study;
+  study::StudyFile round = result.study;
   round.cases = {};
-  const Fault fault = add_varied_cases(
+  const study::Fault fault = add_varied_cases(
       round, points.size() / axes,
       [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
-      [&](std::size_t row, const StudyCase&) { return fmt::format("added {}", known - designed + row + 1); });
+      [&](std::size_t row, const study::StudyCase&) {
+        return fmt::format("added {}", known - designed + row + 1);
+      });
   if (fault) return false;
-  const std::vector<CaseAnswer> answers = answer_cases(round, options, result.timing);
-  const bool missing = std::ranges::any_of(
-      answers, [](const CaseAnswer& answer) { return answer.outcome == RunOutcome::not_stored; });
+  const std::vector<study::CaseAnswer> answers = answer_cases(round, options, result.timing);
+  const bool missing = std::ranges::any_of(answers, [](const study::CaseAnswer& answer) {
+    return answer.outcome == study::RunOutcome::not_stored;
+  });
   if (missing || stop_requested(options)) return false;
   for (std::size_t row = 0; row < answers.size(); ++row) {
     result.study.cases.add(round.cases.label(row), round.cases.coordinates(row));
@@ -189,7 +193,7 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
     for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.error.unexplained);
 }
 
-void add_launches(SensitivityResult& result, const StudyOptions& options) {
+void add_launches(SensitivityResult& result, const study::StudyOptions& options) {
   constexpr std::size_t round = 8;
   const SensitivitySettings& own = sensitivity_settings(result.study.study);
   if (!options.shard.whole()) return;

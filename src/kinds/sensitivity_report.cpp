@@ -22,8 +22,9 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::percent;
+using report::ReportTable, report::Row, report::Shown, report::shown_value, report::significant,
+    report::Statement;
 
 namespace {
 
@@ -55,16 +56,17 @@ Row method_facts(const SensitivityResult& result) {
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", keys::significant(6, kelvin), quantity::temperature_max().meaning},
+      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin),
+         report::quantity::temperature_max().meaning},
         "T max"},
-       {quantity::critical_gap(), "the critical gap"},
-       {{"margin", "margin", keys::significant(6, kelvin), "Ignition temperature less T max."},
+       {report::quantity::critical_gap(), "the critical gap"},
+       {{"margin", "margin", keys::significant(6, keys::kelvin), "Ignition temperature less T max."},
         "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
 }
 
 std::vector<ShownInput> shown_inputs(const study::Study& study) {
-  const auto keys = shown_axes(study);
+  const auto keys = report::shown_axes(study);
   std::vector<ShownInput> inputs;
   for (const SensitivityInput& input : inputs_of(study)) {
     const auto text = [&](std::size_t axis) {
@@ -82,7 +84,7 @@ std::vector<ShownInput> shown_inputs(const study::Study& study) {
 
 std::string at_gap(const study::Study& study, SensitivityOutput output) {
   if (output == SensitivityOutput::critical_gap) return {};
-  return " at a gap of " + centimetres(study.gaps.front());
+  return " at a gap of " + report::centimetres(study.gaps.front());
 }
 
 std::string estimate_text(const math::Estimate& estimate) {
@@ -177,10 +179,10 @@ std::vector<std::string> asked_text(const SensitivityResult& result) {
     const keys::Form form = keys::significant(3, {shown.column.form.dimension, shown.column.form.unit});
     const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
     Row facts{
-        {"output", shown.phrase},     {"asked", in_words(error.asked, form)},
+        {"output", shown.phrase},     {"asked", report::in_words(error.asked, form)},
         {"reached", error.reached()}, {"fitted", fitted},
         {"most", own.most_samples},   {"used_up", fitted >= static_cast<std::size_t>(own.most_samples)}};
-    if (std::isfinite(error.found)) facts["found"] = in_words(error.found, form);
+    if (std::isfinite(error.found)) facts["found"] = report::in_words(error.found, form);
     lines.push_back(said("sensitivity.asked", facts).front());
   }
   return lines;
@@ -222,8 +224,8 @@ std::string answer(const SensitivityResult& result) {
   return answer_of(std::move(lines), result.study);
 }
 
-Report report_of(const SensitivityResult& result) {
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+report::Report report_of(const SensitivityResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items.push_back(
       ReportTable{sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
   report.items.push_back(ReportTable{output_table(result), "", "outputs",
@@ -231,28 +233,28 @@ Report report_of(const SensitivityResult& result) {
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     if (output.reason.empty())
-      report.items.push_back(Picture{picture_name(output), sensitivity_plot(result, output),
-                                     "sensitivity of " + shown_output(output.output).column.heading});
+      report.items.push_back(report::Picture{picture_name(output), sensitivity_plot(result, output),
+                                             "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
-  if (Plot plot = histogram_plot(result); !plot.panels.empty())
-    report.items.push_back(
-        Picture{"histogram.svg", std::move(plot), "histograms of critical gap and T max over the draws"});
+  if (report::Plot plot = histogram_plot(result); !plot.panels.empty())
+    report.items.push_back(report::Picture{"histogram.svg", std::move(plot),
+                                           "histograms of critical gap and T max over the draws"});
   report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
-  report.items.push_back(Statement{"## What it rests on\n\n" + friction_remark(result.study)});
+  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{said_below("sensitivity.rests")});
-  report.items.push_back(Statement{"## Setup\n\n" + setup_text(result.study)});
+  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
   report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
                                      most_evaluation_rows});
   if (has_fit(result) && !result.outputs.empty())
     report.files = surrogate_files(surrogate_record(result), result.study);
   report.json = study_json(result.study, report,
                            {{"method", method_json(result)},
-                            {"gap_cm", number(shown_gap(result.study.study.gaps.front()))},
-                            {"inputs", axes_json(result.study.study)},
+                            {"gap_cm", report::number(report::shown_gap(result.study.study.gaps.front()))},
+                            {"inputs", report::axes_json(result.study.study)},
                             {"ignition", ignition_json(result)},
                             {"failed", counts_of(result.answers).failed},
-                            {"notes", mesh_notes(result.study)}});
+                            {"notes", report::mesh_notes(result.study)}});
   return report;
 }
 

@@ -15,8 +15,9 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::centimetres, report::Column, report::Plot, report::Table;
+using study::not_a_number;
+namespace quantity = report::quantity;
 
 namespace {
 
@@ -24,10 +25,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double ignition_level = 0.95;
 
 /// Its place in the order of the draws; NaN where nothing is known.
-double ranked(const OutputSensitivity& output, const CaseAnswer& answer, double value) {
+double ranked(const OutputSensitivity& output, const study::CaseAnswer& answer, double value) {
   if (output.output != SensitivityOutput::critical_gap || !answer.completed()) return value;
-  if (answer.critical.kind == CriticalGapKind::all_ignite) return -infinite;
-  return answer.critical.kind == CriticalGapKind::all_safe ? infinite : value;
+  if (answer.critical.kind == study::CriticalGapKind::all_ignite) return -infinite;
+  return answer.critical.kind == study::CriticalGapKind::all_safe ? infinite : value;
 }
 
 const OutputSensitivity* output_of(const SensitivityResult& result, SensitivityOutput which) {
@@ -47,7 +48,7 @@ std::vector<const OutputSensitivity*> told_outputs(const SensitivityResult& resu
 /// "0.0278 cm", "ignites without a gap", "> 0.4 cm".
 std::string quantile_text(const SensitivityResult& result, double gap) {
   if (std::isnan(gap)) return "n/a";
-  if (std::isfinite(gap)) return in_words(gap, keys::significant(3, centimetre));
+  if (std::isfinite(gap)) return report::in_words(gap, keys::significant(3, keys::centimetre));
   return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
 }
 
@@ -85,7 +86,7 @@ Histogram histogram_of(const OutputSample& sample, const ShownOutput& shown) {
     if (std::isfinite(value)) values.push_back(shown.value(value));
   Histogram histogram;
   if (values.empty() || !(values.back() > values.front())) return histogram;
-  histogram.width = round_distance((values.back() - values.front()) / most_intervals);
+  histogram.width = report::round_distance((values.back() - values.front()) / most_intervals);
   histogram.first = std::floor(values.front() / histogram.width);
   for (const double value : values) {
     const double steps = std::max(0.0, std::floor(value / histogram.width) - histogram.first);
@@ -110,7 +111,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
     panel.subtitle += fmt::format("; {} ignite at no gap", count);
   panel.x.label = shown.column.label();
   panel.y = {.label = "draws", .minimum = 0.0};
-  Series steps{.style = Style::steps, .colour = 0};
+  report::Series steps{.style = report::Style::steps, .colour = 0};
   steps.add(histogram.edge(0), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i)
     steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
@@ -157,7 +158,7 @@ OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity&
 IgnitionShare ignition_share(const SensitivityResult& result) {
   IgnitionShare share;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CaseAnswer& answer = result.answers[i];
+    const study::CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
     ++(answer.completed() ? share.completed : share.failed);
     if (answer.completed() && answer.verdicts.front().ignition) ++share.igniting;
@@ -175,19 +176,19 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
           {"completed", share.completed},
           {"failed", share.failed},
           {"confidence", ignition_level},
-          {"probability_from", number(share.interval.lower)},
-          {"probability_to", number(share.interval.upper)}};
+          {"probability_from", report::number(share.interval.lower)},
+          {"probability_to", report::number(share.interval.upper)}};
 }
 
 std::string samples_text(const SensitivityResult& result) {
-  Row facts = ignition_json(result);
+  report::Row facts = ignition_json(result);
   if (facts["completed"] == 0 && facts["failed"] == 0) return {};
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
     if (gap->fit && gap->fit->reason.empty() && gap->reason.empty()) {
-      const SurrogateRecord record = surrogate_record(result);
-      const PredictedIgnitions of =
+      const study::SurrogateRecord record = surrogate_record(result);
+      const study::PredictedIgnitions of =
           predicted_ignitions(record, record.gap, std::vector<std::optional<double>>(record.keys.size()));
       facts["fit"] = {{"draws", of.draws},
                       {"predicted", of.predicted},
@@ -210,12 +211,13 @@ struct QuantileRow {
   double temperature;  ///< K
 };
 
-Quantities<QuantileRow> quantile_quantities() {
-  return {{{"share", "share at or below", keys::significant(3, percent), "Share of the draws."},
-           &QuantileRow::share},
-          {for_programs(quantity::critical_gap()), &QuantileRow::gap},
-          {headed("critical gap", quantity::critical_gap_reads_as()), &QuantileRow::gap_reads_as},
-          {quantity::temperature_max(), [](const QuantileRow& row) { return known(row.temperature); }}};
+report::Quantities<QuantileRow> quantile_quantities() {
+  return {
+      {{"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws."},
+       &QuantileRow::share},
+      {for_programs(quantity::critical_gap()), &QuantileRow::gap},
+      {headed("critical gap", quantity::critical_gap_reads_as()), &QuantileRow::gap_reads_as},
+      {quantity::temperature_max(), [](const QuantileRow& row) { return report::known(row.temperature); }}};
 }
 
 /// An interval of a histogram, or what has no number; numbers are in the unit of the row.
@@ -226,15 +228,15 @@ struct HistogramRow {
   std::int64_t draws;
 };
 
-Quantities<HistogramRow> histogram_quantities() {
+report::Quantities<HistogramRow> histogram_quantities() {
   using keys::significant, keys::text;
   return {{quantity::output(), &HistogramRow::shown, &ShownOutput::column, &Column::name},
-          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &Form::unit},
+          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
           {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
           {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
           {{"reads_as", "without a number", text(), "What those have that have no number."},
            &HistogramRow::reads_as},
-          {{"draws", "draws", count(), "Draws of the interval."}, &HistogramRow::draws}};
+          {{"draws", "draws", keys::count(), "Draws of the interval."}, &HistogramRow::draws}};
 }
 
 }  // namespace
@@ -252,7 +254,7 @@ Table quantile_table(const SensitivityResult& result) {
     rows.push_back(
         {share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
   }
-  Table table = table_of("Quantiles over the draws from the inputs", quantile_quantities(), rows);
+  Table table = report::table_of("Quantiles over the draws from the inputs", quantile_quantities(), rows);
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
@@ -277,7 +279,7 @@ Table histogram_table(const SensitivityResult& result) {
     without_number(sample.none_ignites(), quantile_text(result, infinite));
     without_number(sample.missing, "not known");
   }
-  return table_of("Histogram of the draws", histogram_quantities(), rows);
+  return report::table_of("Histogram of the draws", histogram_quantities(), rows);
 }
 
 Plot histogram_plot(const SensitivityResult& result) {

@@ -20,12 +20,11 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::count, keys::fixed, keys::significant, keys::text;
+using report::Quantities, report::Series, report::Table, report::table_of;
+namespace quantity = report::quantity;
 
 namespace {
-
-using keys::fixed, keys::significant, keys::text;
 
 /// One input of one output.
 struct IndexRow {
@@ -135,7 +134,7 @@ Quantities<EvaluationRow> evaluation_quantities(const study::Study& study,
        {{for_programs(quantity::critical_gap_kind()), &EvaluationRow::of, &AnsweredCase::answer,
          &study::CaseAnswer::critical, &study::CriticalGap::kind},
         {headed("critical gap", quantity::critical_gap_reads_as()),
-         [](const EvaluationRow& row) { return reads_as(row.of.answer->critical); }},
+         [](const EvaluationRow& row) { return report::reads_as(row.of.answer->critical); }},
         {quantity::status(), [](const EvaluationRow& row) { return status_of(*row.of.answer); }},
         {headed("failure", quantity::reason()), &EvaluationRow::of, &AnsweredCase::answer,
          &study::CaseAnswer::failure}}});
@@ -149,17 +148,18 @@ bool total_below_first(const math::InputIndices& indices) {
 std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
   const ShownOutput& shown = shown_output(output.output);
   const std::string& unit = shown.column.form.unit;
-  Row facts{{"reason", output.reason},
-            {"mean", number(shown.value(output.mean))},
-            {"deviation", shown.value(output.deviation)},
-            {"unit", unit.empty() ? "" : " " + unit},
-            {"missing", output.missing},
-            {"evaluations", output.values.size()},
-            {"bounds", output.bounds},
-            {"method", method_text(result)},
-            {"inert", output.inert},
-            {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},
-            {"apart", false}};
+  report::Row facts{
+      {"reason", output.reason},
+      {"mean", report::number(shown.value(output.mean))},
+      {"deviation", shown.value(output.deviation)},
+      {"unit", unit.empty() ? "" : " " + unit},
+      {"missing", output.missing},
+      {"evaluations", output.values.size()},
+      {"bounds", output.bounds},
+      {"method", method_text(result)},
+      {"inert", output.inert},
+      {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},
+      {"apart", false}};
   // Inputs that show sampling error by their estimates, with their intervals.
   const auto inputs = shown_inputs(result.study.study);
   for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i) {
@@ -227,17 +227,17 @@ void add_interval(Series& series, double x, double y, const math::Estimate& alon
 }  // namespace
 
 // Inputs below each other, the first at the top: first order above total order.
-Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
+report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
   constexpr double apart = 0.13;
   const auto shown = shown_inputs(result.study.study);
   const std::size_t inputs = shown.size();
   const study::Study& study = result.study.study;
-  Plot plot;
+  report::Plot plot;
   plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
                            at_gap(study, output.output), sensitivity_settings(study).samples);
   plot.x.label = "share of the variance";
-  Series first{"S1: by the input alone", {}, {}, Style::horizontal_bars};
-  Series total{"ST: with its interactions", {}, {}, Style::horizontal_bars};
+  Series first{"S1: by the input alone", {}, {}, report::Style::horizontal_bars};
+  Series total{"ST: with its interactions", {}, {}, report::Style::horizontal_bars};
   for (std::size_t i = 0; i < inputs; ++i) {
     const double y = static_cast<double>(inputs - i);
     const math::InputIndices& indices = output.sobol.inputs[i];

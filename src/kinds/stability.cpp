@@ -13,7 +13,8 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::CaseAnswer, study::not_a_number, study::StudyFile;
+
 namespace {
 
 /// What a run says by itself: all that judging needs, and no histories.
@@ -28,7 +29,7 @@ struct StressRun {
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
 bool was_computed(const CaseAnswer& answer) {
-  return answer.outcome == RunOutcome::ran || answer.outcome == RunOutcome::reused;
+  return answer.outcome == study::RunOutcome::ran || answer.outcome == study::RunOutcome::reused;
 }
 
 // --- of a run by itself ---
@@ -81,7 +82,7 @@ Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mec
   Sentences reserves = run::validity_warnings(scene, mechanics);
   if (const std::string limited = run::to_string(mechanics.limiters); !limited.empty())
     reserves.push_back("limiters acted: " + limited);
-  for (const GapVerdict& gap : answer.verdicts)
+  for (const study::GapVerdict& gap : answer.verdicts)
     if (!std::isfinite(gap.maximum.temperature)) reserves.emplace_back("a temperature is not a number");
   return reserves;
 }
@@ -95,7 +96,7 @@ const StressCase& case_of_run(const StudyFile& study, std::size_t index) {
 
 /// `runs`: the launch, then those through the ignition of gaps. How far one came that was cut off depends on
 /// the machine, and says nothing of the computation: that leaves the case without a finding.
-StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<FinishedRun>& runs) {
+StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<study::FinishedRun>& runs) {
   StressRun run;
   // After a launch that was stopped no other is begun.
   const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
@@ -108,7 +109,7 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
   const StressCase& asked = case_of_run(study, index);
   const scene::Scene& scene = study.cases[index].scene.scene;
   const run::MechanicsResult& mechanics = runs.front().result.mechanics;
-  Study judged = study.study;
+  study::Study judged = study.study;
   judged.gaps = asked.gaps;
   run.answer = answer_of(judged, study.cases[index], mechanics);
   run.answer.outcome = runs.front().outcome;
@@ -132,7 +133,7 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
   const bool checked = compared && !row.deviations.empty() && row.asked.has("same-temperature");
   bool wrong = false;
   for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
-    const GapVerdict& gap = row.answer.verdicts[i];
+    const study::GapVerdict& gap = row.answer.verdicts[i];
     const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
     const double uncertainty = gap.uncertainty.total();
     const bool off = checked && std::abs(deviation) > uncertainty;
@@ -141,7 +142,8 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
     if (off)
       faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
                                    std::abs(deviation), uncertainty));
-    if (gap.judgement.verdict != Verdict::indeterminate && (off || !run.violations.empty())) wrong = true;
+    if (gap.judgement.verdict != study::Verdict::indeterminate && (off || !run.violations.empty()))
+      wrong = true;
     numbers.push_back(fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.maximum.temperature,
                                   to_string(gap.judgement.verdict)));
     if (std::isfinite(deviation))
@@ -202,12 +204,13 @@ std::size_t StabilityResult::count(Outcome outcome) const {
       std::ranges::count_if(rows, [outcome](const StressCaseRow& row) { return row.is(outcome); }));
 }
 
-StabilityResult run_stability(const StudyFile& study, const StudyOptions& options) {
+StabilityResult run_stability(const StudyFile& study, const study::StudyOptions& options) {
   const auto compute = [&](StabilityResult& result) {
     std::vector<StressRun> runs(study.cases.size());
-    run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-      runs[i] = run_from(study, i, finished);
-    });
+    run_every_case(study, options, result.timing,
+                   [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
+                     runs[i] = run_from(study, i, finished);
+                   });
     for (const StressCase& asked : settings_of<StabilitySettings>(study.study).cases) {
       if (asked.run)
         result.rows.push_back(

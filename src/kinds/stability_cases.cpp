@@ -15,10 +15,11 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using keys::words_key;
+using study::Change, study::Fault, study::in_table, study::StudyFile;
+
 namespace {
 
-using keys::words_key;
 using scene::Dimension, scene::Expected, scene::InputError, scene::Key, scene::SceneFile, scene::Standing;
 
 Sentences names_of_invariants() {
@@ -86,7 +87,7 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
     if (!node->is_table())
       return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node),
                              "a table of scene keys, written { key = value, ... }");
-    for (const Leaf& leaf : leaves_as_written(*node->as_table())) {
+    for (const study::Leaf& leaf : study::leaves_as_written(*node->as_table())) {
       const scene::Place place = scene::place_of(*leaf.node, file);
       const auto key = scene::describe_key(start, leaf.name, place);
       if (!key) return in_table(key.error(), name);
@@ -124,7 +125,7 @@ Fault add_run(const CaseReader& reader, const std::string& label, SceneFile scen
               std::optional<std::size_t>& run) {
   if (!scene::has_charge(scene.scene))
     return reader.fault("scene", "a scene without a charge", "a scene with a charge");
-  StudyCase made = case_of(label, std::move(scene));
+  study::StudyCase made = study::case_of(label, std::move(scene));
   const double own = reader.launch.numerical_uncertainty;
   made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
   run = reader.study.cases.size();

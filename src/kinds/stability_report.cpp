@@ -16,8 +16,10 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using keys::kelvin;
+using report::Row;
+using study::GapVerdict;
+namespace quantity = report::quantity;
 
 namespace {
 
@@ -56,7 +58,7 @@ struct GapRow {
   const GapVerdict* verdict() const { return gap ? &of->answer.verdicts[*gap] : nullptr; }
 };
 
-Quantities<StressCaseRow> stress_case_quantities() {
+report::Quantities<StressCaseRow> stress_case_quantities() {
   using keys::text;
   return {{{"group", "group", text(), "Group of the case."}, &StressCaseRow::asked, &StressCase::group},
           {quantity::case_name(), &StressCaseRow::asked, &StressCase::name},
@@ -68,28 +70,28 @@ Quantities<StressCaseRow> stress_case_quantities() {
 }
 
 /// What there is to say of a case and of one of its gaps, which may have none of the numbers.
-Quantities<GapRow> stability_quantities() {
+report::Quantities<GapRow> stability_quantities() {
   using keys::fixed;
   const auto of_run = [](auto get) {
-    return [get](const GapRow& row) { return row.gap ? keys::cell_of(get(*row.of)) : Cell(); };
+    return [get](const GapRow& row) { return row.gap ? keys::cell_of(get(*row.of)) : keys::Cell(); };
   };
   const auto of_list = [](auto list) {
     return [list](const GapRow& row) {
       const std::vector<double>& values = list(*row.of);
-      return row.gap && *row.gap < values.size() ? values[*row.gap] : not_a_number;
+      return row.gap && *row.gap < values.size() ? values[*row.gap] : study::not_a_number;
     };
   };
   return keys::joined<GapRow>(
       {of_part<GapRow>(stress_case_quantities(), &GapRow::of),
        {{quantity::status(), of_run([](const auto& row) { return run::to_string(row.answer.run.status); })},
-        {{"end_time", "until", fixed(4, millisecond), "Instant that the run reached."},
+        {{"end_time", "until", fixed(4, keys::millisecond), "Instant that the run reached."},
          of_run([](const auto& row) { return row.end_time; })},
         {quantity::steps(), of_run([](const auto& row) { return row.answer.run.steps; })},
         {quantity::particles(), of_run([](const auto& row) { return row.answer.run.particles; })},
         {quantity::energy_drift(), of_run([](const auto& row) { return row.answer.run.energy_drift; })},
         {quantity::gap(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.gap; }},
         {quantity::temperature_max(), &GapRow::verdict,
-         [](const GapVerdict& gap) { return known(gap.maximum.temperature); }},
+         [](const GapVerdict& gap) { return report::known(gap.maximum.temperature); }},
         {quantity::temperature_max_inert(),
          of_list([](const StressCaseRow& row) -> auto& { return row.answer.heated_temperature; })},
         {{"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation."},
@@ -105,14 +107,14 @@ Quantities<GapRow> stability_quantities() {
 }
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
-Table stability_table(const StabilityResult& result) {
+report::Table stability_table(const StabilityResult& result) {
   std::vector<GapRow> rows;
   for (const StressCaseRow& row : result.rows) {
     const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
     for (std::size_t i = 0; i < gaps; ++i) rows.push_back({&row, i});
     if (gaps == 0) rows.push_back({&row, std::nullopt});
   }
-  return table_of("Stress cases", stability_quantities(), rows);
+  return report::table_of("Stress cases", stability_quantities(), rows);
 }
 
 /// How many rows that is true of.
@@ -128,10 +130,10 @@ std::size_t count_missing(const StabilityResult& result) {
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
 /// How many cases of every group came out how: a bar for every outcome, the first group on top.
-Plot outcome_plot(const StabilityResult& result) {
+report::Plot outcome_plot(const StabilityResult& result) {
   constexpr int green = 2, orange = 4, blue = 0, black = 6;
   constexpr int colours[] = {green, orange, blue, black};
-  Plot plot;
+  report::Plot plot;
   plot.title = "Outcomes of the stress cases";
   plot.x.label = "cases";
   std::map<std::string, double> places;
@@ -143,11 +145,11 @@ Plot outcome_plot(const StabilityResult& result) {
   }
   for (const Outcome outcome : all_outcomes) {
     const auto i = static_cast<std::size_t>(outcome);
-    plot.series.push_back({to_string(outcome), {}, {}, Style::horizontal_bars, {}, {}, colours[i]});
+    plot.series.push_back({to_string(outcome), {}, {}, report::Style::horizontal_bars, {}, {}, colours[i]});
   }
   for (const auto& [which, count] : cases) {
     const auto i = static_cast<std::size_t>(which.first);
-    Series& series = plot.series[i];
+    report::Series& series = plot.series[i];
     series.x.push_back(count);
     series.y.push_back(places[which.second] + 0.3 - 0.2 * static_cast<double>(i));
     series.lower.push_back(0.0);
@@ -156,13 +158,14 @@ Plot outcome_plot(const StabilityResult& result) {
   return plot;
 }
 
-std::string legend(const Study& study) {
+std::string legend(const study::Study& study) {
   Row invariants = Row::array();
   for (const Invariant& each : all_invariants())
     invariants.push_back({{"name", each.name}, {"words", each.words}});
   return fmt::format(
       "{}\nInvariants, with an uncertainty of T max of {} unless the case states its own:\n\n{}",
-      said_below("stability.outcomes"), in_words(study.numerical_uncertainty, keys::significant(3, kelvin)),
+      said_below("stability.outcomes"),
+      report::in_words(study.numerical_uncertainty, keys::significant(3, kelvin)),
       said_below("stability.invariants", {{"invariants", invariants}}));
 }
 
@@ -178,11 +181,11 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
 }
 
 /// A row for every case that is not held, with the reason in a few words.
-Table not_held_table(const StabilityResult& result) {
+report::Table not_held_table(const StabilityResult& result) {
   std::vector<StressCaseRow> rows;
   std::ranges::copy_if(result.rows, std::back_inserter(rows),
                        [](const StressCaseRow& row) { return !row.is(Outcome::held); });
-  return table_of<StressCaseRow>(
+  return report::table_of<StressCaseRow>(
       "Not held",
       {{quantity::case_name(), [](const StressCaseRow& row) { return row.asked.label(); }},
        {{"outcome", "outcome", keys::text(), "What became of it."}, outcome_text},
@@ -204,14 +207,14 @@ std::string answer(const StabilityResult& result) {
   return fmt::format("{}", fmt::join(said("stability.answer", facts), "\n"));
 }
 
-Report report_of(const StabilityResult& result) {
-  Report report{result.study.study.title, answer(result), remaking_command(result.study)};
+report::Report report_of(const StabilityResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {
-      Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
-      ReportTable{not_held_table(result)},
-      Statement{"All cases with their numbers: `stability.csv`.\n"},
-      ReportTable{stability_table(result), "stability.csv", "cases", Shown::file},
-      Statement{"## What the outcomes mean\n\n" + legend(result.study.study)},
+      report::Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
+      report::ReportTable{not_held_table(result)},
+      report::Statement{"All cases with their numbers: `stability.csv`.\n"},
+      report::ReportTable{stability_table(result), "stability.csv", "cases", report::Shown::file},
+      report::Statement{"## What the outcomes mean\n\n" + legend(result.study.study)},
   };
   report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;

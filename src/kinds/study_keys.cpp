@@ -10,7 +10,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::Reference, study::Study, study::StudyFile;
 
 namespace {
 
@@ -100,12 +100,12 @@ const std::vector<Key<Reference>>& published_row_keys() {
 }
 
 Fault read_reference_tables(const toml::table& root, const std::string& file, StudyFile& study) {
-  const auto tables = tables_of(root, "reference", file);
+  const auto tables = study::tables_of(root, "reference", file);
   if (!tables) return tables.error();
   for (const toml::table* table : *tables) {
     Reference reference;
     auto read = scene::read_table(*table, published_row_keys(), {}, file, reference);
-    if (!read) return in_table(read.error(), "reference");
+    if (!read) return study::in_table(read.error(), "reference");
     const std::size_t index = study.study.references.size();
     for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
     study.study.references.push_back(std::move(reference));
@@ -145,7 +145,7 @@ Fault check_references(const StudyFile& study) {
                       "each gap once");
     }
   }
-  const ReferenceLine& line = study.study.reference_line;
+  const study::ReferenceLine& line = study.study.reference_line;
   if (std::isnan(line.slope) == std::isnan(line.intercept)) return std::nullopt;
   const bool slope = !std::isnan(line.slope);
   return fault_at(study, slope ? "reference_line.slope" : "reference_line.intercept",
@@ -264,7 +264,7 @@ std::string default_text(const scene::KeyDescription& key, const scene::Value& v
 
 StudyTable reference_table() { return study_table_of("reference", published_row_keys()); }
 
-StudyTable cited_limit_table() { return study_table_of("cited_limit", cited_limit_keys()); }
+StudyTable cited_limit_table() { return study_table_of("cited_limit", study::cited_limit_keys()); }
 
 Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
   for (const auto& key : keys) {
@@ -290,7 +290,7 @@ Fault check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) 
                     has(key.name) ? "a source without a value" : "a value without a source",
                     fmt::format("{} = {{ value = \"1 K\", because = \"...\" }}", name));
   }
-  for (const StatedUncertainty& each : study.study.stated) {
+  for (const study::StatedUncertainty& each : study.study.stated) {
     const std::string key = each.key + because_part;
     if (Fault fault = scene::check_reason(each.because, place_of_key(study, key), key)) return fault;
   }

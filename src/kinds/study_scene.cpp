@@ -16,20 +16,20 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::StudyFile;
 
 namespace {
 
 using scene::Dimension, scene::Place;
 
 /// One override of a table.
-Fault add_override(const Leaf& leaf, const std::string& table_name, StudyFile& study,
-                   std::vector<Change>& changes) {
+Fault add_override(const study::Leaf& leaf, const std::string& table_name, StudyFile& study,
+                   std::vector<study::Change>& changes) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const auto key = scene::describe_key(study.scene, leaf.name, place);
-  if (!key) return in_table(key.error(), table_name);
+  if (!key) return study::in_table(key.error(), table_name);
   const auto value = scene::read_value(*leaf.node, *key, study.file);
-  if (!value) return in_table(value.error(), table_name);
+  if (!value) return study::in_table(value.error(), table_name);
   if (auto note = scene::note_on_former_word(*leaf.node, *key, place))
     study.scene.notes.push_back(std::move(*note));
   study.overrides[leaf.name] = scene::format_value(*key, *value);
@@ -44,8 +44,8 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
                            scene::found_text(*overrides.node),
                            fmt::format("a table, written [{}], of scene keys", overrides.name));
   }
-  std::vector<Change> changes;
-  for (const Leaf& leaf : leaves_as_written(*overrides.node->as_table()))
+  std::vector<study::Change> changes;
+  for (const study::Leaf& leaf : study::leaves_as_written(*overrides.node->as_table()))
     if (Fault fault = add_override(leaf, overrides.name, study, changes)) return fault;
   auto changed = with_changes(study.scene, changes, study.study.kind.judges_closing_gaps);
   if (!changed) return changed.error();
@@ -58,7 +58,7 @@ Fault check_scene(const StudyFile& study) {
   if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
   if (scene.surface.model == scene::GapModel::closing && !study.study.kind.judges_closing_gaps)
-    return fault_at(study, "scene", "a scene whose gap closes", only_reservoir);
+    return fault_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
   if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load)) {
     return fault_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
                     "a time within the load's duration, " +
@@ -82,7 +82,7 @@ scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
 }
 
 Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study,
-                   std::optional<AccuracyRecord>& record) {
+                   std::optional<study::AccuracyRecord>& record) {
   auto scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
   if (!scene) return scene.error();
   study.scene = std::move(*scene);

@@ -14,18 +14,18 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using report::number, report::Row, report::shown_value;
+using study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
 
 report::Column shown(const SurrogateOutput& output) {
-  if (output.name == quantity::critical_gap().name)
+  if (output.name == report::quantity::critical_gap().name)
     return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
-  std::string heading = "T max at a gap of " + centimetres(output.gap);
+  std::string heading = "T max at a gap of " + report::centimetres(output.gap);
   if (output.inert) heading += ", without reaction";
   return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
 }
 
-Quantities<FitRow> fit_quantities() {
+report::Quantities<FitRow> fit_quantities() {
   using keys::count, keys::significant, keys::text;
   const auto is_fitted = [](const FitRow& row) { return row.fit && row.fit->fit.chaos.points > 0; };
   const auto of_fit = [=](auto get) {
@@ -35,7 +35,7 @@ Quantities<FitRow> fit_quantities() {
   };
   const auto error_of = [=](auto get) {
     return [=](const FitRow& row) {
-      return is_fitted(row) ? shown_value(std::invoke(get, *row.fit), row.shown.form) : not_a_number;
+      return is_fitted(row) ? shown_value(std::invoke(get, *row.fit), row.shown.form) : study::not_a_number;
     };
   };
   return {{{"fitted", "fitted", count(), "Evaluations that were fitted."},
@@ -52,7 +52,7 @@ Quantities<FitRow> fit_quantities() {
           {{"process_leave_one_out", "of the process", significant(2), "The same of the Gaussian process."},
            error_of([](const SurrogateOutput& output) {
              const math::GaussianProcess& process = output.fit.process;
-             return process.reason.empty() ? process.leave_one_out : not_a_number;
+             return process.reason.empty() ? process.leave_one_out : study::not_a_number;
            })},
           {{"held_out", "held out", count(), "Evaluations that were not fitted."},
            of_fit([](const SurrogateOutput& output) { return output.error.launches; })},
@@ -65,12 +65,12 @@ Quantities<FitRow> fit_quantities() {
 namespace {
 
 /// Shown numbers are SI times the scale.
-double scale_of(const Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
+double scale_of(const keys::Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
 
 Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_t input) {
-  const ShownKey key = shown_axes(study.study)[input];
+  const report::ShownKey key = report::shown_axes(study.study)[input];
   const math::Distribution& distribution = record.inputs.distributions[input];
-  const InputRange range = range_of(record, input);
+  const study::InputRange range = range_of(record, input);
   return {{"name", key.name},
           {"heading", key.heading},
           {"unit", key.form.unit},
@@ -78,7 +78,7 @@ Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_
           {"zero", shown_value(0.0, key.form)},
           {"from", range.lower},
           {"to", range.upper},
-          {"value", number_in(study.scene, record.keys[input])},
+          {"value", study::number_in(study.scene, record.keys[input])},
           {"kind", static_cast<int>(distribution.kind)},
           {"lower", number(distribution.lower)},
           {"upper", number(distribution.upper)},
@@ -87,8 +87,8 @@ Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_
 }
 
 Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
-  const Surrogate surrogate(record, output);
-  const Column column = shown(output);
+  const study::Surrogate surrogate(record, output);
+  const report::Column column = shown(output);
   const math::FittedForm& form =
       std::visit([](const auto& fit) -> const math::FittedForm& { return fit.form(); }, surrogate.fit());
   Row json{{"name", output.name},
@@ -113,7 +113,8 @@ Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
 
 /// The page with the fit as JSON, in which no tag of the page can end.
 std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
-  Row fit{{"gap_cm", shown_gap(record.gap)}, {"largest_gap_cm", shown_gap(study.study.largest_gap)}};
+  Row fit{{"gap_cm", report::shown_gap(record.gap)},
+          {"largest_gap_cm", report::shown_gap(study.study.largest_gap)}};
   for (std::size_t input = 0; input < record.keys.size(); ++input)
     fit["inputs"].push_back(input_json(record, study, input));
   if (const auto& together = record.inputs.correlated)
@@ -129,7 +130,7 @@ std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
   std::string data = fit.dump();
   for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;) data.replace(at, 1, "\\u003c");
   facts["fit"] = data;
-  return filled(ask_template(), {&facts});
+  return report::filled(ask_template(), {&facts});
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ std::string bounds_reason(std::size_t bounds, std::size_t all) {
   return fmt::format("{} of {} critical gaps are bounds, not numbers", bounds, all);
 }
 
-std::vector<TextFile> surrogate_files(const SurrogateRecord& record, const StudyFile& study) {
+std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, const StudyFile& study) {
   return {{"surrogate.json", to_json_text(record)}, {"ask.html", ask_page(record, study)}};
 }
 

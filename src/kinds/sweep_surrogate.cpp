@@ -13,8 +13,8 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
-using namespace report;
+using study::Axis, study::Fault, study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
+namespace quantity = report::quantity;
 
 namespace {
 
@@ -64,22 +64,22 @@ SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t 
   const std::vector<double>& gaps = result.study.study.gaps;
   SurrogateOutput output{
       .name = quantity::temperature_max().name, .gap = gaps[gap], .inert = any_ignites(result.answers, gap)};
-  if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", shown_gap(gaps[gap]));
-  for (const CaseAnswer& answer : result.answers)
+  if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", report::shown_gap(gaps[gap]));
+  for (const study::CaseAnswer& answer : result.answers)
     output.values.push_back(temperature_of(answer, gap, output.inert));
   return output;
 }
 
 SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
   SurrogateOutput output{.name = quantity::critical_gap().name};
-  for (const CaseAnswer& answer : result.answers)
-    output.values.push_back(answer.completed() ? answer.critical.value : not_a_number);
+  for (const study::CaseAnswer& answer : result.answers)
+    output.values.push_back(answer.completed() ? answer.critical.value : study::not_a_number);
   if (const auto bounds = std::ranges::count_if(result.answers, is_bound))
     output.reason = bounds_reason(static_cast<std::size_t>(bounds), result.answers.size());
   return output;
 }
 
-Quantities<FitRow> surrogate_quantities() {
+report::Quantities<FitRow> surrogate_quantities() {
   return keys::joined<FitRow>({{{quantity::output(), [](const FitRow& row) { return row.shown.name; }},
                                 {quantity::unit(), [](const FitRow& row) { return row.shown.form.unit; }}},
                                fit_quantities(),
@@ -138,12 +138,12 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
   return record;
 }
 
-std::vector<Column> surrogate_columns() { return keys::described(surrogate_quantities()); }
+std::vector<report::Column> surrogate_columns() { return keys::described(surrogate_quantities()); }
 
-Table surrogate_table(const SurrogateRecord& record) {
+report::Table surrogate_table(const SurrogateRecord& record) {
   std::vector<FitRow> rows;
   for (const SurrogateOutput& output : record.outputs) rows.push_back({shown(output), &output});
-  Table table = table_of("What the fit of these cases misses", surrogate_quantities(), rows);
+  report::Table table = report::table_of("What the fit of these cases misses", surrogate_quantities(), rows);
   table.notes = said("critical_gap.surrogate");
   return table;
 }

@@ -11,7 +11,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault, study::in_table;
 
 namespace {
 
@@ -103,7 +103,7 @@ Fault read_entry(VaryReader& reader, const Varied& admitted) {
   reader.places = std::move(*read);
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
   if (Fault fault = check_free(reader.study, key->name, reader.place_of("key"), "vary.key")) return fault;
-  Axis axis{name_of_axis(key->name), reader.study_key("key"), *key, {}};
+  study::Axis axis{study::name_of_axis(key->name), reader.study_key("key"), *key, {}};
   if (admitted.distributions) {
     if (Fault fault = check_is_distribution(reader)) return fault;
     axis.distribution = reader.text.distribution;
@@ -193,9 +193,9 @@ StudyTable vary_table() {
   return table;
 }
 
-Fault read_vary(const StudySource& source, const Varied& admitted, StudyFile& study) {
+Fault read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study) {
   const auto tables = admitted.needed.empty()
-                          ? tables_of(source.root, table_name, study.file)
+                          ? study::tables_of(source.root, table_name, study.file)
                           : some_tables_of(source.root, table_name, study, admitted.needed);
   if (!tables) return tables.error();
   std::size_t index = 0;
@@ -211,7 +211,7 @@ Fault read_vary(const StudySource& source, const Varied& admitted, StudyFile& st
 }
 
 scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
-                                                             const StudyFile& study) {
+                                                             const study::StudyFile& study) {
   const toml::node* entries = source.root.get(table_name);
   std::vector<const toml::table*> variants;
   for (const toml::node& entry : *entries->as_array()) {
@@ -220,7 +220,7 @@ scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& 
     if (!variants.empty())
       return scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
                              "all variants in one [[vary]]");
-    auto found = tables_of(table, variants_key, study.file);
+    auto found = study::tables_of(table, variants_key, study.file);
     if (!found) return in_table(found.error(), table_name);
     variants = std::move(*found);
   }

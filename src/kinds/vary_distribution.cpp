@@ -15,7 +15,7 @@
 
 namespace launchsafe::kinds {
 
-using namespace study;
+using study::Fault;
 
 namespace {
 
@@ -78,7 +78,7 @@ Fault check_reach(const VaryReader& reader) {
 
 /// Whether the study's scene and keys allow constants of a record to vary.
 Fault check_place_of_record(const VaryReader& reader) {
-  const StudyFile& study = reader.study;
+  const study::StudyFile& study = reader.study;
   if (sensitivity_settings(study.study).correlated)
     return reader.fault("calibration", "a second calibration", "one calibration among what varies");
   if (!study.study.calibration_record.empty())
@@ -95,14 +95,15 @@ Fault check_place_of_record(const VaryReader& reader) {
 }
 
 /// The record, with a covariance.
-scene::Expected<CalibrationRecord> read_covariance(VaryReader& reader, const std::filesystem::path& folder,
-                                                   const std::string& name) {
+scene::Expected<study::CalibrationRecord> read_covariance(VaryReader& reader,
+                                                          const std::filesystem::path& folder,
+                                                          const std::string& name) {
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
   const auto text = scene::read_text_file(folder / name);
   if (!text)
     return reader.fault("calibration", fmt::format("\"{}\", which cannot be read", name),
                         wanted + ", by its path from the study file's folder", text.error().suggestion);
-  auto record = parse_calibration_record(*text, (folder / name).string());
+  auto record = study::parse_calibration_record(*text, (folder / name).string());
   if (!record) return record;
   reader.study.records.push_back(store::sha256(*text));
   if (!record->failure.empty())
@@ -147,7 +148,7 @@ std::vector<scene::Key<VaryRecord>> vary_record_keys() {
 Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
   VaryRecord named;
   auto read = scene::read_table(reader.table, vary_record_keys(), {}, reader.study.file, named);
-  if (!read) return in_table(read.error(), "vary");
+  if (!read) return study::in_table(read.error(), "vary");
   reader.places = std::move(*read);
   const Place place = reader.place_of("calibration");
   const std::string study_key = reader.study_key("calibration");
@@ -155,15 +156,15 @@ Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
   if (Fault fault = check_place_of_record(reader)) return fault;
   const auto record = read_covariance(reader, folder, named.name);
   if (!record) return record.error();
-  constexpr std::size_t count = fitted_keys.size();
+  constexpr std::size_t count = study::fitted_keys.size();
   auto factor = math::covariance_factor(record->covariance, count);
   if (!factor)
     return reader.fault("calibration", "a record whose covariance is not positive definite",
                         "the record of a calibration whose fit is not singular");
-  Study& study = reader.study.study;
+  study::Study& study = reader.study.study;
   settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string key_name = fitted_keys[i];
+    const std::string key_name = study::fitted_keys[i];
     if (Fault fault = check_free(reader.study, key_name, place, "vary.calibration")) return fault;
     const auto key = varied_key(reader.study, key_name, "vary.calibration", place);
     if (!key) return key.error();

@@ -4,7 +4,8 @@
 #include <utility>
 
 namespace launchsafe::materials {
-using namespace keys;
+using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Hotter, keys::Key, keys::KeyKind,
+    keys::over_range, keys::Part, keys::Role, keys::Standing, keys::Value;
 
 namespace {
 
@@ -12,7 +13,7 @@ namespace {
 void rename(KineticsParameters& kinetics) { kinetics.name = name_of(kinetics); }
 
 Key<ViscoScramParameters> crack_friction_key() {
-  return bound_key<ViscoScramParameters>(
+  return keys::bound_key<ViscoScramParameters>(
       {.name = "crack_friction",
        .kind = KeyKind::flag,
        .standing = Standing::literature,
@@ -61,9 +62,9 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
                                 "toughness; 0 leaves it out.",
                                 &ViscoScramParameters::face_friction),
                      {"crack_friction"}),
-          between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back", of_model),
+          between(0, 0.8), "dry crystals rub with 0.3 to 0.6; 0 holds no crack back", keys::of_model),
       always_plausible(overriding(crack_friction_key(), {"face_friction"}), "without it cracks grow sooner",
-                       of_model),
+                       keys::of_model),
       plausibly(list_key("shear_moduli", Dimension::pressure, above_to(0, 1e12), Standing::paper,
                          "Shear moduli G_n of the Maxwell elements.", &ViscoScramParameters::shear_moduli,
                          maxwell_elements),
@@ -137,7 +138,7 @@ std::vector<Key<Charge>> heat_keys() {
 
 /// A named set of kinetics, and what is its own in it.
 Key<KineticsParameters> kinetics_set_key() {
-  return bound_key<KineticsParameters>(
+  return keys::bound_key<KineticsParameters>(
       {.name = "set",
        .kind = KeyKind::word,
        .words = {"comp-b", "printed", "custom"},
@@ -191,7 +192,7 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
 }  // namespace
 
 std::vector<Key<Charge>> Charge::parameters() {
-  return joined(
+  return keys::joined(
       {keys_of_part("charge.", &Charge::strength, crack_keys()),
        keys_of_part<Charge>("charge.", std::identity{}, density_keys()), keys_of_eos(Charge{}.eos),
        keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),

@@ -2,7 +2,7 @@
 #include "launchsafe/materials/steel.hpp"
 
 namespace launchsafe::materials {
-using namespace keys;
+using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Key, keys::Role, keys::Standing;
 
 namespace {
 
@@ -76,8 +76,8 @@ std::vector<Key<JohnsonCookParameters>> strength_keys() {
 }  // namespace
 
 std::vector<Key<Steel>> Steel::parameters() {
-  return joined({keys_of_part("steel.", &Steel::eos, pressure_keys()),
-                 keys_of_part("steel.", &Steel::strength, strength_keys())});
+  return keys::joined({keys_of_part("steel.", &Steel::eos, pressure_keys()),
+                       keys_of_part("steel.", &Steel::strength, strength_keys())});
 }
 
 }  // namespace launchsafe::materials

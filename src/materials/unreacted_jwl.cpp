@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace launchsafe::materials {
-using namespace keys;
+using keys::above_to, keys::between, keys::Dimension, keys::Key, keys::Standing;
 
 namespace {
 
