@@ -17,10 +17,16 @@ constexpr double most_closed = 0.1;
 
 mpm::Contact& contact_of(mpm::Simulation& simulation) { return simulation.total_lagrangian()->contact(); }
 
+surface::SkinModel model_of(const scene::Scene& scene) {
+  surface::SkinModel model = surface::skin_model(scene);
+  if (!scene.surface.ideal_air) model.surface.air = materials::hot_and_dense(model.surface.air);
+  return model;
+}
+
 }  // namespace
 
 ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorder, double gap)
-    : model_(surface::skin_model(simulation.scene())),
+    : model_(model_of(simulation.scene())),
       nodes_(nodes_of_bottom(simulation, recorder)),
       floor_(simulation.scene().surface.roughness),
       release_(simulation.scene().surface.release),
@@ -118,8 +124,12 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
                  pressure = node.pressure_ratio * gas.at(opening);
     node.closing_speed = (node.opening - opening) / dt;
     node.opening = opening;
+    if (!(opening > gas.covolume)) {  // faces that were paired anew may leave the air no volume
+      failed_ = true;
+      return;
+    }
     if (node.closing_speed > 0.0)
-      longest_step_ = std::min(longest_step_, most_closed * opening / node.closing_speed);
+      longest_step_ = std::min(longest_step_, most_closed * (opening - gas.covolume) / node.closing_speed);
     node.pressure_integral += 0.5 * dt * (node.pressure + pressure);
     node.pressure = pressure;
     touches = touches || opening <= floor_ * (1.0 + 1e-9);

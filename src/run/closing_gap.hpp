@@ -27,7 +27,7 @@ class ClosingGap {
   void record(const TraceRecorder& recorder);
   /// s, in which no opening falls by more than a part of itself that the gas's law resolves.
   double longest_step() const { return longest_step_; }
-  /// A temperature of a column is not finite.
+  /// A temperature of a column is not finite, or its air has no volume.
   bool failed() const { return failed_; }
 
   ClosingHistory take_history(mpm::Simulation& simulation);

@@ -183,7 +183,7 @@ void Runner::advance(double dt) {
   const bool samples = time >= next_sample_ || last;
   if (closing_) closing_->advance(simulation_, recorder_, dt, samples);
   if (closing_ && closing_->failed())
-    return stop_now(RunStatus::non_finite, "a temperature in the gap is no longer finite");
+    return stop_now(RunStatus::non_finite, "the air in the gap has no volume or no finite temperature");
   if (samples) {
     recorder_.sample(simulation_);
     if (closing_) closing_->record(recorder_);

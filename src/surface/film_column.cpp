@@ -17,63 +17,70 @@ constexpr double own_weight = 0.292893218813452476;    // 1 - sqrt(2)/2
 constexpr std::array<double, 3> error_weights{(4.0 * outer_weight - 1.0) / 3.0, -1.0 / 3.0,
                                               2.0 * own_weight / 3.0};
 
-/// Conductance times the air's mass, p k/(R T), W kg/(m4 K).
-double of_air(double pressure, double gas_constant, double temperature) {
+/// Conductance times the air's mass, density times conductivity, W kg/(m4 K).
+double of_air(double pressure, const materials::AirParameters& air, double temperature) {
   const double at = std::max(temperature, 1.0);
-  return pressure / gas_constant * materials::air_conductivity(at) / at;
+  const double volume = materials::specific_gas_constant(air) * at / pressure + air.covolume;  // m3/kg
+  return materials::air_conductivity(at) / volume;
 }
 
 }  // namespace
 
 FilmColumn::FilmColumn(const FilmGrid& grid, const materials::AirParameters& air, double charge, double base)
-    : grid_(&grid),
-      air_(air),
-      gas_constant_(gas_constant(air)),
-      reference_(charge),
-      pressure_(air.initial_pressure) {
+    : grid_(&grid), air_(air), reference_(charge), pressure_(air.initial_pressure) {
   state_.assign(grid.size(), 0.0);
   for (std::size_t i = grid.air_begin; i < grid.size(); ++i)
-    state_[i] = i < grid.base_begin ? air.initial_temperature : base - reference_;
+    state_[i] = i < grid.base_begin ? grid.isentropes.without(air.initial_temperature) : base - reference_;
   before_ = state_;
-  for (Cells* cells : {&excess_, &rate_begin_, &rate_inner_, &rate_end_, &inner_, &end_, &guess_, &known_,
-                       &error_, &share_, &inverse_})
+  for (Cells* cells : {&rate_begin_, &rate_inner_, &rate_end_, &inner_, &end_, &guess_, &known_, &error_,
+                       &share_, &inverse_, &excess_})
     cells->assign(grid.size(), 0.0);
+  slope_.assign(grid.size(), 1.0);
+  capacity_ = grid.capacity;
+  enthalpy_ = find_enthalpy(pressure_);
   conductance_ = grid.conductance;
   conductance_.push_back(0.0);
 }
 
 double FilmColumn::step(double h, const StagePressures& pressures, double heating) {
   const double weight = own_weight * h;
-  const std::array<double, 3> factors{factor(pressures[0]), factor(pressures[1]), factor(pressures[2])};
   const auto friction_of = [&](std::size_t i) { return i < grid_->air_begin ? heating : 0.0; };
+  const double enthalpy_before = pressures[0] == pressure_ ? enthalpy_ : find_enthalpy(pressures[0]);
 
-  find_excess(state_, factors[0], excess_);
-  find_conductances(excess_, pressures[0]);
-  find_rates(excess_, factors[0], rate_begin_);
+  expand_at(state_, factor(pressures[0]));
+  find_conductances(pressures[0]);
+  find_rates(rate_begin_);
+  double into_air = outer_weight * h * heat_of(rate_begin_);
 
   extrapolate(before_, state_, last_step_ > 0.0 ? 1.0 + inner_stage * h / last_step_ : 1.0, guess_);
-  find_excess(guess_, factors[1], excess_);
-  find_conductances(excess_, pressures[1]);
+  expand_at(guess_, factor(pressures[1]));
+  find_conductances(pressures[1]);
   for (std::size_t i = 0; i < state_.size(); ++i)
     known_[i] = state_[i] + weight * (rate_begin_[i] + 2.0 * friction_of(i));
-  solve_stage(known_, weight, factors[1], inner_);
+  solve_stage(guess_, weight, inner_);
   for (std::size_t i = 0; i < state_.size(); ++i) rate_inner_[i] = (inner_[i] - known_[i]) / weight;
+  into_air += outer_weight * h * heat_of(rate_inner_);
 
   extrapolate(state_, inner_, 1.0 / inner_stage, guess_);
-  find_excess(guess_, factors[2], excess_);
-  find_conductances(excess_, pressures[2]);
+  expand_at(guess_, factor(pressures[2]));
+  find_conductances(pressures[2]);
   for (std::size_t i = 0; i < state_.size(); ++i)
     known_[i] = state_[i] + h * (outer_weight * (rate_begin_[i] + rate_inner_[i]) + friction_of(i));
-  solve_stage(known_, weight, factors[2], end_);
+  solve_stage(guess_, weight, end_);
   for (std::size_t i = 0; i < state_.size(); ++i) rate_end_[i] = (end_[i] - known_[i]) / weight;
+  into_air += weight * heat_of(rate_end_);
 
-  account(h, factors, heating);
   before_.swap(state_);
   state_.swap(end_);
   pressure_ = pressures[2];
+  enthalpy_ = find_enthalpy(pressure_);
   last_step_ = h;
-  find_excess(state_, factors[2], excess_);
-  return error_of(excess_, h, factors[2]);
+  // The work is what the enthalpy gains beyond the heat: V dp of air that gets it in three portions.
+  heat_.work = enthalpy_ - enthalpy_before - into_air;
+  double charge = 0.0;  // J/(m2 K)
+  for (std::size_t i = 0; i < grid_->air_begin; ++i) charge += grid_->capacity[i];
+  heat_.friction = charge * heating * h;
+  return error_of(h);
 }
 
 void FilmColumn::keep(Kept& kept) const {
@@ -81,6 +88,7 @@ void FilmColumn::keep(Kept& kept) const {
   kept.before = before_;
   kept.pressure = pressure_;
   kept.last_step = last_step_;
+  kept.enthalpy = enthalpy_;
 }
 
 void FilmColumn::restore(const Kept& kept) {
@@ -88,6 +96,7 @@ void FilmColumn::restore(const Kept& kept) {
   before_ = kept.before;
   pressure_ = kept.pressure;
   last_step_ = kept.last_step;
+  enthalpy_ = kept.enthalpy;
 }
 
 double FilmColumn::factor(double pressure) const {
@@ -95,37 +104,42 @@ double FilmColumn::factor(double pressure) const {
 }
 
 double FilmColumn::excess_of(std::size_t cell) const {
-  return is_air(cell) ? state_[cell] * factor(pressure_) - reference_ : state_[cell];
+  if (!is_air(cell)) return state_[cell];
+  return grid_->isentropes.at(state_[cell] * factor(pressure_)).temperature - reference_;
 }
 
-/// Temperatures above the reference, K.
-void FilmColumn::find_excess(const Cells& state, double factor, Cells& excess) const {
-  excess = state;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
-    excess[i] = state[i] * factor - reference_;
+/// Takes temperatures, their slopes and heat capacities at a state.
+void FilmColumn::expand_at(const Cells& state, double factor) {
+  excess_ = state;
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) {
+    const materials::CompressedAir air = grid_->isentropes.at(state[i] * factor);
+    excess_[i] = air.temperature - reference_;
+    slope_[i] = factor * air.slope;
+    capacity_[i] = grid_->capacity[i] * air.capacity_ratio;
+  }
 }
 
-void FilmColumn::find_conductances(const Cells& excess, double pressure) {
+void FilmColumn::find_conductances(double pressure) {
   const std::size_t first = grid_->air_begin - 1, last = grid_->base_begin - 1;
   for (std::size_t face = first; face <= last; ++face) {
-    const double mean = reference_ + 0.5 * (excess[face] + excess[face + 1]);
-    conductance_[face] = of_air(pressure, gas_constant_, mean) / grid_->air_mass[face];
+    const double mean = reference_ + 0.5 * (excess_[face] + excess_[face + 1]);
+    conductance_[face] = of_air(pressure, air_, mean) / grid_->air_mass[face];
   }
   conductance_[first] /= 1.0 + conductance_[first] * grid_->charge_resistance;
   conductance_[last] /= 1.0 + conductance_[last] * grid_->base_resistance;
 }
 
 /// By conduction; of air those of the potential temperature, K/s.
-void FilmColumn::find_rates(const Cells& excess, double factor, Cells& rates) const {
+void FilmColumn::find_rates(Cells& rates) const {
   double entering = 0.0;  // W/m2 from the left
-  for (std::size_t i = 0; i < excess.size(); ++i) {
-    const double leaving = i + 1 < excess.size() ? conductance_[i] * (excess[i] - excess[i + 1]) : 0.0;
-    rates[i] = (entering - leaving) / (grid_->capacity[i] * (is_air(i) ? factor : 1.0));
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    const double leaving = i + 1 < rates.size() ? conductance_[i] * (excess_[i] - excess_[i + 1]) : 0.0;
+    rates[i] = (entering - leaving) / (capacity_[i] * slope_[i]);
     entering = leaving;
   }
 }
 
-/// Only conductivities are taken at what comes out, so air is kept within a factor of 2.
+/// Only conductivities and slopes are taken at what comes out, so air is kept within a factor of 2.
 void FilmColumn::extrapolate(const Cells& from, const Cells& to, double share, Cells& at) const {
   for (std::size_t i = 0; i < at.size(); ++i) at[i] = from[i] + share * (to[i] - from[i]);
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
@@ -136,7 +150,7 @@ void FilmColumn::extrapolate(const Cells& from, const Cells& to, double share, C
 void FilmColumn::factorise(double weight) {
   double left = 0.0;  // what the cells on the left add to the diagonal
   for (std::size_t i = 0; i < share_.size(); ++i) {
-    const double diagonal = grid_->capacity[i] + left, beyond = weight * conductance_[i];
+    const double diagonal = capacity_[i] + left, beyond = weight * conductance_[i];
     inverse_[i] = 1.0 / (diagonal + beyond);
     share_[i] = beyond * inverse_[i];
     left = diagonal * share_[i];
@@ -150,47 +164,34 @@ void FilmColumn::solve(Cells& values) const {
     values[i] = values[i] * inverse_[i] + share_[i] * values[i + 1];
 }
 
-/// The state y with y = known + weight x (rates by conduction at y).
-void FilmColumn::solve_stage(const Cells& known, double weight, double factor, Cells& state) {
+/// The state y with y = known + weight x (rates by conduction at y), linear about the one expanded at.
+void FilmColumn::solve_stage(const Cells& about, double weight, Cells& state) {
   factorise(weight);
-  find_excess(known, factor, state);
-  for (std::size_t i = 0; i < state.size(); ++i) state[i] *= grid_->capacity[i];
+  for (std::size_t i = 0; i < state.size(); ++i)
+    state[i] = capacity_[i] * (is_air(i) ? excess_[i] + slope_[i] * (known_[i] - about[i]) : known_[i]);
   solve(state);
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
-    state[i] = (state[i] + reference_) / factor;
+    state[i] = about[i] + (state[i] - excess_[i]) / slope_[i];
 }
 
 /// W/m2, that enters the air at rates of its potential temperature.
-double FilmColumn::heat_of(const Cells& rates, double factor) const {
+double FilmColumn::heat_of(const Cells& rates) const {
   double sum = 0.0;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) sum += grid_->capacity[i] * rates[i];
-  return factor * sum;
-}
-
-/// The work is that on air which gets its heat in three portions, at the begin, the inner stage and the end
-/// of the step: exact for those, so that it is what the enthalpy gains beyond them.
-void FilmColumn::account(double h, const std::array<double, 3>& factors, double heating) {
-  double potential = 0.0;  // J/m2
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
-    potential += grid_->capacity[i] * state_[i];
-  const double rise = factors[2] - factors[0];
-  heat_.work = potential * rise + outer_weight * h * heat_of(rate_begin_, factors[0]) * rise / factors[0] +
-               outer_weight * h * heat_of(rate_inner_, factors[1]) * (factors[2] - factors[1]) / factors[1];
-  double charge = 0.0;  // J/(m2 K)
-  for (std::size_t i = 0; i < grid_->air_begin; ++i) charge += grid_->capacity[i];
-  heat_.friction = charge * heating * h;
+    sum += capacity_[i] * slope_[i] * rates[i];
+  return sum;
 }
 
-double FilmColumn::error_of(const Cells& excess, double h, double factor) {
+double FilmColumn::error_of(double h) {
   for (std::size_t i = 0; i < error_.size(); ++i) {
     const double difference = h * (error_weights[0] * rate_begin_[i] + error_weights[1] * rate_inner_[i] +
                                    error_weights[2] * rate_end_[i]);
-    error_[i] = grid_->capacity[i] * difference * (is_air(i) ? factor : 1.0);
+    error_[i] = capacity_[i] * slope_[i] * difference;
   }
   solve(error_);  // damps what is stiff, of which the difference says too much
   double most = 0.0;
   for (std::size_t i = 0; i < error_.size(); ++i) {
-    const double share = std::abs(error_[i]) / (reference_ + excess[i]);
+    const double share = std::abs(error_[i]) / (reference_ + excess_[i]);
     if (!(share <= most)) most = share;
     if (!(share >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
   }
@@ -200,8 +201,8 @@ double FilmColumn::error_of(const Cells& excess, double h, double factor) {
 double FilmColumn::charge_surface() const {
   const std::size_t in = grid_->air_begin - 1, out = grid_->air_begin;
   const double solid = excess_of(in), gas = excess_of(out);
-  const double through = of_air(pressure_, gas_constant_, reference_ + 0.5 * (solid + gas)) /
-                         grid_->air_mass[in] * grid_->charge_resistance;
+  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) / grid_->air_mass[in] *
+                         grid_->charge_resistance;
   // Without conductivity the resistance is infinite, and what the cell has its surface has.
   return std::isfinite(through) ? reference_ + (solid + through * gas) / (1.0 + through) : reference_ + solid;
 }
@@ -209,29 +210,52 @@ double FilmColumn::charge_surface() const {
 double FilmColumn::base_surface() const {
   const std::size_t in = grid_->base_begin, out = grid_->base_begin - 1;
   const double solid = excess_of(in), gas = excess_of(out);
-  const double through = of_air(pressure_, gas_constant_, reference_ + 0.5 * (solid + gas)) /
-                         grid_->air_mass[out] * grid_->base_resistance;
+  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) / grid_->air_mass[out] *
+                         grid_->base_resistance;
   return std::isfinite(through) ? reference_ + (solid + through * gas) / (1.0 + through) : reference_ + solid;
 }
 
 double FilmColumn::compress_to(double pressure) {
-  const double before = air_enthalpy();
+  const double before = enthalpy_;
   pressure_ = pressure;
-  return air_enthalpy() - before;
+  enthalpy_ = find_enthalpy(pressure);
+  return enthalpy_ - before;
 }
 
-/// Of an ideal gas, sum m R T/p, with R/c_p times the enthalpy c_p m T.
+/// Sum m R T/p.
 double FilmColumn::air_volume() const {
-  return (air_.heat_ratio - 1.0) / air_.heat_ratio * air_enthalpy() / pressure_;
+  return materials::specific_gas_constant(air_) * grid_->mass * mean_air() / pressure_;
 }
+
+double FilmColumn::covolume() const { return grid_->mass * air_.covolume; }
 
 double FilmColumn::air_heat_capacity() const {
+  const double now = factor(pressure_);
   double capacity = 0.0;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) capacity += grid_->capacity[i];
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
+    capacity += grid_->capacity[i] * grid_->isentropes.at(state_[i] * now).capacity_ratio;
   return capacity;
 }
 
-double FilmColumn::mean_air() const { return air_enthalpy() / air_heat_capacity(); }
+/// Every cell keeps its entropy, so that its volume falls by V/p (1 - R/c_p) dp.
+double FilmColumn::exponent() const {
+  const double now = factor(pressure_), share = 1.0 - 1.0 / air_.heat_ratio;
+  double volume = 0.0, falls = 0.0;
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) {
+    const materials::CompressedAir air = grid_->isentropes.at(state_[i] * now);
+    volume += grid_->capacity[i] * air.temperature;
+    falls += grid_->capacity[i] * air.temperature * (1.0 - share / air.capacity_ratio);
+  }
+  return volume / falls;
+}
+
+double FilmColumn::mean_air() const {
+  const double now = factor(pressure_);
+  double sum = 0.0;
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
+    sum += grid_->capacity[i] * grid_->isentropes.at(state_[i] * now).temperature;
+  return sum / (air_.specific_heat * grid_->mass);
+}
 
 double FilmColumn::charge_heat() const {
   double sum = 0.0;
@@ -245,10 +269,15 @@ double FilmColumn::base_heat() const {
   return sum;
 }
 
-double FilmColumn::air_enthalpy() const {
-  double sum = 0.0;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) sum += grid_->capacity[i] * state_[i];
-  return factor(pressure_) * sum;
+/// Above that of air at the reference, so that round-off is small.
+double FilmColumn::find_enthalpy(double pressure) const {
+  const double now = factor(pressure), reference = materials::enthalpy(air_, reference_);
+  double sum = covolume() * pressure;
+  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) {
+    const double temperature = grid_->isentropes.at(state_[i] * now).temperature;
+    sum += grid_->capacity[i] / air_.specific_heat * (materials::enthalpy(air_, temperature) - reference);
+  }
+  return sum;
 }
 
 }  // namespace launchsafe::surface::detail

@@ -19,11 +19,12 @@ struct StepHeat {
   double friction = 0;  ///< in the charge
 };
 
-/// The air is kept as potential temperature, T (p/p0)^(-R/c_p), which compression alone does not change: so
-/// without conductivity the adiabat is exact. The steps are TR-BDF2 (Bank et al., IEEE Trans. Electron
+/// The air is kept as potential temperature, which compression alone does not change (materials::Isentropes):
+/// so without conductivity the adiabat is exact. The steps are TR-BDF2 (Bank et al., IEEE Trans. Electron
 /// Devices 32, 1985): of second order, L-stable, and of second order also where the film is so thin that it
-/// only follows the walls. The air's conductivity is taken at temperatures carried forward from the stages
-/// before, which leaves each stage linear. What leaves a cell through a face enters its neighbour.
+/// only follows the walls. The air's conductivity is taken, and its temperature expanded, at temperatures
+/// carried forward from the stages before, which leaves each stage linear. What leaves a cell through a face
+/// enters its neighbour.
 class FilmColumn {
  public:
   /// With all parts at temperatures of their own (K) and the air at its pressure at rest.
@@ -38,7 +39,7 @@ class FilmColumn {
   /// All that a step changes.
   struct Kept {
     std::vector<double> state, before;
-    double pressure = 0, last_step = 0;
+    double pressure = 0, last_step = 0, enthalpy = 0;
   };
   void keep(Kept& kept) const;
   void restore(const Kept& kept);
@@ -46,8 +47,10 @@ class FilmColumn {
   /// Compresses the air without conduction to a pressure (Pa); the work V dp that it takes, J/m2.
   double compress_to(double pressure);
   double pressure() const { return pressure_; }  ///< Pa
-  double air_volume() const;                     ///< m3/m2
+  double air_volume() const;                     ///< m3/m2, without the covolume
+  double covolume() const;                       ///< m3/m2
   double air_heat_capacity() const;              ///< J/(m2 K), at constant pressure
+  double exponent() const;                       ///< -d ln p/d ln volume without conduction
 
   double temperature(std::size_t cell) const { return reference_ + excess_of(cell); }
   /// For heat of reaction in a cell of the charge.
@@ -61,7 +64,7 @@ class FilmColumn {
   /// Heat (J/m2) of each part above a fixed state.
   double charge_heat() const;
   double base_heat() const;
-  double air_enthalpy() const;
+  double air_enthalpy() const { return enthalpy_; }
 
  private:
   using Cells = std::vector<double>;
@@ -69,29 +72,31 @@ class FilmColumn {
   double factor(double pressure) const;
   double excess_of(std::size_t cell) const;
   bool is_air(std::size_t cell) const { return cell >= grid_->air_begin && cell < grid_->base_begin; }
-  void find_excess(const Cells& state, double factor, Cells& excess) const;
-  void find_conductances(const Cells& excess, double pressure);
-  void find_rates(const Cells& excess, double factor, Cells& rates) const;
+  void expand_at(const Cells& state, double factor);
+  void find_conductances(double pressure);
+  void find_rates(Cells& rates) const;
   void extrapolate(const Cells& from, const Cells& to, double share, Cells& at) const;
   void factorise(double weight);
   void solve(Cells& values) const;
-  void solve_stage(const Cells& known, double weight, double factor, Cells& state);
-  double heat_of(const Cells& rates, double factor) const;
-  double error_of(const Cells& excess, double h, double factor);
-  void account(double h, const std::array<double, 3>& factors, double heating);
+  void solve_stage(const Cells& about, double weight, Cells& state);
+  double heat_of(const Cells& rates) const;
+  double error_of(double h);
+  double find_enthalpy(double pressure) const;
 
   const FilmGrid* grid_;
   materials::AirParameters air_;
-  double gas_constant_;
   double reference_;      // K; round-off is that of the difference from it
   double pressure_;       // Pa
+  double enthalpy_;       // J/m2, of the air as it is
   Cells state_;           // solids: K above the reference; air: potential temperature, K
   Cells before_;          // the same one step earlier
   double last_step_ = 0;  // s
   StepHeat heat_;
   // What a step works with; kept so that it allocates nothing.
-  Cells excess_, conductance_, rate_begin_, rate_inner_, rate_end_, inner_, end_, guess_, known_, error_;
+  Cells conductance_, rate_begin_, rate_inner_, rate_end_, inner_, end_, guess_, known_, error_;
   Cells share_, inverse_;
+  // About which a stage is linear: K above the reference, their slopes against the state, and J/(m2 K).
+  Cells excess_, slope_, capacity_;
 };
 
 }  // namespace launchsafe::surface::detail

@@ -40,21 +40,20 @@ std::vector<double> shares_of_air(std::size_t count) {
 
 }  // namespace
 
-double gas_constant(const materials::AirParameters& air) {
-  return air.specific_heat * (air.heat_ratio - 1.0) / air.heat_ratio;
-}
-
 FilmGrid film_grid(const SkinModel& model, double gap, double duration, const FilmNumerics& numerics) {
   const Solid charge{model.charge_density, model.specific_heat, model.charge_conductivity};
   const Solid steel{model.base_density, model.base_specific_heat, model.base_conductivity};
   const materials::AirParameters& air = model.surface.air;
-  const double mass = air.initial_pressure * gap / (gas_constant(air) * air.initial_temperature);
+  const double volume =
+      materials::specific_gas_constant(air) * air.initial_temperature / air.initial_pressure;
+  const double mass = gap / (volume + air.covolume);
   std::vector<double> inside = cells_of(charge, duration, numerics.charge_cells);
   std::reverse(inside.begin(), inside.end());
   const std::vector<double> shares = shares_of_air(numerics.gas_cells);
   const std::vector<double> beyond = cells_of(steel, duration, numerics.base_cells);
 
   FilmGrid grid;
+  grid.isentropes = materials::Isentropes(air);
   grid.air_begin = inside.size();
   grid.base_begin = grid.air_begin + shares.size();
   for (const double dx : inside) grid.capacity.push_back(charge.density * charge.specific_heat * dx);
@@ -72,6 +71,7 @@ FilmGrid film_grid(const SkinModel& model, double gap, double duration, const Fi
   }
   grid.charge_resistance = 0.5 * inside.back() / charge.conductivity;
   grid.base_resistance = 0.5 * beyond.front() / steel.conductivity;
+  grid.mass = mass;
   return grid;
 }
 

@@ -17,14 +17,13 @@ struct FilmGrid {
   std::vector<double> air_mass;     ///< of faces: air between the two centres, kg/m2; 0 inside the solids
   double charge_resistance = 0;     ///< of the half cell at the charge's surface, m2 K/W
   double base_resistance = 0;       ///< of that at the steel's
+  double mass = 0;                  ///< of the air, kg/m2
+  materials::Isentropes isentropes;
   std::size_t size() const { return capacity.size(); }
 };
 
 /// The cells for a gap (m) over a launch of `duration` (s). Where a cell ends is a smooth function of its
 /// number, so that twice as many quarter the error.
 FilmGrid film_grid(const SkinModel& model, double gap, double duration, const FilmNumerics& numerics);
-
-/// Gas constant (J/(kg K)) that belongs to an air's specific heat and adiabatic exponent.
-double gas_constant(const materials::AirParameters& air);
 
 }  // namespace launchsafe::surface::detail

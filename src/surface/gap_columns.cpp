@@ -13,21 +13,20 @@ namespace {
 
 /// Of the pressure at rest: air stretched further counts as it is there.
 constexpr double lowest_share = 1e-6;
-/// How far what an interval lost may lead away from the exchange of a film of even heating, and the least
-/// difference of temperatures (K) that tells one.
-constexpr double largest_ratio = 10.0, least_excess = 0.5;
+/// How far what conduction did in an interval may lead away from the exchange of a film of even heating, and
+/// the least share of the temperature over that of the walls that tells one.
+constexpr double largest_ratio = 10.0, least_excess = 2e-3;
+/// How well a column's air fills its opening, by iterations of second order.
+constexpr double same_volume = 1e-13;
+constexpr int most_iterations = 20;
 
 /// A column at the begin of its interval, and since then.
 struct Interval {
-  double length = 0;   ///< s
-  double opening = 0;  ///< m, at the begin
-  double excess = 0;   ///< K, of the air over the walls, at the begin
-  double heat = 0;     ///< J/m2, of charge and base beyond friction and reaction, at the begin
+  double length = 0;     ///< s
+  double opening = 0;    ///< m, at the begin
+  double excess = 0;     ///< of the air's temperature over that of the walls, as a share of it, at the begin
+  EnclosedAir air = {};  ///< at the begin
 };
-
-double heat_from_air(const FilmEnergy& energy) {
-  return energy.charge + energy.base - energy.friction - energy.reaction;
-}
 
 }  // namespace
 
@@ -67,26 +66,30 @@ void GapColumns::advance(std::size_t column, double length, double begin, double
 EnclosedAir GapColumns::fit(std::size_t column, double opening) {
   detail::FilmStation& station = parts_->columns[column];
   Interval& interval = parts_->intervals[column];
-  const materials::AirParameters& air = parts_->model.surface.air;
   const detail::FilmColumn& film = station.column();
-  const double excess_before = film.mean_air() - parts_->walls(film);
-  station.compress_to(film.pressure() * std::pow(film.air_volume() / (opening - covolume()), air.heat_ratio));
+  const double excess = 0.5 * (interval.excess + 1.0 - parts_->walls(film) / film.mean_air());
+  // What conduction did to the volume, beside the isentropic change.
+  const double conducted = std::log(film.air_volume() / interval.air.volume) +
+                           std::log(film.pressure() / interval.air.pressure) / interval.air.exponent;
   EnclosedAir now;
+  now.volume = opening - film.covolume();
+  for (int count = 0; count < most_iterations; ++count) {
+    const double share = film.air_volume() / now.volume;
+    now.exponent = film.exponent();
+    if (std::abs(share - 1.0) < same_volume) break;
+    station.compress_to(film.pressure() * std::pow(share, now.exponent));
+  }
   now.pressure = film.pressure();
-  now.volume = film.air_volume();
-  now.exponent = air.heat_ratio;
   if (station.ignited()) return now;
-  const double walls = parts_->walls(film), mean = film.mean_air(), capacity = film.air_heat_capacity();
+  const double walls = parts_->walls(film), mean = film.mean_air();
   const double usual = (parts_->model.base_conductivity > 0.0 ? 12.0 : 3.0) *
-                       materials::air_conductivity(0.5 * (walls + mean)) / capacity;
+                       materials::air_conductivity(0.5 * (walls + mean)) / film.air_heat_capacity();
   now.volume_at_walls = now.volume * walls / mean;
   now.exchange = usual;
-  const double heat = heat_from_air(station.energy()), excess = 0.5 * (interval.excess + excess_before);
   if (interval.length > 0.0 && std::abs(excess) > least_excess)
-    now.exchange = std::clamp(
-        (heat - interval.heat) / (capacity * excess) * 0.5 * (interval.opening + opening) / interval.length,
-        usual / largest_ratio, usual * largest_ratio);
-  interval = {0.0, opening, mean - walls, heat};
+    now.exchange = std::clamp(-conducted / excess * 0.5 * (interval.opening + opening) / interval.length,
+                              usual / largest_ratio, usual * largest_ratio);
+  interval = {0.0, opening, 1.0 - walls / mean, now};
   return now;
 }
 
@@ -103,6 +106,6 @@ double GapColumns::chemical_share(std::size_t column) const {
   return parts_->columns[column].chemical_share();
 }
 const FilmEnergy& GapColumns::energy(std::size_t column) const { return parts_->columns[column].energy(); }
-double GapColumns::covolume() const { return 0.0; }
+double GapColumns::covolume() const { return parts_->columns.front().column().covolume(); }
 
 }  // namespace launchsafe::surface

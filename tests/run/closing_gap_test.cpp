@@ -48,6 +48,7 @@ scene::Scene flying_column(double release) {
   scene.numerics.cell_size = 2.5e-3;
   scene.surface.station_width = 13e-3;
   scene.surface.model = scene::GapModel::closing;
+  scene.surface.ideal_air = true;
   const double mass = 7830.0 * heavy * base_length + 1717.0 * 0.56;  // kg/m2
   scene::Load load;
   for (double time = 0.0; begin + time < (release > 0.0 ? begin + 4e-4 : 8e-3); time += 2e-5) {
@@ -144,6 +145,19 @@ TEST(ClosingGap, IsNotReadOffTheTraceOfAnotherLaunch) {
   const GapResult read = evaluate_gap(scene, run_mechanics(scene).trace, 4e-4);
   EXPECT_TRUE(std::isnan(read.at_stations.temperature));
   EXPECT_FALSE(read.skin.ignition.has_value());
+}
+
+TEST(ClosingGap, HotAndDenseAirHeatsLessThanAnIdealOne) {
+  // Of what compression stores, molecules that vibrate take a part.
+  scene::Scene scene = flying_column(1e5);
+  const CaseResult ideal = close_gap(scene, 1e-3, GapBase::insulated, 1e-5);
+  scene.surface.ideal_air = false;
+  const CaseResult real = close_gap(scene, 1e-3, GapBase::insulated, 1e-5);
+  EXPECT_LT(real.gaps.front().closing->largest_gas_temperature,
+            ideal.gaps.front().closing->largest_gas_temperature - 100.0);
+  EXPECT_LT(rise_of(real), 0.95 * rise_of(ideal));
+  EXPECT_GT(rise_of(real), 0.8 * rise_of(ideal));
+  EXPECT_LT(real.gaps.front().skin.energy_residual, 1e-9);
 }
 
 TEST(ClosingGap, HoldsTheChargeUntilItIsReleased) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -32,9 +33,12 @@ EnclosedAir close(GapColumns& columns, double gap, double part, double time, int
     double volume = air.volume, mean = 0.0, now = air.pressure;
     for (int step = 1; step <= steps; ++step) {
       const double before = now, middle = 0.5 * (opening(step - 1) + opening(step));
-      const auto at = [&](double h) { return air.pressure * std::pow(volume / h, air.exponent); };
+      const auto at = [&](double h) {
+        return air.pressure * std::pow(volume / (h - columns.covolume()), air.exponent);
+      };
       const double left = std::exp(-time / intervals / steps * air.exchange / middle);
-      volume *= left + (1.0 - left) * air.pressure * air.volume_at_walls / (at(middle) * middle);
+      volume *= left + (1.0 - left) * air.pressure * air.volume_at_walls /
+                           (at(middle) * (middle - columns.covolume()));
       now = at(opening(step));
       mean += 0.5 * (before + now) / steps;
     }
@@ -52,6 +56,49 @@ TEST(GapColumns, AreOnTheAdiabatWhereTheyCloseAtOnce) {
   EXPECT_NEAR(columns.mean_air(0), 300.0 * std::pow(10.0, 0.4), 0.1);
 }
 
+TEST(GapColumns, AreOnTheIsentropeOfHotAndDenseAirWhereTheyCloseAtOnce) {
+  // R ln(p/p0) is the integral of c_p(T)/T, here by Simpson's rule; p (h - b m) = m R T.
+  SkinModel model = inert_model();
+  model.surface.air = materials::hot_and_dense(model.surface.air);
+  const double gas_constant = 1005.0 * 0.4 / 1.4;
+  const auto integrand = [&](double logarithm) {
+    const double x = 3055.6 / std::exp(logarithm);
+    return 1005.0 + gas_constant * x * x * std::exp(x) / std::pow(std::exp(x) - 1.0, 2);
+  };
+  GapColumns columns(model, 1, 1e-3, 1e-2);
+  const EnclosedAir air = columns.fit(0, 1e-5);
+  const double temperature = columns.mean_air(0);
+  EXPECT_GT(temperature, 1300.0);
+  EXPECT_LT(temperature, 300.0 * std::pow(100.0, 0.4));
+  constexpr int parts = 1000;
+  const double width = std::log(temperature / 300.0) / parts;
+  double entropy = 0.0;
+  for (int i = 0; i < parts; ++i) {
+    const double at = std::log(300.0) + i * width;
+    entropy += width / 6.0 * (integrand(at) + 4.0 * integrand(at + 0.5 * width) + integrand(at + width));
+  }
+  EXPECT_NEAR(std::log(air.pressure / 101325.0), entropy / gas_constant, 1e-9);
+  const double mass = 1e-3 / (gas_constant * 300.0 / 101325.0 + 1.03e-3);
+  EXPECT_NEAR(air.pressure * (1e-5 - 1.03e-3 * mass), mass * gas_constant * temperature, 1e-9 * 101325.0);
+  EXPECT_NEAR(columns.covolume(), 1.03e-3 * mass, 1e-15);
+}
+
+TEST(GapColumns, TakeTheWorkOfTheirPressure) {
+  // The integral of V dp over an adiabatic change, of free volume and covolume.
+  SkinModel model = inert_model();
+  model.surface.air = materials::hot_and_dense(model.surface.air);
+  GapColumns columns(model, 1, 1e-3, 1e-2);
+  EnclosedAir air = columns.fit(0, 1e-3);
+  double work = 0.0;
+  constexpr int parts = 4000;
+  for (int i = 1; i <= parts; ++i) {
+    const EnclosedAir before = air;
+    air = columns.fit(0, 1e-3 * std::pow(0.01, double(i) / parts));
+    work += (0.5 * (before.volume + air.volume) + columns.covolume()) * (air.pressure - before.pressure);
+  }
+  EXPECT_NEAR(columns.energy(0).work, work, 1e-5 * work);
+}
+
 TEST(GapColumns, KeepTheTemperatureOfTheirWallsWhereTheyAreThin) {
   // p h is constant there, and the walls are not warmed by the little heat.
   const SkinModel model = inert_model();
@@ -63,19 +110,24 @@ TEST(GapColumns, KeepTheTemperatureOfTheirWallsWhereTheyAreThin) {
 
 TEST(GapColumns, AccountForTheirHeatToRoundOff) {
   SkinModel model = inert_model();
-  for (const double conductivity : {model.base_conductivity, 0.0}) {
+  const double steel = model.base_conductivity;
+  for (const auto& [conductivity, real] : {std::pair{steel, false}, {steel, true}, {0.0, true}}) {
     model.base_conductivity = conductivity;
+    if (real) model.surface.air = materials::hot_and_dense(model.surface.air);
     GapColumns columns(model, 1, 4e-4, 1e-2);
     close(columns, 4e-4, 0.97, 1e-4, 200);
     const FilmEnergy& energy = columns.energy(0);
     EXPECT_GT(energy.work, 10.0);
     EXPECT_LT(energy.residual(), 1e-9);
-    if (!(conductivity > 0.0)) EXPECT_DOUBLE_EQ(energy.base, 0.0);
+    if (!(conductivity > 0.0)) {
+      EXPECT_DOUBLE_EQ(energy.base, 0.0);
+    }
   }
 }
 
 TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
-  const SkinModel model = inert_model();
+  SkinModel model = inert_model();
+  model.surface.air = materials::hot_and_dense(model.surface.air);
   const auto hottest = [&](int intervals) {
     GapColumns columns(model, 1, 4e-4, 1e-2, {.tolerance = 1e-7});
     close(columns, 4e-4, 0.95, 5e-5, intervals);

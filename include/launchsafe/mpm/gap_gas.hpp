@@ -32,9 +32,9 @@ struct GapGas {
   /// second order in dt.
   void exchange_heat(double before, double after, double dt) {
     if (!(exchange > 0.0)) return;
-    const double energy = 0.5 * (at(before) * (before - covolume) + at(after) * (after - covolume));
-    const double left = std::exp(-dt * exchange / (0.5 * (before + after)));
-    volume *= left + (1.0 - left) * energy_at_walls / energy;
+    const double mean = 0.5 * (before + after);
+    const double left = std::exp(-dt * exchange / mean);
+    volume *= left + (1.0 - left) * energy_at_walls / (at(mean) * (mean - covolume));
   }
 };
 

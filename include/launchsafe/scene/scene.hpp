@@ -114,6 +114,8 @@ struct Surface {
   double roughness = 1e-5;             ///< m, the least opening of a closing gap
   /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
   double release = 0.0;
+  /// The air of a closing gap has constant heat capacity and no covolume: for comparisons, without a key.
+  bool ideal_air = false;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
   double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]

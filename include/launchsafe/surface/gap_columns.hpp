@@ -12,8 +12,8 @@ namespace launchsafe::surface {
 /// The air of a column as the motion of its faces sees it.
 struct EnclosedAir {
   double pressure = 0;         ///< Pa
-  double volume = 0;           ///< m3/m2
-  double exponent = 0;         ///< c_p/c_v
+  double volume = 0;           ///< m3/m2, without the covolume
+  double exponent = 0;         ///< -d ln p/d ln volume of an isentropic change
   double volume_at_walls = 0;  ///< m3/m2, at the same pressure and the temperature of the walls
   /// m/s: over the opening it is the rate at which conduction brings the mean temperature near to that of the
   /// walls. It is that of the interval before, and where that tells none what a film of even heating has:
@@ -52,7 +52,7 @@ class GapColumns {
   double ignition_time(std::size_t column) const;  ///< s after the begin of the interval in which it ignited
   double chemical_share(std::size_t column) const;
   const FilmEnergy& energy(std::size_t column) const;
-  double covolume() const;  ///< m3/m2 of all the air's molecules: 0, the air is an ideal gas
+  double covolume() const;  ///< m3/m2 of all the air's molecules
 
  private:
   struct Parts;
