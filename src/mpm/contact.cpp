@@ -199,13 +199,19 @@ double Contact::sweep(double dt) {
     const double opening = v.x * row.normal_x + v.r * row.normal_r;
     const bool has_gas = row.gas.pressure > 0.0 && row.normal_inertia > 0.0;
     if (has_gas) row.from_gas = push_by_gas(row, opening - row.normal / row.normal_inertia, dt);
-    if (!has_gas && !row.bonded && row.normal <= 0.0 && opening >= row.target) continue;
+    if (!has_gas && !row.bonded && !row.held && row.normal == 0.0 && opening >= row.target) continue;
     const double sliding = v.r * row.normal_x - v.x * row.normal_r;
     double normal = row.normal - (opening - row.target) * row.normal_inertia;
     double slide = row.slide - sliding * row.slide_inertia;
     if (!row.bonded) {
       normal = std::max(normal, row.from_gas);
-      const double limit = row.friction * (normal - row.from_gas);
+      double limit = row.friction * (normal - row.from_gas);
+      if (row.held) {
+        const double unit = row.area * dt * damping_factor_;
+        limit = std::max(limit, row.shear_strength * unit);
+        const double stop = row.normal - opening * row.normal_inertia;
+        if (stop < 0.0) normal = std::max(stop, -row.tension_strength * unit);
+      }
       slide = std::clamp(slide, -limit, limit);
     }
     const double more_normal = normal - row.normal, more_slide = slide - row.slide;
@@ -309,14 +315,19 @@ void Contact::hold(std::size_t face) {
   }
 }
 
-void Contact::let_go() {
+void Contact::loosen(double share) {
   for (Row& row : rows_) {
     if (!row.held) continue;
-    row.bonded = row.held = false;
-    row.normal = std::max(row.normal, 0.0);
-    row.slide = std::clamp(row.slide, -row.friction * row.normal, row.friction * row.normal);
+    if (row.bonded) {
+      const double unit = row.area * last_dt_ * damping_factor_;
+      row.held_tension = unit > 0.0 ? std::max(-row.normal, 0.0) / unit : 0.0;
+      row.held_shear = unit > 0.0 ? std::abs(row.slide) / unit : 0.0;
+    }
+    row.bonded = false;
+    row.held = share > 0.0;
+    row.tension_strength = share * row.held_tension;
+    row.shear_strength = share * row.held_shear;
   }
-  steps_ = 0;  // the points' impulses are no longer those of the rows
 }
 
 void Contact::part(std::size_t face, double opening, double floor) {

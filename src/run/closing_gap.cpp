@@ -1,5 +1,6 @@
 #include "closing_gap.hpp"
 
+#include "launchsafe/scene/selective_inertia.hpp"
 #include "launchsafe/scene/stations.hpp"
 
 #include <algorithm>
@@ -30,6 +31,8 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
       nodes_(nodes_of_bottom(simulation, recorder)),
       floor_(simulation.scene().surface.roughness),
       release_(simulation.scene().surface.release),
+      release_duration_(
+          simulation.scene().surface.release_duration.value_or(scene::transit_time(simulation.scene()))),
       columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load)) {
   mpm::Contact& contact = contact_of(simulation);
   for (std::size_t face = 0; face < contact.faces(); ++face)
@@ -112,8 +115,9 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
   mpm::Contact& contact = contact_of(simulation);
   const double time = simulation.time();
   if (release_ > 0.0 && time >= release_) {
-    contact.let_go();
-    release_ = 0.0;
+    const double share = release_duration_ > 0.0 ? 1.0 - (time - release_) / release_duration_ : 0.0;
+    contact.loosen(std::max(share, 0.0));
+    if (!(share > 0.0)) release_ = 0.0;
   }
   bool touches = false, due = false;
   longest_step_ = std::numeric_limits<double>::infinity();

@@ -66,8 +66,9 @@ class ClosingGap {
   surface::SkinModel model_;
   std::vector<Node> nodes_;
   std::vector<std::vector<std::size_t>> columns_of_station_;
-  double floor_;    ///< m
-  double release_;  ///< s, yet to come; 0: none is
+  double floor_;             ///< m
+  double release_;           ///< s, yet to come or under way; 0: none is
+  double release_duration_;  ///< s
   surface::GapColumns columns_;
   surface::SkinHistory skin_;
   ClosingHistory history_;

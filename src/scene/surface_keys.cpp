@@ -32,11 +32,19 @@ std::vector<Key<Surface>> closing_keys() {
       always_plausible(
           number_key("release", Dimension::time, between(0, 1), Standing::assumed,
                      "Until when nose and wall hold the charge over a closing gap where they slide; "
-                     "then all of it lets go at once. 0: it is free from the start.",
+                     "then they let go. 0: it is free from the start.",
                      &Surface::release),
           "when a charge lets go is not known, and the worst instant has to be looked for", of_motion),
   };
   for (Key<Surface>& key : keys) key = written_where(std::move(key), is_closing);
+  keys.push_back(always_plausible(
+      optional_number_key<Surface>(
+          "release_duration", Dimension::time, between(0, 0.1),
+          "From gap.release on, over which what nose and wall bear falls to nothing; where it is not said, "
+          "the time that sound takes through the charge. 0: all of it lets go at once, and rings most.",
+          &Surface::release_duration),
+      "how fast a hold breaks is not known, and no break runs through the charge faster than sound",
+      of_motion));
   return keys;
 }
 

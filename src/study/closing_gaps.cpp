@@ -2,6 +2,7 @@
 
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/selective_inertia.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include <fmt/format.h>
@@ -40,6 +41,7 @@ CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   scene.surface.base = terms.base;
   scene.surface.roughness = terms.roughness;
   scene.surface.release = terms.release;
+  scene.surface.release_duration = terms.release_duration;
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
@@ -148,15 +150,20 @@ void add_points(const StudyCase& input, const ClosingBound& bound, const std::ve
 std::vector<ClosingBound> closing_bounds(const StudyCase& input) {
   using scene::GapBase;
   const scene::Surface& own = *input.closing;
-  std::vector<ClosingBound> bounds{{"conducting", {{GapBase::conducting, own.roughness, own.release}}},
-                                   {"insulated", {{GapBase::insulated, own.roughness, own.release}}}};
+  const std::optional<double> duration = own.release_duration;
+  std::vector<ClosingBound> bounds{
+      {"conducting", {{GapBase::conducting, own.roughness, own.release, duration}}},
+      {"insulated", {{GapBase::insulated, own.roughness, own.release, duration}}}};
   ClosingBound corner{"corner", {}, bond_of(input.scene.scene)};
   const double roughness = std::min(smoothest, own.roughness);
   std::vector<double> releases{0.0, own.release};
   for (const double share : release_shares) releases.push_back(time_at_share(input.scene.scene.load, share));
   std::sort(releases.begin(), releases.end());
   releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-  for (const double release : releases) corner.terms.push_back({GapBase::insulated, roughness, release});
+  const std::optional<double> fastest =
+      duration && *duration < scene::transit_time(input.scene.scene) ? duration : std::nullopt;
+  for (const double release : releases)
+    corner.terms.push_back({GapBase::insulated, roughness, release, fastest});
   bounds.push_back(std::move(corner));
   return bounds;
 }

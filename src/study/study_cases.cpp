@@ -108,6 +108,7 @@ StudyCase case_of(std::string label, SceneFile scene) {
     surface.base = usual.base;
     surface.roughness = usual.roughness;
     surface.release = usual.release;
+    surface.release_duration = usual.release_duration;
   }
   return made;
 }

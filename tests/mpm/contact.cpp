@@ -260,6 +260,39 @@ TEST(Contact, FrictionCarriesAColumnInATubeAsInASilo) {
   }
 }
 
+TEST(Contact, WhatIsLoosenedBearsTheShareOfWhatItBore) {
+  // Held until then; the block is then accelerated by the rest of its body force, along the floor and away.
+  const double share = 0.4;
+  for (const auto& [along, across] : {std::pair{1000.0, 0.0}, {0.0, 1000.0}}) {
+    scene::Scene scene = block_on_floor(sliding("", 0.0));
+    scene.numerics.damping_time = 2e-5;
+    mpm::Simulation simulation(scene);
+    mpm::Contact& contact = simulation.total_lagrangian()->contact();
+    contact.hold(0);
+    pull_slowly(simulation, along, across, 800);
+    pull_slowly(simulation, 0.0, 0.0, 800);
+    EXPECT_LT(contact.state_of(0)[4].largest_gap, 1e-12);
+    contact.loosen(share);
+    const double dt = simulation.stable_time_step();
+    for (int step = 0; step < 400; ++step) simulation.step(dt);
+    // Where damping has v = k (v + a dt), k the share that it leaves.
+    const double left = std::exp(-dt / scene.numerics.damping_time);
+    const double limit = (1.0 - share) * 1000.0 * dt * left / (1.0 - left);
+    const mpm::FaceState state = contact.state_of(0)[8];
+    const mpm::ParticleFields& block = mpm::particle_fields_of(simulation.bodies()[1]);
+    const auto& velocity = along > 0.0 ? block.velocity_x : block.velocity_r;
+    const double mean = std::accumulate(velocity.begin(), velocity.end(), 0.0) / velocity.size();
+    EXPECT_NEAR(mean, limit, 1e-3 * limit);
+    if (across > 0.0) {
+      EXPECT_NEAR(state.pressure, -share * block_density * block_height * across, 1.0);
+    }
+    contact.loosen(0.0);
+    simulation.step(dt);
+    EXPECT_EQ(contact.state_of(0)[8].shear, 0.0);
+    EXPECT_GE(contact.state_of(0)[8].pressure, 0.0);
+  }
+}
+
 TEST(Contact, NoNumberOfThreadsChangesABitOfSliding) {
   const auto run = [](int threads) {
     scene::Scene shell = held_shell();

@@ -26,7 +26,8 @@ std::string closing(const std::string& keys = "model = \"closing\"\n") {
 
 TEST(ClosingGap, IsReadAndWrittenBack) {
   const auto file = parse_scene(
-      closing("model = \"closing\"\nroughness = \"5 um\"\nbase = \"insulated\"\nrelease = \"0.5 ms\"\n"),
+      closing("model = \"closing\"\nroughness = \"5 um\"\nbase = \"insulated\"\nrelease = \"0.5 ms\"\n"
+              "release_duration = \"0 ms\"\n"),
       "shell.toml");
   ASSERT_TRUE(file) << file.error().message();
   const Surface& surface = file->scene.surface;
@@ -76,7 +77,8 @@ TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   const std::string film = closing("model = \"closing\"\nair = \"film\"\n");
   expect_error(error_of(film), line_of(film, "air ="), "gap.air", "\"reservoir\" beside \"closing\"",
                "absent");
-  for (const char* key : {"roughness = \"10 um\"", "base = \"insulated\"", "release = \"1 ms\""}) {
+  for (const char* key : {"roughness = \"10 um\"", "base = \"insulated\"", "release = \"1 ms\"",
+                          "release_duration = \"1 ms\""}) {
     const std::string text = closing(std::string(key) + "\n");
     const std::string name = std::string(key).substr(0, std::string(key).find(' '));
     expect_error(error_of(text), line_of(text, key), "gap." + name, "\"closing\" beside \"reservoir\"",

@@ -1,6 +1,7 @@
 // The search for the gap that ignites where it closes, on launches that a closed form stands for.
 #include "launchsafe/study/closing_gaps.hpp"
 
+#include "launchsafe/scene/selective_inertia.hpp"
 #include "synthetic_launch.hpp"
 
 #include <gtest/gtest.h>
@@ -101,6 +102,19 @@ TEST(ClosingGaps, TheHottestReleaseAndTheSmoothestFacesAreTheCorner) {
   EXPECT_TRUE(evidence.known);
   EXPECT_FALSE(evidence.ignited);
   EXPECT_NEAR(evidence.corner_margin, ignition - point->maximum_temperature, 1e-9);
+}
+
+TEST(ClosingGaps, TheCornerLetsGoAsFastAsSoundOrFaster) {
+  StudyCase input = closing_study().cases.front();
+  const double passage = scene::transit_time(input.scene.scene);
+  const auto duration = [&](std::optional<double> own, std::size_t bound) {
+    input.closing->release_duration = own;
+    return closing_bounds(input)[bound].terms.front().release_duration;
+  };
+  EXPECT_FALSE(duration(std::nullopt, 2).has_value());
+  EXPECT_FALSE(duration(2.0 * passage, 2).has_value());
+  EXPECT_EQ(duration(2.0 * passage, 0), 2.0 * passage);
+  EXPECT_EQ(duration(0.5 * passage, 2), 0.5 * passage);
 }
 
 TEST(ClosingGaps, OneReleaseThatIsNotKnownLeavesTheCornerUnknown) {

@@ -86,10 +86,11 @@ class Contact {
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
 
-  /// Lets the faces of a face that is not bonded hold each other, for any traction, until all that are held
-  /// so are let go.
+  /// Lets the faces of a face that is not bonded hold each other for any traction, until they are loosened.
   void hold(std::size_t face);
-  void let_go();
+  /// From the first call on, what is held bears tension and shear up to this share of what it bore then,
+  /// below 1; at 0 it is free.
+  void loosen(double share);
   /// Parts a face from the other one by an opening (m) before the first step, down to whose `floor` (m, > 0)
   /// they may approach.
   void part(std::size_t face, double opening, double floor);
@@ -181,7 +182,8 @@ class Contact {
     double friction_heat = 0;                         ///< J/m2
     double slid = 0, slip = 0;                        ///< m, see FaceState; the slip of the row's direction
     double largest_gap = 0, overlap = 0;              ///< m, see FaceState
-    bool bonded = false, held = false;                ///< held: until let_go
+    bool bonded = false, held = false;                ///< held: until it is loosened to nothing
+    double held_tension = 0, held_shear = 0;          ///< Pa, when it was loosened first
   };
 
   void add_face(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,

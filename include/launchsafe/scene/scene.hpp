@@ -114,6 +114,8 @@ struct Surface {
   double roughness = 1e-5;             ///< m, the least opening of a closing gap
   /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
   double release = 0.0;
+  /// s, over which what holds it then falls to nothing; none: transit_time (selective_inertia.hpp).
+  std::optional<double> release_duration = {};
   /// The air of a closing gap has constant heat capacity and no covolume: for comparisons, without a key.
   bool ideal_air = false;
   Exchange exchange = Exchange::rate;

@@ -6,6 +6,7 @@
 #include "launchsafe/study/run_cases.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace launchsafe::study {
 /// Terms on which a gap closes.
 struct ClosingTerms {
   scene::GapBase base = scene::GapBase::conducting;
-  double roughness = 0;  ///< m
-  double release = 0;    ///< s
+  double roughness = 0;                         ///< m
+  double release = 0;                           ///< s
+  std::optional<double> release_duration = {};  ///< s; none: that of scene::Surface
 };
 
 /// Sets of terms that are looked at together: the hottest of them counts.
@@ -27,8 +29,9 @@ struct ClosingBound {
 
 /// "conducting" and "insulated": a case's own terms with either base. "corner": an insulated base, the
 /// smoothest faces of the plausible ones or the case's own, and a charge that is free from the start, or as
-/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak. Of a
-/// charge that anything holds by a bond the corner is not known: when bonds let go is not looked at.
+/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak, and
+/// let go over the time that sound takes through it or over the case's own where that is shorter. Of a charge
+/// that anything holds by a bond the corner is not known: when bonds let go is not looked at.
 std::vector<ClosingBound> closing_bounds(const StudyCase& input);
 
 /// All bounds of a case: the gaps of the study and a scan up to the largest one are computed, then the first
