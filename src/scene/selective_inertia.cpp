@@ -40,14 +40,15 @@ bool changes_too_fast_for_selective_inertia(const Scene& scene) {
 }
 
 double usual_selective_inertia(const Scene& scene) {
+  constexpr double measured = 4.0, measured_where_a_gap_closes = 2.0;
   const Numerics& numerics = scene.numerics;
   const bool is_possible =
       numerics.formulation == Formulation::total_lagrangian && scene.frame == Frame::co_moving;
   const bool was_measured = has_charge(scene) && scene.coupling == Coupling::one_way &&
-                            scene.surface.model == GapModel::reservoir && scene.load.curve_time.empty() &&
-                            !(numerics.inertial_scaling > 1.0) &&
+                            scene.load.curve_time.empty() && !(numerics.inertial_scaling > 1.0) &&
                             !changes_too_fast_for_selective_inertia(scene);
-  return is_possible && was_measured ? 4.0 : 1.0;
+  if (!is_possible || !was_measured) return 1.0;
+  return scene.surface.model == GapModel::closing ? measured_where_a_gap_closes : measured;
 }
 
 }  // namespace launchsafe::scene

@@ -35,9 +35,10 @@ TEST(ClosingGap, IsReadAndWrittenBack) {
   EXPECT_EQ(surface.base, GapBase::insulated);
   EXPECT_DOUBLE_EQ(surface.roughness, 5e-6);
   EXPECT_DOUBLE_EQ(surface.release, 5e-4);
+  EXPECT_EQ(surface.release_duration, 0.0);
   EXPECT_TRUE(closes(surface, 1e-4));
   EXPECT_FALSE(closes(surface, 5e-6));
-  EXPECT_DOUBLE_EQ(file->scene.numerics.selective_inertia, 1.0);  // nobody measured more
+  EXPECT_DOUBLE_EQ(file->scene.numerics.selective_inertia, 2.0);
   const std::string text = to_toml(file->scene);
   const auto again = parse_scene(text, "again.toml");
   ASSERT_TRUE(again) << again.error().message() << text;
