@@ -158,6 +158,11 @@ std::string gaps_text(const std::vector<std::string>& gaps, bool all) {
   return all ? "every gap" : fmt::format("gaps {} to {} cm", gaps.front(), gaps.back());
 }
 
+bool has_closed(const DrawnCase&, const run::GapResult& gap) {
+  return gap.closing && gap.closing->time.size() > 1 &&
+         gap.skin.air_temperature.size() == gap.closing->time.size();
+}
+
 /// One mark for all gaps whose air reached the same state.
 std::vector<Series> reached_series(const DrawnCase& drawn) {
   struct Reached {
@@ -320,14 +325,41 @@ std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
+/// Of gaps that close, against time: what they are at, and what their air has.
+std::vector<CasePicture> closing_pictures(const DrawnCase& drawn) {
+  const Column opening{"opening", "mean opening", significant(4, micrometre), "Mean opening of the gap."};
+  const Column temperature = headed("mean air temperature", quantity::skin_temperature());
+  std::vector<CasePicture> pictures;
+  for (const run::GapResult* gap : gaps_with(has_closed, drawn)) {
+    const run::ClosingHistory& closing = *gap->closing;
+    const auto panel = [&](const char* what, const Column& quantity, const std::vector<double>& values) {
+      Plot plot = gap_plot(drawn, *gap, what, quantity.label());
+      plot.series = {time_series("", closing.time, values, quantity)};
+      if (std::isfinite(closing.contact_time))
+        plot.vertical_lines.push_back(
+            {shown_value(closing.contact_time, drawn_time().form),
+             "first contact at " + in_words(closing.contact_time, drawn_time().form)});
+      return plot;
+    };
+    Plot plot = titled_plot(drawn, gap_title("The closing gap and its air", *gap));
+    plot.panels = {panel("Opening", opening, closing.opening),
+                   panel("Pressure of the air", quantity::pressure(), closing.gas_pressure),
+                   panel("Temperature of the air", temperature, gap->skin.air_temperature)};
+    plot.panels[0].y.scale = plot.panels[1].y.scale = Scale::logarithmic;
+    pictures.push_back(picture_of_gap("air", *gap, std::move(plot)));
+  }
+  return pictures;
+}
+
 std::string lacks_air(const DrawnCase& drawn) {
   if (drawn.scene.surface.model == scene::GapModel::closing)
-    return "the air of its gaps follows no pressure of one launch: they close";
+    return gaps_with(has_closed, drawn).empty() ? "none of its gaps closed" : "";
   return gaps_with(has_air, drawn).empty() ? "it holds no gap with air" : "";
 }
 
 std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
   const scene::Surface& surface = drawn.scene.surface;
+  if (surface.model == scene::GapModel::closing) return closing_pictures(drawn);
   const std::vector<Series> reached = reached_series(drawn);
   double highest = 1.0;
   for (const Series& series : reached) highest = std::max(highest, series.x.front());
@@ -360,8 +392,10 @@ const PictureKind histories_kind{"histories", "skin temperature of the stations 
 const PictureKind profile_kind{"profile",
                                "skin temperature along the bottom at several times, and its spread over time",
                                lacks_skins, profile_pictures};
-const PictureKind air_kind{"air", "air temperature against compression, with the states reached", lacks_air,
-                           air_pictures};
+const PictureKind air_kind{"air",
+                           "air temperature against compression, with the states reached; opening, pressure "
+                           "and temperature against time where a gap closes",
+                           lacks_air, air_pictures};
 const PictureKind combustion_kind{"combustion", "burnt mass, pressure and reaction degree after ignition",
                                   lacks_combustion, combustion_pictures};
 
