@@ -1,6 +1,7 @@
 #include "launchsafe/scene/plan.hpp"
 
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>
@@ -158,6 +159,13 @@ TEST(Plan, CountsTheParticlesOfTheFinestMesh) {
   // Area over that of a cell; each body is rounded up by less than a cell a side.
   const double cells = (all.x_end - all.x_begin) * all.r_end / 1e-10;
   EXPECT_NEAR(static_cast<double>(make_plan(scene).particles()) / cells, 1.0, 1e-4);
+}
+
+TEST(Plan, TellsByHowMuchACoolChargePartsFromItsBase) {
+  // Model section 14: 24 um a kelvin at the base of the 155 mm shell.
+  const Scene scene = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  EXPECT_NE(to_text(make_plan(scene), scene, 1e7).find("parts from the base by 24 um a kelvin"),
+            std::string::npos);
 }
 
 }  // namespace
