@@ -23,8 +23,11 @@ struct StressRun {
   double end_time = not_a_number;  ///< s, reached
   Sentences violations;            ///< of invariants
   Sentences reserves;              ///< what the result says against itself
-  std::vector<Finding> findings;   ///< of a launch that was stopped, or of the runs through ignition by gap
+  std::vector<Finding> findings;   ///< of a launch that was stopped, or of the gaps' own launches
 };
+
+/// Of the heat and work of a closing gap's air.
+constexpr double most_made_in_air = 1e-6;
 
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
@@ -77,6 +80,34 @@ Finding judge_burn(const StressCase& asked, const scene::Scene& scene, double ga
   return {outcome, head + joined_text(all)};
 }
 
+/// Of a launch in which a gap closes.
+Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double gap,
+                      const run::CaseResult& result) {
+  const std::string head = fmt::format("closing from {:.6g} cm: ", 100.0 * gap);
+  const run::MechanicsResult& mechanics = result.mechanics;
+  if (mechanics.status != run::RunStatus::completed) {
+    if (mechanics.reason.empty()) return {Outcome::wrong, head + "broke off without a reason"};
+    return {Outcome::caught, head + run::to_string(mechanics.status) + ", " + mechanics.reason};
+  }
+  const run::GapResult& closed = result.gaps.front();
+  Sentences violations = violations_of({scene, mechanics, {gap}}, asked);
+  if (!std::isfinite(closed.at_stations.temperature))
+    violations.emplace_back("a temperature is not a number");
+  if (closed.skin.energy_residual > most_made_in_air)
+    violations.push_back(fmt::format("the air made or lost a share {:.2g}", closed.skin.energy_residual));
+  Sentences all = run::validity_warnings(scene, mechanics);
+  const Outcome outcome = !all.empty()         ? Outcome::degraded
+                          : violations.empty() ? Outcome::held
+                                               : Outcome::wrong;
+  all.insert(all.begin(), violations.begin(), violations.end());
+  all.push_back(fmt::format("T max {:.1f} K", closed.at_stations.temperature));
+  if (closed.closing)
+    all.back() +=
+        fmt::format(", down to {:.3g} um at up to {:.3g} MPa", 1e6 * closed.closing->smallest_opening,
+                    1e-6 * closed.closing->largest_gas_pressure);
+  return {outcome, head + joined_text(all)};
+}
+
 Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
                       const CaseAnswer& answer) {
   Sentences reserves = run::validity_warnings(scene, mechanics);
@@ -94,15 +125,16 @@ const StressCase& case_of_run(const StudyFile& study, std::size_t index) {
       [index](const StressCase& each) { return each.run == index || each.against == index; });
 }
 
-/// `runs`: the launch, then those through the ignition of gaps. How far one came that was cut off depends on
-/// the machine, and says nothing of the computation: that leaves the case without a finding.
+/// `runs`: the launch, then those through the ignition of gaps or in which they close. How far one came that
+/// was cut off depends on the machine, and says nothing of the computation: that leaves the case without a
+/// finding.
 StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<study::FinishedRun>& runs) {
   StressRun run;
   // After a launch that was stopped no other is begun.
   const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
   for (std::size_t i = 0; i < begun; ++i) {
     if (runs[i].has_result() && !was_cut_off(runs[i])) continue;
-    run.answer.failure = (i == 0 ? "" : "through ignition: ") + runs[i].failure;
+    run.answer.failure = (i == 0 ? "" : "in the launch of a gap: ") + runs[i].failure;
     run.answer.outcome = runs[i].outcome;
     return run;
   }
@@ -121,7 +153,8 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
   run.violations = violations_of({scene, mechanics, asked.gaps}, asked);
   run.reserves = reserves_of(scene, mechanics, run.answer);
   for (std::size_t i = 1; i < begun; ++i)
-    run.findings.push_back(judge_burn(asked, scene, scene.surface.gaps[i - 1], runs[i].result));
+    run.findings.push_back((study.cases[index].closing ? judge_closing : judge_burn)(
+        asked, scene, scene.surface.gaps[i - 1], runs[i].result));
   return run;
 }
 

@@ -101,7 +101,7 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
     }
     changes.insert(changes.begin(), earlier.begin(), earlier.end());
   }
-  auto scene = with_changes(start, changes);
+  auto scene = with_changes(start, changes, true);
   if (!scene) return Changed{start, scene.error()};
   return Changed{std::move(*scene), std::nullopt};
 }
@@ -157,7 +157,8 @@ Fault read_runs(CaseReader& reader, const SceneFile& scene) {
   SceneFile own = scene;
   std::vector<double>& gaps = own.scene.surface.gaps;
   launch.gaps = gaps != study.scene.scene.surface.gaps ? gaps : study.study.gaps;
-  if (own.scene.coupling == scene::Coupling::two_way) gaps = launch.gaps;
+  const bool closes = own.scene.surface.model == scene::GapModel::closing;
+  if (own.scene.coupling == scene::Coupling::two_way || closes) gaps = launch.gaps;
   if (Fault fault = add_run(reader, launch.label(), std::move(own), launch.run)) return fault;
   const bool of_case = reader.table.contains("against");
   const toml::node* against = (of_case ? reader.table : reader.group).get("against");
@@ -170,7 +171,9 @@ Fault read_runs(CaseReader& reader, const SceneFile& scene) {
   auto safe = with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file);
   if (!safe) return safe.error();
   if (safe->refusal) return safe->refusal;
-  safe->scene.scene.coupling = scene::Coupling::one_way;  // a safe computation of the launch alone
+  // A safe computation of the launch alone.
+  safe->scene.scene.coupling = scene::Coupling::one_way;
+  safe->scene.scene.surface.model = scene::GapModel::reservoir;
   return add_run(reader, launch.label() + ", against", std::move(safe->scene), launch.against);
 }
 
@@ -255,6 +258,7 @@ Kind stability_kind() {
       .traits = {.name = "stability",
                  .gives_verdicts = false,
                  .own_scenes = true,
+                 .judges_closing_gaps = true,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {study_table_of("group", case_keys())},

@@ -50,7 +50,7 @@ std::vector<Key<Surface>> closing_keys() {
 
 std::vector<Key<Surface>> gap_keys() {
   return {
-      always_plausible(list_key("thickness", Dimension::length, between(0, 0.01), Standing::paper,
+      always_plausible(list_key("thickness", Dimension::length, between(0, 0.02), Standing::paper,
                                 "Gaps between charge and base; all are judged on one run of the mechanics.",
                                 &Surface::gaps),
                        "each gap is judged for itself, and a larger one is hotter",

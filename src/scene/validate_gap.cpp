@@ -19,6 +19,12 @@ Fault check_gaps(const SceneFile& file) {
   if (twice != gaps.end()) {
     return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
   }
+  constexpr double largest_of_reservoir = 0.01;
+  if (!gaps.empty() && file.scene.surface.model == GapModel::reservoir &&
+      gaps.back() > largest_of_reservoir) {
+    return fault_at(file, "gap.thickness", length_text(gaps.back()),
+                    fmt::format("at most {}, or gap.model = \"closing\"", length_text(largest_of_reservoir)));
+  }
   if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
     return fault_at(file, "gap.thickness",
                     fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),

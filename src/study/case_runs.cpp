@@ -15,11 +15,12 @@
 namespace launchsafe::study {
 namespace {
 
-/// The gaps of a case that are run through ignition; none with one-way coupling, or where the kind does not
-/// ask for them.
-std::vector<double> burning_gaps(const StudyFile& study, const StudyCase& input) {
+/// The gaps of a case that have launches of their own: those that close, and with two-way coupling those that
+/// are run through ignition; none where the kind does not ask for them.
+std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input) {
   const scene::Scene& scene = input.scene.scene;
-  if (!study.study.kind.goes_through_ignition || scene.coupling == scene::Coupling::one_way) return {};
+  if (!study.study.kind.goes_through_ignition) return {};
+  if (scene.coupling == scene::Coupling::one_way && !input.closing) return {};
   return scene.surface.gaps;
 }
 
@@ -64,8 +65,8 @@ std::string key_by_values(const std::vector<double>& coordinates, const std::vec
 
 std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
-  // A case that burns shares its launch alone with no other.
-  for (const double gap : burning_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
+  // A case that burns or closes shares its launch alone with no other.
+  for (const double gap : launched_gaps(study, input)) key += skin_run(closing_scene(input), gap, {}).hash;
   return key;
 }
 
@@ -107,11 +108,12 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
     return run;
   }});
   if (study.study.kind.goes_through_ignition)
-    for (const double gap : burning_gaps(study, study.cases[first]))
+    for (const double gap : launched_gaps(study, study.cases[first]))
       cases.runs.push_back({[of, first, gap] {
         const StudyCase input = of->cases[first];
-        return skin_run(input.scene.scene, gap,
-                        fmt::format("{}, through ignition at {:.6g} cm", input.label, 100.0 * gap));
+        return skin_run(closing_scene(input), gap,
+                        fmt::format("{}, {} {:.6g} cm", input.label,
+                                    input.closing ? "closing from" : "through ignition at", 100.0 * gap));
       }});
   if (propagates_spread(study.study))
     cases.runs.push_back({[of, first] {

@@ -36,8 +36,7 @@ double time_at_share(const scene::Load& load, double share) {
 }
 
 CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
-  scene::Scene scene = input.scene.scene;
-  scene.surface.model = scene::GapModel::closing;
+  scene::Scene scene = closing_scene(input);
   scene.surface.base = terms.base;
   scene.surface.roughness = terms.roughness;
   scene.surface.release = terms.release;

@@ -113,6 +113,17 @@ StudyCase case_of(std::string label, SceneFile scene) {
   return made;
 }
 
+scene::Scene closing_scene(const StudyCase& input) {
+  scene::Scene scene = input.scene.scene;
+  if (!input.closing) return scene;
+  scene.surface.model = input.closing->model;
+  scene.surface.base = input.closing->base;
+  scene.surface.roughness = input.closing->roughness;
+  scene.surface.release = input.closing->release;
+  scene.surface.release_duration = input.closing->release_duration;
+  return scene;
+}
+
 Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
                        const LabelOf& label_of) {
   const auto start = std::make_shared<const Start>(start_of(study));

@@ -87,6 +87,13 @@ TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   }
 }
 
+TEST(ClosingGap, MayBeWiderThanOneOfTheReservoir) {
+  const auto wide = [](std::string text) { return with(std::move(text), "0, 0.01 cm", "0, 2 cm"); };
+  EXPECT_TRUE(parse_scene(wide(closing()), "shell.toml"));
+  const std::string text = wide(small_scene);
+  expect_error(error_of(text), line_of(text, "thickness ="), "gap.thickness", "2 cm", "at most 1 cm");
+}
+
 TEST(ClosingGap, IsRefusedWithoutRoughness) {
   const std::string text = closing("model = \"closing\"\nroughness = \"0 um\"\n");
   expect_error(error_of(text), line_of(text, "roughness"), "gap.roughness", "0 um", "excluded");

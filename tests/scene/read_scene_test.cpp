@@ -130,7 +130,7 @@ const Fault faults[] = {
     {"r = \"1.5 to 2 cm\"", "r = \"1.4 to 2 cm\"", "1.4 to", "body.wall.r", "overlaps", "overlap"},
     {"", "numerics.cell_size = \"1.5 cm\"\n", "1.5 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
     {"0, 0.01 cm", "0, 0.01, 0.02, 0.01 cm", "thickness", "gap.thickness", "twice", "once"},
-    {"0, 0.01 cm", "0, -0.01 cm", "thickness", "gap.thickness", "-0.01 cm", "0 cm to 1 cm"},
+    {"0, 0.01 cm", "0, -0.01 cm", "thickness", "gap.thickness", "-0.01 cm", "0 cm to 2 cm"},
     {"\"0, 0.01 cm\"", "[]", "thickness", "gap.thickness", "an empty array", "one or more"},
     {"", "kinetics.ignition_temperature = \"800 K\"\n", "800", "kinetics.ignition_temperature", "800 K",
      "below"},

@@ -47,6 +47,9 @@ struct StudyCase {
   }
 };
 
+/// The scene in which the gap of a case closes, on its own terms; the scene of one without such.
+scene::Scene closing_scene(const StudyCase& input);
+
 /// The cases of a study in their order. A study may have a million: of those that vary keys of one scene it
 /// holds labels and values alone.
 class Cases {

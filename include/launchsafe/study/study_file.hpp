@@ -29,11 +29,12 @@ struct KindTraits {
   bool gives_verdicts = true;
   /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
   bool bounds_critical_gaps = true;
-  bool keeps_answers = false;          ///< what is concluded of a case is stored beside its runs, unless in
-                                       ///< detail (Study::in_detail)
-  bool own_scenes = false;             ///< cases may bring scenes and uncertainties of their own
-  bool judges_closing_gaps = false;    ///< of a scene whose gap closes, in detail, beside the reservoir
-  bool goes_through_ignition = false;  ///< gaps of cases with two-way coupling are run through ignition too
+  bool keeps_answers = false;        ///< what is concluded of a case is stored beside its runs, unless in
+                                     ///< detail (Study::in_detail)
+  bool own_scenes = false;           ///< cases may bring scenes and uncertainties of their own
+  bool judges_closing_gaps = false;  ///< of a scene whose gap closes, in detail, beside the reservoir
+  /// Gaps of cases with two-way coupling are run through ignition too, and those that close are launched.
+  bool goes_through_ignition = false;
 };
 
 /// A scene key that the cases of a study vary.
