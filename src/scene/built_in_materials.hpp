@@ -7,7 +7,7 @@
 namespace launchsafe::scene {
 
 struct BuiltInText {
-  std::string file, text;
+  std::string file, text;  ///< "comp-b.toml"
 };
 /// One for every file in studies/materials.
 const std::vector<BuiltInText>& built_in_materials();

@@ -24,8 +24,9 @@ template <class Named, class Read>
 std::vector<Named> read_built_in(Read&& read) {
   std::vector<Named> all;
   for (const BuiltInText& each : built_in_materials()) {
-    const auto table = parse_toml(each.text, each.file);
-    auto named = table ? read(*table, each.file, all) : Expected<std::vector<Named>>(table.error());
+    const std::string file = "the shipped " + each.file;
+    const auto table = parse_toml(each.text, file);
+    auto named = table ? read(*table, file, all) : Expected<std::vector<Named>>(table.error());
     if (!named) {
       fmt::print(stderr, "{}\n", named.error().message());
       std::abort();
