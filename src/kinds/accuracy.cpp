@@ -93,7 +93,7 @@ void add_first_gap(const study::Study& study, const scene::Scene& scene, const t
                    AccuracyRow& row) {
   const auto skin =
       surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace, study.gaps.front());
-  for (const double time : accuracy_settings(study).times)
+  for (const double time : settings_of<AccuracySettings>(study).times)
     row.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
   row.points = study::station_temperatures(skin, trace);
 }
@@ -207,7 +207,7 @@ study::AccuracyRecord record_of(const VariantAccuracy& variant) {
 }
 
 void compare(VariantAccuracy& variant) {
-  const std::size_t meshes = accuracy_settings(variant.study.study).reference_cell_sizes.size();
+  const std::size_t meshes = settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes.size();
   const std::span<const AccuracyRow> finest_first(variant.rows.data(), meshes);
   for (const AccuracyRow& mesh : finest_first) {
     if (mesh.sound()) continue;
@@ -294,7 +294,7 @@ AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOpt
   return run_timed<AccuracyResult>(
       study, options,
       [&](AccuracyResult& result) {
-        for (const AccuracyVariant& each : accuracy_settings(study.study).variants)
+        for (const AccuracyVariant& each : settings_of<AccuracySettings>(study.study).variants)
           result.variants.push_back({each.name, each.study});
         if (result.variants.empty()) result.variants.push_back({{}, study});
         run_settings(result, options);

@@ -38,15 +38,15 @@ Fault read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
   if (!description) return study::in_table(description.error(), "settings");
   const auto values = scene::read_values(*leaf.node, *description, study.file);
   if (!values) return study::in_table(values.error(), "settings");
-  SettingsAxis& axis = accuracy_settings(study.study).settings[block].emplace_back();
+  SettingsAxis& axis = settings_of<AccuracySettings>(study.study).settings[block].emplace_back();
   for (const Value& value : *values)
     axis.push_back({leaf.name, value, scene::format_value(*description, value), key, place});
   return std::nullopt;
 }
 
 Fault check_reference_meshes(StudyFile& study) {
-  std::vector<double>& sizes = accuracy_settings(study.study).reference_cell_sizes;
-  std::sort(sizes.begin(), sizes.end());
+  std::vector<double>& sizes = settings_of<AccuracySettings>(study.study).reference_cell_sizes;
+  std::ranges::sort(sizes);
   const std::string key = "reference_cell_sizes";
   if (Fault fault = check_twice(study, key, scene::Dimension::length, sizes)) return fault;
   if (sizes.size() >= least_reference_meshes) return std::nullopt;
@@ -61,10 +61,10 @@ constexpr double least_refinement = 1.2;
 
 /// Grids beside the charge's edge converge to something else, and two nominal sizes may be one grid.
 Fault check_reference_grids(const StudyFile& study) {
-  const std::size_t count = accuracy_settings(study.study).reference_cell_sizes.size();
+  const std::size_t count = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string size = scene::format_quantity(accuracy_settings(study.study).reference_cell_sizes[i],
-                                                    scene::Dimension::length);
+    const std::string size = scene::format_quantity(
+        settings_of<AccuracySettings>(study.study).reference_cell_sizes[i], scene::Dimension::length);
     const scene::Scene& scene = study.cases[i].scene.scene;
     if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty()) {
       return fault_at(study, "reference_cell_sizes",
@@ -128,7 +128,7 @@ Fault add_block(StudyFile& study, const std::vector<SettingsAxis>& axes, std::ve
 
 Fault check_setting_count(const StudyFile& study) {
   double count = 1.0;
-  for (const auto& block : accuracy_settings(study.study).settings) {
+  for (const auto& block : settings_of<AccuracySettings>(study.study).settings) {
     double product = 1.0;
     for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.size());
     count += product;
@@ -147,8 +147,8 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
                            "tables, each written [[settings]], of scene keys with several values");
   }
   for (const toml::node& element : *node->as_array()) {
-    const std::size_t block = accuracy_settings(study.study).settings.size();
-    accuracy_settings(study.study).settings.emplace_back();
+    const std::size_t block = settings_of<AccuracySettings>(study.study).settings.size();
+    settings_of<AccuracySettings>(study.study).settings.emplace_back();
     for (const study::Leaf& leaf : study::leaves_as_written(*element.as_table())) {
       if (Fault fault = read_axis(leaf, block, study)) return fault;
     }
@@ -157,7 +157,7 @@ Fault read_settings(const toml::table& root, StudyFile& study) {
 }
 
 Fault make_setting_cases(StudyFile& study) {
-  const AccuracySettings settings = accuracy_settings(study.study);
+  const AccuracySettings settings = settings_of<AccuracySettings>(study.study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
   KnownScenes known;
   for (const double size : settings.reference_cell_sizes) {
@@ -200,7 +200,7 @@ scene::Expected<std::string> name_of_variant(const toml::table& table, const Stu
     return scene::error_at(place, "variant.name", node ? scene::found_text(*node) : "no name",
                            fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest));
   }
-  for (const AccuracyVariant& other : accuracy_settings(study.study).variants) {
+  for (const AccuracyVariant& other : settings_of<AccuracySettings>(study.study).variants) {
     if (other.name == name)
       return scene::error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
                              "a name that no other variant has");
@@ -232,7 +232,7 @@ Fault add_variant(const StudySource& source, std::size_t index, StudyFile& study
   }
   study.records.insert(study.records.end(), variant->records.begin(), variant->records.end());
   study.records.push_back(store::sha256(scene::to_toml(variant->scene.scene)));
-  accuracy_settings(study.study).variants.push_back({*name, std::move(*variant)});
+  settings_of<AccuracySettings>(study.study).variants.push_back({*name, std::move(*variant)});
   return std::nullopt;
 }
 
@@ -243,7 +243,7 @@ Fault make_accuracy_cases(const StudySource& source, StudyFile& study) {
     if (Fault fault = add_variant(source, i, study)) return fault;
   }
   // The first is the study's own.
-  const StudyFile& first = accuracy_settings(study.study).variants.front().study;
+  const StudyFile& first = settings_of<AccuracySettings>(study.study).variants.front().study;
   study.scene = first.scene;
   study.overrides = first.overrides;
   return std::nullopt;

@@ -83,7 +83,7 @@ Row belief_facts(const VariantAccuracy& variant) {
     ++sound;
     drift = std::max(drift, row.answer.run.energy_drift);
   }
-  return {{"grids", accuracy_settings(variant.study.study).reference_cell_sizes.size()},
+  return {{"grids", settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes.size()},
           {"justified", justified},
           {"gaps", limits.size()},
           {"sound", sound},

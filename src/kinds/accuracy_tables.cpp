@@ -22,10 +22,10 @@ std::string gap_text(double gap) { return report::digits_of(gap, quantity::gap()
 
 const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
 const std::vector<double>& times_of(const VariantAccuracy& variant) {
-  return accuracy_settings(variant.study.study).times;
+  return settings_of<AccuracySettings>(variant.study.study).times;
 }
 const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
-  return accuracy_settings(variant.study.study).reference_cell_sizes;
+  return settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes;
 }
 
 /// The one that stands at the place of `key` in a list of keys; none where that is not there.
@@ -297,7 +297,7 @@ Table reference_table(const AccuracyResult& result) {
     to.add("peak pressure of the charge bottom", quantity::pressure().form, reference.peak_pressure);
     for (std::size_t i = 0; i < reference.at_times.size(); ++i)
       to.add(fmt::format("T without reaction at {}, gap {}",
-                         report::milliseconds(accuracy_settings(study).times[i]),
+                         report::milliseconds(settings_of<AccuracySettings>(study).times[i]),
                          centimetres(study.gaps.front())),
              quantity::temperature_max().form, reference.at_times[i]);
   });

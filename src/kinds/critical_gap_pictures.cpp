@@ -252,7 +252,7 @@ std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<Sw
     if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
     for (const std::size_t axis : shown) others[axis] = 0;
-    const auto found = std::find(combinations.begin(), combinations.end(), others);
+    const auto found = std::ranges::find(combinations, others);
     const auto number = static_cast<std::size_t>(found - combinations.begin());
     if (found == combinations.end()) {
       combinations.push_back(std::move(others));

@@ -231,7 +231,7 @@ void calibrate_on_firings(FiringResult& result) {
     result.failure = failed->input.label + ": " + failed->failure;
     return;
   }
-  const FiringSettings& settings = study::settings_of<CalibrationSettings>(result.study.study).firings;
+  const FiringSettings& settings = settings_of<CalibrationSettings>(result.study.study).firings;
   study::FiringPrior prior =
       settings.prior_about(surface::constants_of(surface::skin_model(result.study.scene.scene)));
   prior.least_ignition_temperature =

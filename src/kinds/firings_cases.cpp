@@ -18,7 +18,7 @@ using study::Fault, study::Firing, study::StudyFile;
 namespace {
 
 const FiringSettings& settings_in(const study::Study& study) {
-  return study::settings_of<CalibrationSettings>(study).firings;
+  return settings_of<CalibrationSettings>(study).firings;
 }
 
 const std::vector<Key<Firing>>& firing_row_keys() {
@@ -144,7 +144,7 @@ bool has_firings(const study::Study& study) { return !settings_in(study).firings
 Fault read_firings(const toml::table& root, StudyFile& study) {
   const auto tables = study::tables_of(root, "firing", study.file);
   if (!tables) return tables.error();
-  std::vector<Firing>& firings = study::settings_of<CalibrationSettings>(study.study).firings.firings;
+  std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
   for (const toml::table* table : *tables) {
     Firing firing;
     auto read = scene::read_table(*table, firing_row_keys(), {}, study.file, firing);

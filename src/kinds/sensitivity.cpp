@@ -19,7 +19,7 @@ bool SensitivityResult::any_indeterminate() const {
 }
 
 std::vector<SensitivityInput> inputs_of(const Study& study) {
-  const auto& correlated = sensitivity_settings(study).correlated;
+  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
   std::vector<SensitivityInput> inputs;
   for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
     inputs.push_back({axis, correlated && correlated->first == axis ? correlated->count : 1});
@@ -27,13 +27,13 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
 }
 
 study::UncertainInputs uncertain_inputs(const Study& study) {
-  study::UncertainInputs inputs{.correlated = sensitivity_settings(study).correlated};
+  study::UncertainInputs inputs{.correlated = settings_of<SensitivitySettings>(study).correlated};
   for (const study::Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
   return inputs;
 }
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   if (!is_by_fit(study)) return evaluation % (inputs_of(study).size() + 2) < 2;
   return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
 }
@@ -65,7 +65,7 @@ void summarise(const Study& study, OutputSensitivity& output) {
 
 void estimate(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   if (is_by_fit(study)) return estimate_by_chaos(result, output);
   if (own.surrogate) output.fit = fit_of(result, output);
   math::SobolOptions options;
@@ -108,7 +108,7 @@ SensitivityResult run_sensitivity(const study::StudyFile& study, const study::St
       study, options,
       [&](SensitivityResult& result) {
         result.answers = answer_cases(study, options, result.timing);
-        if (!is_by_fit(study.study) && !sensitivity_settings(study.study).surrogate) return;
+        if (!is_by_fit(study.study) && !settings_of<SensitivitySettings>(study.study).surrogate) return;
         result.points = design_points(study.study);
         add_launches(result, options);
       },

@@ -119,7 +119,7 @@ Fault add_evaluations(StudyFile& study, const std::function<std::string(std::siz
 Fault make_saltelli(StudyFile& study) {
   const Study& s = study.study;
   const std::vector<SensitivityInput> each_input = inputs_of(s);
-  const int rows = sensitivity_settings(s).samples;
+  const int rows = settings_of<SensitivitySettings>(s).samples;
   const std::size_t blocks = each_input.size() + 2;
   if (Fault fault = check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
                                 fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())))
@@ -137,7 +137,7 @@ Fault make_saltelli(StudyFile& study) {
 /// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
 Fault check_fit_of_draws(const StudyFile& study) {
   constexpr int fewest_held_out = 30, most_fitted = 2000;
-  const SensitivitySettings& own = sensitivity_settings(study.study);
+  const auto& own = settings_of<SensitivitySettings>(study.study);
   const int fewest =
       std::max(fewest_held_out, static_cast<int>(math::fewest_chaos_points(study.study.axes.size())));
   if (!own.surrogate || (own.samples >= fewest && own.samples <= most_fitted)) return std::nullopt;
@@ -148,7 +148,7 @@ Fault check_fit_of_draws(const StudyFile& study) {
 
 /// Errors are asked of a fit, and leave it room for more samples.
 Fault check_asked_errors(const StudyFile& study) {
-  const SensitivitySettings& own = sensitivity_settings(study.study);
+  const auto& own = settings_of<SensitivitySettings>(study.study);
   const bool is_fit = is_by_fit(study.study);
   for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
     if (study.places.contains(key) && !is_fit)
@@ -167,7 +167,7 @@ Fault check_asked_errors(const StudyFile& study) {
 /// The samples that a fit begins with, and those that it is held against.
 Fault make_chaos_samples(StudyFile& study) {
   const Study& s = study.study;
-  const SensitivitySettings& own = sensitivity_settings(s);
+  const auto& own = settings_of<SensitivitySettings>(s);
   const auto fitted = static_cast<std::size_t>(own.samples),
              all = fitted + static_cast<std::size_t>(own.held_out);
   if (Fault fault = check_count(study, "samples", static_cast<double>(all),

@@ -37,7 +37,7 @@ std::vector<std::size_t> known_evaluations(const SensitivityResult& result) {
 /// The launches of a result, without outputs.
 SurrogateRecord launches_of(const SensitivityResult& result) {
   const Study& study = result.study.study;
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   const int held_out = is_by_fit(study) ? own.held_out : own.samples;
   SurrogateRecord record{.model_version = run::model_version,
                          .scene = result.study.scene.scene,
@@ -86,7 +86,7 @@ math::SobolIndices process_indices(const Study& study, const Surrogate& surrogat
 
 /// What is asked of an output.
 double asked_error(const Study& study, SensitivityOutput output) {
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   if (output == SensitivityOutput::maximum_temperature) return own.temperature_error;
   return output == SensitivityOutput::critical_gap ? own.critical_gap_error : study::not_a_number;
 }
@@ -111,8 +111,9 @@ std::vector<double> next_points(const SensitivityResult& result, std::size_t cou
     of = std::move(fitted);
   }
   if (of.values.empty()) return {};
-  return least_sure_points(record, of, count,
-                           math::hashed(sensitivity_settings(study).seed, 2 + result.answers.size()));
+  return least_sure_points(
+      record, of, count,
+      math::hashed(settings_of<SensitivitySettings>(study).seed, 2 + result.answers.size()));
 }
 
 /// Computes launches at these points and adds them; false where they are not all there.
@@ -120,7 +121,7 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
                const study::StudyOptions& options) {
   const study::UncertainInputs inputs = uncertain_inputs(result.study.study);
   const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
   study::StudyFile round = result.study;
   round.cases = {};
@@ -147,7 +148,7 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
 }  // namespace
 
 std::vector<double> design_points(const Study& study) {
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   if (!is_by_fit(study)) {
     std::vector<std::size_t> columns;
     for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
@@ -177,7 +178,7 @@ SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity&
 
 void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
-  const SensitivitySettings& own = sensitivity_settings(study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   const SurrogateRecord record = launches_of(result);
   const SurrogateOutput& fit = output.fit.emplace(fit_of(result, output));
   output.reason = fit.reason;
@@ -195,7 +196,7 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
 
 void add_launches(SensitivityResult& result, const study::StudyOptions& options) {
   constexpr std::size_t round = 8;
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   if (!options.shard.whole()) return;
   for (;;) {
     const std::size_t fitted = result.answers.size() - static_cast<std::size_t>(own.held_out);

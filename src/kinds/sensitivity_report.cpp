@@ -35,14 +35,14 @@ std::string text_of(math::Design design) {
 
 /// Launches besides those of the design of a fit.
 std::size_t added_launches(const SensitivityResult& result) {
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   const std::size_t launches = own.method == SensitivityMethod::sobol ? 0 : result.answers.size();
   return launches - std::min(launches, static_cast<std::size_t>(own.samples + own.held_out));
 }
 
 /// How indices are found.
 Row method_facts(const SensitivityResult& result) {
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   return {{"name", own.method == SensitivityMethod::sobol ? "sobol" : "polynomial-chaos"},
           {"text", ""},
           {"N", own.samples},
@@ -93,7 +93,7 @@ std::string estimate_text(const math::Estimate& estimate) {
 }
 
 std::string method_text(const SensitivityResult& result) {
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   Row facts = method_facts(result);
   facts.update({{"is_fit", is_by_fit(result.study.study)},
                 {"held_out", own.held_out},
@@ -149,7 +149,7 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
 std::string output_text(const SensitivityResult& result, const OutputSensitivity& output) {
   const std::vector<ShownInput> inputs = shown_inputs(result.study.study);
   Row facts{{"reason", output.reason},
-            {"rows", sensitivity_settings(result.study.study).samples},
+            {"rows", settings_of<SensitivitySettings>(result.study.study).samples},
             {"negligible_percent", shown_value(negligible_share, keys::significant(6, percent))}};
   const Groups groups = output.reason.empty() ? ranked(output.sobol.inputs) : Groups{};
   for (const auto& group : groups) {
@@ -172,7 +172,7 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
 
 /// What became of the errors that are asked of the fit.
 std::vector<std::string> asked_text(const SensitivityResult& result) {
-  const SensitivitySettings& own = sensitivity_settings(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
   std::vector<std::string> lines;
   for (const AskedError& error : asked_errors(result)) {
     const ShownOutput& shown = shown_output(error.output);
@@ -198,7 +198,7 @@ std::vector<std::string> failed_text(const SensitivityResult& result) {
 }
 
 bool has_fit(const SensitivityResult& result) {
-  return is_by_fit(result.study.study) || sensitivity_settings(result.study.study).surrogate;
+  return is_by_fit(result.study.study) || settings_of<SensitivitySettings>(result.study.study).surrogate;
 }
 
 std::string picture_name(const OutputSensitivity& output) {

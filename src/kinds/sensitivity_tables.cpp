@@ -234,7 +234,7 @@ report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensi
   const study::Study& study = result.study.study;
   report::Plot plot;
   plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
-                           at_gap(study, output.output), sensitivity_settings(study).samples);
+                           at_gap(study, output.output), settings_of<SensitivitySettings>(study).samples);
   plot.x.label = "share of the variance";
   Series first{"S1: by the input alone", {}, {}, report::Style::horizontal_bars};
   Series total{"ST: with its interactions", {}, {}, report::Style::horizontal_bars};

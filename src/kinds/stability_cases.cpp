@@ -183,8 +183,8 @@ Fault read_case(CaseReader reader) {
   const std::string& file = reader.study.file;
   const auto read = scene::read_table(reader.table, case_keys(), {"set", "against"}, file, launch);
   if (!read) return in_table(read.error(), "group.cases");
-  auto& cases = settings_of<StabilitySettings>(reader.study.study).cases;
-  if (std::ranges::count(cases, launch.label(), &StressCase::label) > 0)
+  const auto& others = settings_of<StabilitySettings>(reader.study.study).cases;
+  if (std::ranges::count(others, launch.label(), &StressCase::label) > 0)
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
                         "a name that no other case of the group has");
   if (launch.invariants.empty())
@@ -197,7 +197,7 @@ Fault read_case(CaseReader reader) {
   const bool runs = launch.refused.empty();
   if (runs && changed->refusal) return changed->refusal;
   Fault fault = runs ? read_runs(reader, changed->scene) : read_refusal(reader, changed->refusal);
-  if (!fault) cases.push_back(std::move(launch));
+  if (!fault) settings_of<StabilitySettings>(reader.study.study).cases.push_back(std::move(launch));
   return fault;
 }
 

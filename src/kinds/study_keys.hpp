@@ -49,9 +49,9 @@ StudyKeys own_keys(const std::vector<scene::Key<Settings>>& keys) {
   for (const scene::Key<Settings>& key : keys) {
     scene::Key<study::Study> lifted{scene::KeyDescription(key), {}, {}};
     lifted.set = [key](study::Study& study, const scene::Value& value) {
-      key.set(study::settings_of<Settings>(study), value);
+      key.set(settings_of<Settings>(study), value);
     };
-    lifted.get = [key](const study::Study& study) { return key.get(study::settings_of<Settings>(study)); };
+    lifted.get = [key](const study::Study& study) { return key.get(settings_of<Settings>(study)); };
     result.push_back(std::move(lifted));
   }
   return result;

@@ -79,7 +79,7 @@ Fault check_reach(const VaryReader& reader) {
 /// Whether the study's scene and keys allow constants of a record to vary.
 Fault check_place_of_record(const VaryReader& reader) {
   const study::StudyFile& study = reader.study;
-  if (sensitivity_settings(study.study).correlated)
+  if (settings_of<SensitivitySettings>(study.study).correlated)
     return reader.fault("calibration", "a second calibration", "one calibration among what varies");
   if (!study.study.calibration_record.empty())
     return reader.fault("calibration", "a calibration beside that of the study",

@@ -131,7 +131,7 @@ TEST(Comparison, AVariantTakesTheFitUncertaintyOfItsOwnCalibration) {
       "calibration = \"../reports/model_form/smooth_wall/calibration/calibration.json\"\n" +
       variants_follow + variant("inelastic", "friction.closure = \"inelastic\"") +
       "calibration = \"../reports/model_form/inelastic/calibration/calibration.json\"\n");
-  const auto& variants = settings_of<ComparisonSettings>(study.study).variants;
+  const auto& variants = kinds::settings_of<ComparisonSettings>(study.study).variants;
   ASSERT_EQ(variants.size(), 2u);
   EXPECT_NEAR(variants[0].judged.calibration.evidence.fit_uncertainty, 2.8592, 1e-3);
   EXPECT_NEAR(variants[1].judged.calibration.evidence.fit_uncertainty, 2.8702, 1e-3);

@@ -176,8 +176,8 @@ inline math::Estimate estimate(double value, double half) { return {value, value
 /// Three inputs, 4 rows of a Saltelli design, the third evaluation failed.
 inline kinds::SensitivityResult made_sensitivity() {
   study::StudyFile file = bare_study(kinds::traits_of("sensitivity"), {2e-4});
-  study::settings_of<kinds::SensitivitySettings>(file.study).samples = 4;
-  study::settings_of<kinds::SensitivitySettings>(file.study).design = math::Design::scrambled_sobol;
+  kinds::settings_of<kinds::SensitivitySettings>(file.study).samples = 4;
+  kinds::settings_of<kinds::SensitivitySettings>(file.study).design = math::Design::scrambled_sobol;
   const auto input = [&](const std::string& name, const std::string& key, math::Distribution distribution) {
     return study::Axis{name, "vary.0.key", axis(file, name, key, {}).key, {}, distribution};
   };

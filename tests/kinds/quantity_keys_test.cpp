@@ -39,7 +39,7 @@ std::vector<report::Report> reports_of_all_kinds() {
   const auto critical = run_critical_gap(
       study::study_of(study::critical_text + gaps + study::synthetic_constants), study::synthetic_options());
   study::StudyFile shipped = *read_study(study::studies_folder / "calibrate_table8.toml");
-  study::settings_of<CalibrationSettings>(shipped.study).load_fitted = false;
+  kinds::settings_of<CalibrationSettings>(shipped.study).load_fitted = false;
   const auto accuracy = run_accuracy(
       study::study_of("kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0, 0.02 cm\"\n"
                       "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n" +

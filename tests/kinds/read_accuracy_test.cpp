@@ -79,7 +79,7 @@ TEST(ReadAccuracy, AVariantIsTheStudyWithWhatItSaysOtherwise) {
                "reference_cell_sizes = \"0.834, 1.25, 2.5 mm\"\n"
                "set = { load.peak = \"300 MPa\" }\n"
                "[[variant.settings]]\nnumerics.cell_size = \"5 mm\"\n");
-  const auto& variants = settings_of<AccuracySettings>(study.study).variants;
+  const auto& variants = kinds::settings_of<AccuracySettings>(study.study).variants;
   ASSERT_EQ(variants.size(), 2u);
   const scene::Scene &first = variants[0].study.scene.scene, &second = variants[1].study.scene.scene;
   EXPECT_EQ(first.load.peak, 400e6);

@@ -62,11 +62,11 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
                                   crack + steepness + flaw);
   const Study& study = file.study;
   EXPECT_EQ(study.kind.name, kinds::traits_of("sensitivity").name);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).design, math::Design::latin_hypercube);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).samples, 8);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).seed, 7u);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).resamples, 500);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(study).confidence, 0.9);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).design, math::Design::latin_hypercube);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).samples, 8);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).seed, 7u);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).resamples, 500);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(study).confidence, 0.9);
   EXPECT_EQ(study.tolerance, 2e-6);
   EXPECT_EQ(study.gaps, std::vector<double>{2e-4});
   ASSERT_EQ(study.axes.size(), 3u);
@@ -86,7 +86,7 @@ TEST(ReadSensitivity, ReadsInputsAndMethod) {
 
 TEST(ReadSensitivity, HasDefaults) {
   const StudyFile file = study_of(sensitivity_start + crack);
-  EXPECT_EQ(study::settings_of<kinds::SensitivitySettings>(file.study).design, SensitivitySettings{}.design);
+  EXPECT_EQ(kinds::settings_of<kinds::SensitivitySettings>(file.study).design, SensitivitySettings{}.design);
   EXPECT_EQ(file.cases.size(), 64u * 3u);
 }
 

@@ -19,7 +19,7 @@ const std::string stability_start =
 std::string cases(const std::string& keys) { return "cases = [ { name = \"high\", " + keys + " } ]\n"; }
 
 const std::vector<StressCase>& cases_of(const StudyFile& study) {
-  return settings_of<StabilitySettings>(study.study).cases;
+  return kinds::settings_of<StabilitySettings>(study.study).cases;
 }
 
 TEST(ReadStability, ACaseAddsToWhatItsGroupSetsAndReplacesWhatElseItSays) {

@@ -67,7 +67,18 @@ TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
   ASSERT_EQ(study.cases.size(), 1u);
   EXPECT_EQ(study.cases[0].label, "496 MPa, 30 um, 1 mm");
   EXPECT_EQ(study.study.largest_gap, 1e-3);
-  EXPECT_TRUE(study::settings_of<kinds::CriticalGapSettings>(study.study).confirm);
+  EXPECT_TRUE(settings_of<CriticalGapSettings>(study.study).confirm);
+}
+
+TEST(ReadStudy, ACopyHasTheSettingsOfItsKindUntilEitherChangesThem) {
+  const StudyFile read = study_of(critical_kind + "surrogate = false\nconfirm = false\n");
+  Study copy = read.study;
+  EXPECT_FALSE(settings_of<CriticalGapSettings>(std::as_const(copy)).confirm);
+  settings_of<CriticalGapSettings>(copy).confirm = true;
+  EXPECT_TRUE(settings_of<CriticalGapSettings>(copy).confirm);
+  EXPECT_FALSE(settings_of<CriticalGapSettings>(read.study).confirm);
+  copy.settings.reset();
+  EXPECT_TRUE(settings_of<CriticalGapSettings>(std::as_const(copy)).confirm);  // as in the struct
 }
 
 TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {

@@ -191,7 +191,7 @@ TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
 TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   // The synthetic launch has one load, whatever the scene says.
   StudyFile shipped = *read_study(studies_folder / "calibrate_table8.toml");
-  study::settings_of<kinds::CalibrationSettings>(shipped.study).load_fitted = false;
+  kinds::settings_of<kinds::CalibrationSettings>(shipped.study).load_fitted = false;
   const CalibrationResult result = run_calibration(shipped, synthetic_options());
   const auto json = json_of(result);
   EXPECT_EQ(json["calibrations"].size(), result.rows.size());

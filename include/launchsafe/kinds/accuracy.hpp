@@ -36,13 +36,6 @@ struct AccuracySettings {
   std::vector<AccuracyVariant> variants;            ///< none for a file that is one study by itself
 };
 
-inline AccuracySettings& accuracy_settings(study::Study& study) {
-  return study::settings_of<AccuracySettings>(study);
-}
-inline const AccuracySettings& accuracy_settings(const study::Study& study) {
-  return study::settings_of<AccuracySettings>(study);
-}
-
 /// Pressure of the charge bottom over the launch.
 struct PressureTrace {
   std::vector<double> time;      ///< s

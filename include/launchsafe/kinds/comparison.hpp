@@ -46,7 +46,7 @@ struct ComparisonResult {
   study::Timing timing;
   bool interrupted = false;
   const std::vector<Variant>& variants() const {
-    return study::settings_of<ComparisonSettings>(study.study).variants;
+    return settings_of<ComparisonSettings>(study.study).variants;
   }
   /// The cases of a variant follow each other in the order of the peak pressures.
   std::size_t cases_per_variant() const { return study.cases.size() / variants().size(); }

@@ -80,6 +80,13 @@ struct Kind {
   std::vector<ResultTable> (*results)();
 };
 
+/// What a study asks of one kind alone: CriticalGapSettings and the like; the defaults where it asks nothing.
+/// The second is for changing it.
+template <class Settings>
+const Settings& settings_of(const study::Study& study);
+template <class Settings>
+Settings& settings_of(study::Study& study);
+
 /// Every kind of study there is.
 const std::vector<Kind>& kinds();
 /// The kind of a study that was read.

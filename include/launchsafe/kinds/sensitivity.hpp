@@ -42,10 +42,6 @@ struct SensitivitySettings {
   std::optional<study::CorrelatedInputs> correlated = {};  ///< of Study::axes
 };
 
-inline const SensitivitySettings& sensitivity_settings(const study::Study& study) {
-  return study::settings_of<SensitivitySettings>(study);
-}
-
 /// What has indices of its own: an axis, or those that vary together, since indices need independent inputs.
 struct SensitivityInput {
   std::size_t first = 0, count = 1;  ///< among Study::axes
@@ -54,7 +50,7 @@ std::vector<SensitivityInput> inputs_of(const study::Study& study);
 
 /// Whether the indices are those of a fit.
 inline bool is_by_fit(const study::Study& study) {
-  return sensitivity_settings(study).method == SensitivityMethod::polynomial_chaos;
+  return settings_of<SensitivitySettings>(study).method == SensitivityMethod::polynomial_chaos;
 }
 
 /// What the study draws from, in the order of Study::axes.

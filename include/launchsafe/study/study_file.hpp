@@ -9,10 +9,9 @@
 #include "launchsafe/study/cases.hpp"
 #include "launchsafe/study/model_form.hpp"
 
-#include <any>
-#include <cassert>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <map>
 #include <optional>
 #include <string>
@@ -90,11 +89,15 @@ struct StatedUncertainty {
   double value = 0;     ///< K, of T max
   std::string because;  ///< the source, in words
 };
+/// What kinds of study ask each by itself. The module that has the kinds says what that is, and gives access
+/// to it; here it is carried along.
+struct KindSettings;
+
 
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
-  std::any settings;  ///< what its kind alone asks, of the type that the kind says; see settings_of
+  std::shared_ptr<KindSettings> settings;  ///< shared by copies until one is changed; null: the defaults
   std::string title;
   std::string scene;          ///< path of the scene from the study file's folder, as the user wrote it
   double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
@@ -138,24 +141,6 @@ struct Study {
   /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
   std::vector<scene::Implausible> implausible;
 };
-
-/// The settings of a study's kind, of the type that the kind says: another one is a programming error. A
-/// study that has none yet has the defaults.
-template <class Settings>
-const Settings& settings_of(const Study& study) {
-  static const Settings defaults{};
-  if (!study.settings.has_value()) return defaults;
-  const auto* settings = std::any_cast<Settings>(&study.settings);
-  assert(settings != nullptr);
-  return *settings;
-}
-template <class Settings>
-Settings& settings_of(Study& study) {
-  if (!study.settings.has_value()) study.settings.emplace<Settings>();
-  auto* settings = std::any_cast<Settings>(&study.settings);
-  assert(settings != nullptr);
-  return *settings;
-}
 
 /// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound
 /// that the record of the 155 mm shell has for such numerics is 99 K.
