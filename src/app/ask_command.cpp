@@ -30,15 +30,14 @@ Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
   auto text = scene::read_text_file(file, largest_record);
   if (text) return study::parse_surrogate(*text, file.string());
   if (!text.error().file_missing) return text.error();
-  return InputError{
-      file.string(),
-      0,
-      0,
-      {},
-      "no such file",
-      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of one "
-      "with surrogate = true (launchsafe study --update fits a finished one)",
-      {}};
+  return InputError{file.string(),
+                    0,
+                    0,
+                    {},
+                    "no such file",
+                    "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", "
+                    "or of one with surrogate = true (launchsafe study --update fits a finished one)",
+                    {}};
 }
 
 /// An input of the launches that are asked for.
@@ -209,10 +208,8 @@ report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInp
           fmt::format("{}: not predicted, {}.", kinds::shown(output).heading, output.reason));
   table.notes.push_back(
       fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (+-) on each "
-                  "side. Nothing is said "
-                  "of a launch that is farther out than these. How far computed ones are off comes on top, "
-                  "and only a launch that "
-                  "was computed can be SAFE: launchsafe study.",
+                  "side. Nothing is said of a launch that is farther out than these. How far computed ones "
+                  "are off comes on top, and only a launch that was computed can be SAFE: launchsafe study.",
                   record.fitted(), record.held_out.size()));
   return table;
 }

@@ -44,10 +44,9 @@ std::string self_heating_text(const NamedMaterial& material) {
 }
 
 const char* calibration_text(const NamedMaterial& material) {
-  return is_calibrated(material)
-             ? "the constants of the 155 mm shell were calibrated with it"
-             : "never calibrated: no verdict that rests on it is SAFE until somebody accepts it "
-               "as it is, or calibrates it";
+  return is_calibrated(material) ? "the constants of the 155 mm shell were calibrated with it"
+                                 : "never calibrated: no verdict that rests on it is SAFE until somebody "
+                                   "accepts it as it is, or calibrates it";
 }
 
 /// The value of a key, which has a name of its own in a material.

@@ -118,7 +118,7 @@ AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
   row.validity_warnings = fmt::format("{}", fmt::join(run::validity_warnings(scene, mechanics), "; "));
   add_first_gap(study, scene, mechanics.trace, row);
   row.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
-  row.peak_pressure = *std::max_element(row.bottom.pressure.begin(), row.bottom.pressure.end());
+  row.peak_pressure = *std::ranges::max_element(row.bottom.pressure);
   return row;
 }
 
@@ -259,7 +259,7 @@ void mark_front(std::vector<AccuracyRow>& rows) {
     return row.sound() && !row.other_model && std::isfinite(row.error_to_go_by());
   };
   for (AccuracyRow& row : rows) {
-    row.on_front = counts(row) && std::none_of(rows.begin(), rows.end(), [&](const AccuracyRow& other) {
+    row.on_front = counts(row) && std::ranges::none_of(rows, [&](const AccuracyRow& other) {
                      return counts(other) && other.setting.processor_time < row.setting.processor_time &&
                             other.error_to_go_by() <= row.error_to_go_by();
                    });
@@ -267,13 +267,14 @@ void mark_front(std::vector<AccuracyRow>& rows) {
 }
 
 bool VariantAccuracy::any_indeterminate() const {
-  return !reference || std::any_of(reference->temperature.begin(), reference->temperature.end(),
-                                   [](const ReferenceValue& value) { return !value.limit.justified; });
+  return !reference || std::ranges::any_of(reference->temperature, [](const ReferenceValue& value) {
+    return !value.limit.justified;
+  });
 }
 
 const AccuracyRow* VariantAccuracy::baseline() const {
-  const auto found = std::find_if(rows.begin(), rows.end(),
-                                  [](const AccuracyRow& row) { return row.baseline && row.sound(); });
+  const auto found =
+      std::ranges::find_if(rows, [](const AccuracyRow& row) { return row.baseline && row.sound(); });
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -286,8 +287,7 @@ double VariantAccuracy::reference_uncertainty() const {
 }
 
 bool AccuracyResult::any_indeterminate() const {
-  return std::any_of(variants.begin(), variants.end(),
-                     [](const VariantAccuracy& each) { return each.any_indeterminate(); });
+  return std::ranges::any_of(variants, [](const VariantAccuracy& each) { return each.any_indeterminate(); });
 }
 
 AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options) {
@@ -300,7 +300,7 @@ AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOpt
         run_settings(result, options);
       },
       [&](AccuracyResult& result) {
-        if (options.shard.whole()) std::for_each(result.variants.begin(), result.variants.end(), compare);
+        if (options.shard.whole()) std::ranges::for_each(result.variants, compare);
       });
 }
 

@@ -287,13 +287,7 @@ Kind accuracy_kind() {
       .read = read_accuracy,
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,
-      .files = {{"accuracy.json"},
-                {"accuracy_", ".json"},
-                {"accuracy.csv"},
-                {"reference.csv"},
-                {"points.csv"},
-                {"variants.csv"},
-                {"error_against_time.svg"}},
+      .files = {{"accuracy.json"}, {"accuracy_", ".json"}, {"error_against_time.svg"}},
       .results = accuracy_results,
   };
 }

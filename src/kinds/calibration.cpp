@@ -83,7 +83,7 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
 /// The place of the row of a mesh that was run, of a closure and a kinetics that were calibrated with.
 std::size_t row_place(const CalibrationResult& result, double cell_size, FrictionClosure closure,
                       const std::string& kinetics) {
-  const auto found = std::find_if(result.rows.begin(), result.rows.end(), [&](const CalibrationRow& row) {
+  const auto found = std::ranges::find_if(result.rows, [&](const CalibrationRow& row) {
     return row.cell_size == cell_size && row.closure == closure && row.kinetics == kinetics;
   });
   assert(found != result.rows.end());
@@ -180,8 +180,7 @@ void recommend(CalibrationResult& result) {
   const CalibrationRow* other = choose_inelastic ? total : inelastic;
   said.reason = fmt::format(
       "On the finest mesh ({:.6g} mm) \"{}\" misses the temperatures that nothing was fitted to by {:.4g} K "
-      "(RMS), \"{}\" by "
-      "{:.4g} K{}. {}",
+      "(RMS), \"{}\" by {:.4g} K{}. {}",
       1e3 * finest, study::to_string(better->closure), better->root_mean_square,
       study::to_string(other->closure), other->root_mean_square,
       std::isfinite(better->spread_root_mean_square) && std::isfinite(other->spread_root_mean_square)
@@ -245,8 +244,8 @@ const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bo
 void compare_stations(CalibrationResult& result) {
   if (!result.recommended()) return;
   const CalibrationRow& row = *result.recommended();
-  const auto own = std::find_if(result.runs.begin(), result.runs.end(),
-                                [&](const auto& run) { return run.input.cell_size == row.cell_size; });
+  const auto own = std::ranges::find_if(
+      result.runs, [&](const auto& run) { return run.input.cell_size == row.cell_size; });
   const auto temperatures = end_temperatures(*own, row);
   const auto change_to = [&](bool finer) {
     const CalibrationRun* other = neighbour(result, row.cell_size, finer);

@@ -41,8 +41,8 @@ Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& target
   return fault_at(
       study, key,
       fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
-      fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and "
-                  "rise_ends in the two rows together",
+      fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and rise_ends in the "
+                  "two rows together",
                   fitted_keys.size()));
 }
 
@@ -92,22 +92,19 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
   return {
       assumed_list("meshes", Dimension::length, scene::between(1e-5, 1),
                    "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
-      scene::flag_key<CalibrationSettings>(
-          "compare_kinetics", scene::Standing::assumed,
-          "Calibrate with every named kinetics rather than with the scene's alone.",
-          &CalibrationSettings::compare_kinetics),
-      scene::range_key<CalibrationSettings>(
-          "ignition_bracket", Dimension::temperature, scene::between(0, 5000), scene::Standing::paper,
-          "Published bracket of the ignition temperature, a check on the calibrated one.",
-          &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
-      scene::flag_key<CalibrationSettings>(
-          "load_fitted", scene::Standing::assumed,
-          "Fit peak time, width and steepness of the load's bell too, with the constants by least squares, "
-          "to "
-          "the highest temperatures over the launch and at early_time (0.5 K) and to the two instants of the "
-          "fast rise (0.5 ms) of the calibrated rows.",
-          &CalibrationSettings::load_fitted),
-      scene::text_key<CalibrationSettings>(
+      scene::flag_key("compare_kinetics", scene::Standing::assumed,
+                      "Calibrate with every named kinetics rather than with the scene's alone.",
+                      &CalibrationSettings::compare_kinetics),
+      scene::range_key("ignition_bracket", Dimension::temperature, scene::between(0, 5000),
+                       scene::Standing::paper,
+                       "Published bracket of the ignition temperature, a check on the calibrated one.",
+                       &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
+      scene::flag_key("load_fitted", scene::Standing::assumed,
+                      "Fit peak time, width and steepness of the load's bell too, with the constants by "
+                      "least squares, to the highest temperatures over the launch and at early_time (0.5 K) "
+                      "and to the two instants of the fast rise (0.5 ms) of the calibrated rows.",
+                      &CalibrationSettings::load_fitted),
+      scene::text_key(
           "frozen_at", scene::Standing::input,
           "Where rule and weights of the calibration were settled before its fit, for the report.", "1fd14b4",
           &CalibrationSettings::frozen_at),
@@ -149,23 +146,19 @@ Fault make_calibration_cases(const StudySource&, StudyFile& study) {
   return make_factorial(study, mesh_label);
 }
 
-std::vector<Failure> calibration_failures(const CalibrationResult& result) {
+/// Of the launches that a result has in `runs`.
+template <auto runs>
+std::vector<Failure> failed_runs(const auto& result) {
   std::vector<Failure> failures;
-  for (const CalibrationRun& run : result.runs)
-    add_failure(failures, run.input.label, run.outcome, run.failure);
-  return failures;
-}
-
-std::vector<Failure> firing_failures(const FiringResult& result) {
-  std::vector<Failure> failures;
-  for (const FiredCondition& each : result.conditions)
-    add_failure(failures, each.input.label, each.outcome, each.failure);
+  for (const auto& run : result.*runs) add_failure(failures, run.input.label, run.outcome, run.failure);
   return failures;
 }
 
 StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
-  return has_firings(study.study) ? outcome_of<run_firings, firing_failures>(study, options)
-                                  : outcome_of<run_calibration, calibration_failures>(study, options);
+  if (has_firings(study.study))
+    return outcome_of<run_firings, failed_runs<&FiringResult::conditions, FiringResult>>(study, options);
+  return outcome_of<run_calibration, failed_runs<&CalibrationResult::runs, CalibrationResult>>(study,
+                                                                                               options);
 }
 
 }  // namespace
@@ -183,13 +176,7 @@ Kind calibration_kind() {
       .make_cases = make_calibration_cases,
       .run = run,
       // Reports of older programs had hold-outs and files of cases too.
-      .files = {{"calibration.json"},
-                {"calibration.csv"},
-                {"firings.csv"},
-                {"compared.csv"},
-                {"hold_outs.csv"},
-                {"case_", ".h5"},
-                {"case_", ".xdmf"}},
+      .files = {{"calibration.json"}, {"hold_outs.csv"}, {"case_", ".h5"}, {"case_", ".xdmf"}},
       .results = calibration_results,
   };
 }

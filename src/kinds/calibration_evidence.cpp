@@ -23,8 +23,8 @@ std::string digest_of(const std::vector<study::Reference>& references) {
 
 /// The scene of the recommended row, with its constants.
 scene::Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
-  const auto run = std::find_if(result.runs.begin(), result.runs.end(),
-                                [&](const auto& each) { return each.input.cell_size == row.cell_size; });
+  const auto run = std::ranges::find_if(
+      result.runs, [&](const auto& each) { return each.input.cell_size == row.cell_size; });
   scene::Scene scene = run->input.scene.scene;
   scene.surface.friction = row.closure;
   row.calibrated.constants.put_into(scene.surface, scene.charge().kinetics);

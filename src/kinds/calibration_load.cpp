@@ -186,7 +186,7 @@ std::string calibration_validity_warnings(const scene::Scene& scene, const run::
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     // What the calibration settles is no input to it.
     const bool settled = each.key == "kinetics.ignition_temperature" ||
-                         std::find(fitted_keys.begin(), fitted_keys.end(), each.key) != fitted_keys.end();
+                         std::ranges::find(fitted_keys, each.key) != fitted_keys.end();
     if (!each.accepted() && !settled) warnings.push_back(scene::validity_warning(each));
   }
   return warnings.empty() ? std::string{} : fmt::format("validity warning: {}", fmt::join(warnings, "; "));

@@ -64,9 +64,9 @@ FastRise fast_rise(const surface::SkinHistory& history, const trace::BottomTrace
   }
   FastRise rise;
   if (rate.empty()) return rise;
-  const double threshold = fast_share * *std::max_element(rate.begin(), rate.end());
+  const double threshold = fast_share * *std::ranges::max_element(rate);
   const auto fast = [threshold](double value) { return value > threshold; };
-  const auto first = std::find_if(rate.begin(), rate.end(), fast);
+  const auto first = std::ranges::find_if(rate, fast);
   if (first == rate.end()) return rise;
   const auto begin = static_cast<std::size_t>(first - rate.begin());
   const auto end =

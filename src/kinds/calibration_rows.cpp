@@ -31,8 +31,8 @@ double root_mean_square_of(const std::vector<double>& misfits) {
 /// a place.
 double place_misfit(const surface::SkinHistory& history, const trace::BottomTrace& trace,
                     const std::string& place, double time) {
-  const auto found = std::find_if(trace.stations.begin(), trace.stations.end(),
-                                  [&](const trace::Station& each) { return each.name == place; });
+  const auto found =
+      std::ranges::find_if(trace.stations, [&](const trace::Station& each) { return each.name == place; });
   if (found == trace.stations.end()) return not_a_number;
   double nearest = std::numeric_limits<double>::infinity(), there = not_a_number;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {

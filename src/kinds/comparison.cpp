@@ -4,12 +4,11 @@
 #include "study_outcome.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace launchsafe::kinds {
 
 bool ComparisonResult::any_indeterminate() const {
-  return std::any_of(answers.begin(), answers.end(), [](const ComparedCase& each) {
+  return std::ranges::any_of(answers, [](const ComparedCase& each) {
     return each.critical.kind == study::CriticalGapKind::indeterminate;
   });
 }

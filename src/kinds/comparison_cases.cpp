@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -22,11 +20,10 @@ namespace {
 
 std::vector<scene::Key<ComparisonSettings>> comparison_keys() {
   return {
-      scene::text_key<ComparisonSettings>("name", scene::Standing::input,
-                                          "What the scene without changes is called.", "as in the scene",
-                                          &ComparisonSettings::name),
-      scene::text_key<ComparisonSettings>("description", scene::Standing::input, "What that is, a phrase.",
-                                          "frictionless wall", &ComparisonSettings::description),
+      scene::text_key("name", scene::Standing::input, "What the scene without changes is called.",
+                      "as in the scene", &ComparisonSettings::name),
+      scene::text_key("description", scene::Standing::input, "What that is, a phrase.", "frictionless wall",
+                      &ComparisonSettings::description),
   };
 }
 
@@ -196,8 +193,7 @@ Kind comparison_kind() {
       .varies = {.values = true, .variants = true, .needed = "with variants"},
       .make_cases = make_comparison_cases,
       .run = outcome_of<run_comparison, failures_of<ComparisonResult>>,
-      .files =
-          {{"comparison.csv"}, {"stations.csv"}, {"model_form.json"}, {"model_form.csv"}, {"model_form.svg"}},
+      .files = {{"model_form.json"}, {"model_form.svg"}},
       .results = comparison_results,
   };
 }

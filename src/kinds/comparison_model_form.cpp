@@ -43,8 +43,8 @@ std::string gap_text(study::GapOrBound gap, double largest) {
 }
 
 const ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
-  const auto found = std::find_if(record.alternatives.begin(), record.alternatives.end(),
-                                  [&](const auto& each) { return each.name == name; });
+  const auto found =
+      std::ranges::find_if(record.alternatives, [&](const auto& each) { return each.name == name; });
   return found == record.alternatives.end() ? nullptr : &*found;
 }
 
@@ -190,7 +190,7 @@ std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
   std::vector<std::size_t> order(result.cases_per_variant());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto peak = [&](std::size_t i) { return result.study.cases[i].peak_pressure; };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return peak(a) < peak(b); });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return peak(a) < peak(b); });
   return order;
 }
 
@@ -198,8 +198,7 @@ std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
 bool is_of_models(const ComparisonResult& result) {
   const std::vector<Variant>& variants = result.variants();
   return !result.study.study.axes.empty() &&
-         std::all_of(variants.begin(), variants.end(),
-                     [](const Variant& each) { return each.calibration.has_value(); });
+         std::ranges::all_of(variants, [](const Variant& each) { return each.calibration.has_value(); });
 }
 
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is

@@ -123,14 +123,14 @@ Table station_table(const ComparisonResult& result) {
 /// files; here the first one of every variant.
 Table stations_side_by_side(const ComparisonResult& result) {
   const std::vector<double>& gaps = result.study.study.gaps;
-  const auto gap = static_cast<std::size_t>(std::max_element(gaps.begin(), gaps.end()) - gaps.begin());
+  const auto gap = static_cast<std::size_t>(std::ranges::max_element(gaps) - gaps.begin());
   std::vector<std::string> rows;
   Quantities<std::string> quantities{{quantity::station(), std::identity{}}};
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const ComparedCase& each = result.answers[i];
     for (const StationTemperature& station :
          each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap])
-      if (std::find(rows.begin(), rows.end(), station.name) == rows.end()) rows.push_back(station.name);
+      if (std::ranges::find(rows, station.name) == rows.end()) rows.push_back(station.name);
     if (result.counterpart(i) != 0) continue;
     const std::string& variant = result.variants()[each.variant].name;
     quantities.emplace_back(

@@ -23,7 +23,7 @@ std::string label_with_skin(const CaseOutcome& outcome, double gap) {
 }
 
 bool CriticalGapResult::any_indeterminate() const {
-  return std::any_of(answers.begin(), answers.end(), is_indeterminate<study::CaseAnswer>);
+  return std::ranges::any_of(answers, is_indeterminate<study::CaseAnswer>);
 }
 
 namespace {

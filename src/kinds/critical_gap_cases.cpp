@@ -17,13 +17,13 @@ namespace {
 
 std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
   return {
-      scene::flag_key<CriticalGapSettings>(
+      scene::flag_key(
           "confirm", scene::Standing::assumed,
           fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on through "
                       "combustion. Of a study with more than {} cases it is false unless stated.",
                       most_cases_in_detail),
           &CriticalGapSettings::confirm),
-      scene::flag_key<CriticalGapSettings>(
+      scene::flag_key(
           "surrogate", scene::Standing::assumed,
           "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
           &CriticalGapSettings::surrogate),
@@ -73,13 +73,9 @@ Kind critical_gap_kind() {
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
       // Reports of older programs had files of cases too, and critical_gaps.json.
-      .files = {{"verdicts.csv"},
-                {"closing.csv"},
-                {"closing_bounds.csv"},
-                {"closing.svg"},
+      .files = {{"closing.svg"},
                 {"verdicts.md"},
                 {"temperature.svg"},
-                {"critical_gaps.csv"},
                 {"critical_gaps.md"},
                 {"critical_gap", ".svg"},
                 {"critical_gaps.json"},

@@ -147,8 +147,8 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
 }
 
 std::vector<ResultTable> closing_results() {
-  return {{"closing", "", keys::described(closing_quantities())},
-          {"closing_bounds", "", keys::described(closing_bound_quantities())}};
+  return {{"closing", "closing.csv", keys::described(closing_quantities())},
+          {"closing_bounds", "closing_bounds.csv", keys::described(closing_bound_quantities())}};
 }
 
 }  // namespace launchsafe::kinds

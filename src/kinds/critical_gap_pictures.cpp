@@ -35,7 +35,7 @@ std::vector<SweptAxis> swept_axes(const study::Study& study) {
   for (std::size_t i = 0; i < study.axes.size(); ++i) {
     SweptAxis axis{i, report::shown(study.axes[i]), {}};
     for (const double value : study.axes[i].values) axis.values.push_back(axis.key.value(value));
-    std::sort(axis.values.begin(), axis.values.end());
+    std::ranges::sort(axis.values);
     axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
     axes.push_back(std::move(axis));
   }
@@ -71,7 +71,7 @@ std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::
                      const StudyCase& input) {
   std::string fixed;
   for (const SweptAxis& axis : axes) {
-    const bool is_shown = std::find(shown_axes.begin(), shown_axes.end(), axis.index) != shown_axes.end();
+    const bool is_shown = std::ranges::find(shown_axes, axis.index) != shown_axes.end();
     if (is_shown || axis.index >= input.coordinates.size()) continue;
     fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.heading,
                          axis.key.text(input.coordinates[axis.index]));
@@ -161,7 +161,7 @@ class GapMarks {
 // --- lines ---
 
 std::size_t place_in(const std::vector<double>& values, double value) {
-  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+  return static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin());
 }
 
 /// So many of the values that lines can be told apart, evenly, the first and the last among them.
@@ -257,8 +257,9 @@ std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<Sw
     if (found == combinations.end()) {
       combinations.push_back(std::move(others));
       lines.emplace_back(result, along, across);
-      plots.push_back({.title = title_of(axes, shown, input), .x = picture_axis(along)});
-      plots.back().y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0};
+      plots.push_back({.title = title_of(axes, shown, input),
+                       .x = picture_axis(along),
+                       .y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0}});
     }
     lines[number].add(input, result.answers[i]);
   }

@@ -88,17 +88,16 @@ void add_case(const CriticalGapResult& result, std::size_t index, Plot& plot) {
 
 /// One entry of the legend for the ignitions of all cases.
 void name_ignitions(Plot& plot) {
-  const auto first = std::find_if(plot.series.begin(), plot.series.end(), [](const Series& series) {
-    return series.mark == Mark::cross && series.label.empty();
-  });
+  const auto first = std::ranges::find_if(
+      plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
   if (first != plot.series.end()) first->label = "ignites: of the burning skin";
 }
 
 /// Where no case has the launch that was published there is nothing to compare; under constants that miss the
 /// calibrated rows none counts as calibrated.
 void add_published(const CriticalGapResult& result, Plot& plot) {
-  const auto own = std::find_if(result.details.begin(), result.details.end(),
-                                [](const CaseOutcome& each) { return each.input.own_conditions; });
+  const auto own =
+      std::ranges::find_if(result.details, [](const CaseOutcome& each) { return each.input.own_conditions; });
   if (own == result.details.end()) return;
   const bool foreign = misses_calibrated_rows(*own);
   Series published{.label = "published"};

@@ -57,7 +57,7 @@ Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
 /// Places of the smallest and largest gap among those judged; one of them where they are the same.
 std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
   if (gaps.empty()) return {};
-  const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+  const auto [least, most] = std::ranges::minmax_element(gaps);
   std::vector<std::size_t> places{static_cast<std::size_t>(least - gaps.begin())};
   if (*most > *least) places.push_back(static_cast<std::size_t>(most - gaps.begin()));
   return places;

@@ -23,34 +23,32 @@ const FiringSettings& settings_in(const study::Study& study) {
 
 const std::vector<Key<Firing>>& firing_row_keys() {
   static const std::vector<Key<Firing>> keys{
-      scene::text_key<Firing>("name", Standing::input, "What the rounds are called.", "series of March",
-                              &Firing::name),
-      scene::required(
-          scene::word_key<Firing, bool>("outcome", Standing::input, "How the rounds ended, all of them.",
-                                        {{"no ignition", false}, {"ignition", true}}, &Firing::ignited)),
-      scene::number_key<Firing>("rounds", Dimension::count, scene::between(1, study::most_rounds),
-                                Standing::input, "How many rounds.", &Firing::rounds),
-      scene::usually(
-          scene::number_key<Firing>("pressure", Dimension::pressure, scene::above_to(0, 10e9),
-                                    Standing::input, "Their mean peak pressure.", &Firing::pressure),
-          "that of the scene"),
-      scene::usually(scene::number_key<Firing>("pressure_spread", Dimension::pressure, scene::between(0, 1e9),
-                                               Standing::input, "Its standard deviation from round to round.",
-                                               &Firing::pressure_spread),
-                     "2 % of it"),
-      scene::usually(scene::number_key<Firing>("temperature", Dimension::temperature,
-                                               scene::between(200, 400), Standing::input,
-                                               "Mean temperature of charge and air.", &Firing::temperature),
+      scene::text_key("name", Standing::input, "What the rounds are called.", "series of March",
+                      &Firing::name),
+      scene::required(scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
+                                      {{"no ignition", false}, {"ignition", true}}, &Firing::ignited)),
+      scene::number_key("rounds", Dimension::count, scene::between(1, study::most_rounds), Standing::input,
+                        "How many rounds.", &Firing::rounds),
+      scene::usually(scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9),
+                                       Standing::input, "Their mean peak pressure.", &Firing::pressure),
                      "that of the scene"),
-      scene::usually(scene::number_key<Firing>("temperature_spread", Dimension::temperature_difference,
-                                               scene::between(0, 100), Standing::input,
-                                               "Its standard deviation from round to round.",
-                                               &Firing::temperature_spread),
-                     "6 K"),
-      scene::required(scene::value_or_range(scene::range_key<Firing>(
-          "gap", Dimension::length, scene::between(0, 0.01), Standing::input,
-          "The gap of the rounds, or between which lengths it was; then the smaller counts.", &Firing::gap,
-          &Firing::most_gap))),
+      scene::usually(
+          scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
+                            "Its standard deviation from round to round.", &Firing::pressure_spread),
+          "2 % of it"),
+      scene::usually(
+          scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
+                            "Mean temperature of charge and air.", &Firing::temperature),
+          "that of the scene"),
+      scene::usually(
+          scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
+                            Standing::input, "Its standard deviation from round to round.",
+                            &Firing::temperature_spread),
+          "6 K"),
+      scene::required(scene::value_or_range(
+          scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
+                           "The gap of the rounds, or between which lengths it was; then the smaller counts.",
+                           &Firing::gap, &Firing::most_gap))),
   };
   return keys;
 }
@@ -125,15 +123,13 @@ std::vector<Key<study::Study>> firing_keys() {
              "By which share the heat of rounds that are fired alike differs, one standard deviation, at a "
              "guess.",
              &FiringSettings::scatter),
-      scene::flag_key<FiringSettings>(
-          "demonstration", Standing::input,
-          "True where the firings are invented; every verdict that rests on them then says so.",
-          &FiringSettings::demonstration),
-      scene::list_key<FiringSettings>(
-          "next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
-          "Gaps among which the round that would tell most is sought; if absent half of, one, one and a half "
-          "and two times the largest that was fired.",
-          &FiringSettings::next_gaps)};
+      scene::flag_key("demonstration", Standing::input,
+                      "True where the firings are invented; every verdict that rests on them then says so.",
+                      &FiringSettings::demonstration),
+      scene::list_key("next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
+                      "Gaps among which the round that would tell most is sought; if absent half of, one, "
+                      "one and a half and two times the largest that was fired.",
+                      &FiringSettings::next_gaps)};
   return own_keys(keys::keys_of_part("", &CalibrationSettings::firings, keys));
 }
 

@@ -6,8 +6,6 @@
 #include "launchsafe/report/study_text.hpp"
 #include "study_outcome.hpp"
 
-#include <algorithm>
-
 namespace launchsafe::kinds {
 
 using report::Column, report::Quantities, report::Row;

@@ -55,8 +55,8 @@ const std::vector<Kind>& kinds() {
 }
 
 const Kind& kind_named(std::string_view name) {
-  const auto found = std::find_if(kinds().begin(), kinds().end(),
-                                  [name](const Kind& kind) { return kind.traits.name == name; });
+  const auto found =
+      std::ranges::find_if(kinds(), [name](const Kind& kind) { return kind.traits.name == name; });
   assert(found != kinds().end());
   return *found;
 }
@@ -74,8 +74,8 @@ bool FileName::fits(std::string_view name) const {
 
 bool may_write(const Kind& kind, std::string_view name) {
   return name == "report.md" || name == "study.json" ||
-         std::any_of(kind.files.begin(), kind.files.end(),
-                     [name](const FileName& file) { return file.fits(name); });
+         std::ranges::any_of(kind.files, [name](const FileName& file) { return file.fits(name); }) ||
+         std::ranges::any_of(kind.results(), [name](const ResultTable& table) { return table.csv == name; });
 }
 
 }  // namespace launchsafe::kinds

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -29,8 +28,7 @@ using scene::Dimension, scene::InputError, scene::Place;
 /// Whether a kind has a key or a table of that name for itself.
 bool has(const Kind& kind, const std::string& name) {
   return scene::find_key(kind.keys, name) != nullptr ||
-         std::any_of(kind.tables.begin(), kind.tables.end(),
-                     [&](const StudyTable& table) { return table.name == name; });
+         std::ranges::any_of(kind.tables, [&](const StudyTable& table) { return table.name == name; });
 }
 
 std::vector<std::string> kinds_with(const std::string& name) {
@@ -50,7 +48,7 @@ void add_keys_of_all_kinds(StudyKeys& keys, std::vector<std::string>& tables) {
     for (const auto& key : kind.keys)
       if (scene::find_key(keys, key.name) == nullptr) keys.push_back(key);
     for (const StudyTable& table : kind.tables)
-      if (std::find(tables.begin(), tables.end(), table.name) == tables.end()) tables.push_back(table.name);
+      if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
   }
 }
 
@@ -176,7 +174,7 @@ InputError unnumbered(InputError error, const std::string& file) {
   const std::size_t second = first == std::string::npos ? first : error.key.find('.', first + 1);
   if (second == std::string::npos) return error;
   const std::string_view part = std::string_view(error.key).substr(first + 1, second - first - 1);
-  const bool number = !part.empty() && std::all_of(part.begin(), part.end(), [](unsigned char character) {
+  const bool number = !part.empty() && std::ranges::all_of(part, [](unsigned char character) {
     return std::isdigit(character) != 0;
   });
   if (number) error.key.erase(first, second - first);

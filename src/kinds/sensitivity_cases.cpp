@@ -34,7 +34,7 @@ scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension d
 
 std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   return {
-      scene::word_key<SensitivitySettings, SensitivityMethod>(
+      scene::word_key(
           "method", scene::Standing::assumed,
           "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
           "runs and held against others.",
@@ -46,13 +46,12 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
                          "Resamples of the bootstrap.", &SensitivitySettings::resamples),
       sensitivity_number("confidence", Dimension::number, scene::between(0.5, 0.999),
                          "Confidence of the intervals.", &SensitivitySettings::confidence),
-      scene::word_key<SensitivitySettings, math::Design>(
-          "design", scene::Standing::assumed,
-          "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
-          {{"scrambled-sobol", math::Design::scrambled_sobol},
-           {"latin-hypercube", math::Design::latin_hypercube},
-           {"monte-carlo", math::Design::monte_carlo}},
-          &SensitivitySettings::design),
+      scene::word_key("design", scene::Standing::assumed,
+                      "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
+                      {{"scrambled-sobol", math::Design::scrambled_sobol},
+                       {"latin-hypercube", math::Design::latin_hypercube},
+                       {"monte-carlo", math::Design::monte_carlo}},
+                      &SensitivitySettings::design),
       sensitivity_number(
           "samples", Dimension::count, scene::between(2, 1e6),
           "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
@@ -60,21 +59,19 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
       sensitivity_number("held_out", Dimension::count, scene::between(10, 1e6),
                          "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
                          &SensitivitySettings::held_out),
-      sensitivity_number(
-          "error_of_temperature", Dimension::temperature_difference, scene::above(0),
-          "Of polynomial-chaos: runs are added where the fit is least sure until no prediction "
-          "of T max has a larger error.",
-          &SensitivitySettings::temperature_error),
+      sensitivity_number("error_of_temperature", Dimension::temperature_difference, scene::above(0),
+                         "Of polynomial-chaos: runs are added where the fit is least sure until no "
+                         "prediction of T max has a larger error.",
+                         &SensitivitySettings::temperature_error),
       sensitivity_number("error_of_critical_gap", Dimension::length, scene::above(0),
                          "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
       sensitivity_number("most_samples", Dimension::count, scene::between(2, 1e6),
                          "With such an error: samples that are fitted at the most.",
                          &SensitivitySettings::most_samples),
-      scene::flag_key<SensitivitySettings>(
-          "surrogate", scene::Standing::assumed,
-          "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
-          "polynomial-chaos always has one.",
-          &SensitivitySettings::surrogate),
+      scene::flag_key("surrogate", scene::Standing::assumed,
+                      "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
+                      "polynomial-chaos always has one.",
+                      &SensitivitySettings::surrogate),
   };
 }
 
@@ -210,14 +207,7 @@ Kind sensitivity_kind() {
       .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {{"sensitivity.csv"},
-                {"evaluations.csv"},
-                {"quantiles.csv"},
-                {"histogram.csv"},
-                {"histogram.svg"},
-                {"surrogate.json"},
-                {"ask.html"},
-                {"sensitivity_", ".svg"}},
+      .files = {{"histogram.svg"}, {"surrogate.json"}, {"ask.html"}, {"sensitivity_", ".svg"}},
       .results = sensitivity_results,
   };
 }

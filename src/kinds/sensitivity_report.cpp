@@ -124,8 +124,7 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
   const auto value = [&](std::size_t i) {
     return std::isfinite(inputs[i].total.value) ? inputs[i].total.value : -infinite;
   };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
   const auto lower = [&](std::size_t i) {
     return std::isfinite(inputs[i].total.lower) ? inputs[i].total.lower : -infinite;
   };

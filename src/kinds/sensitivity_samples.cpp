@@ -32,8 +32,8 @@ double ranked(const OutputSensitivity& output, const study::CaseAnswer& answer, 
 }
 
 const OutputSensitivity* output_of(const SensitivityResult& result, SensitivityOutput which) {
-  const auto found = std::find_if(result.outputs.begin(), result.outputs.end(),
-                                  [which](const auto& each) { return each.output == which; });
+  const auto found =
+      std::ranges::find_if(result.outputs, [which](const auto& each) { return each.output == which; });
   return found == result.outputs.end() ? nullptr : &*found;
 }
 
@@ -128,10 +128,10 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
 }  // namespace
 
 std::size_t OutputSample::ignites_at_zero() const {
-  return static_cast<std::size_t>(std::count(values.begin(), values.end(), -infinite));
+  return static_cast<std::size_t>(std::ranges::count(values, -infinite));
 }
 std::size_t OutputSample::none_ignites() const {
-  return static_cast<std::size_t>(std::count(values.begin(), values.end(), infinite));
+  return static_cast<std::size_t>(std::ranges::count(values, infinite));
 }
 
 double OutputSample::quantile(double share) const {
@@ -151,7 +151,7 @@ OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity&
     else
       sample.values.push_back(value);
   }
-  std::sort(sample.values.begin(), sample.values.end());
+  std::ranges::sort(sample.values);
   return sample;
 }
 

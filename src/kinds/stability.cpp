@@ -55,7 +55,7 @@ Finding judge_stopped(const StressCase& asked, const run::MechanicsResult& mecha
 }
 
 std::string numbers_of(const run::CombustionHistory& c) {
-  const double pressure = *std::max_element(c.pressure.begin(), c.pressure.end());
+  const double pressure = *std::ranges::max_element(c.pressure);
   return fmt::format("burnt {:.3g} g to {:.3g} mm, gas at {:.0f} K, up to {:.3g} MPa, energy residual {:.1e}",
                      1e3 * c.burnt_mass.back(), 1e3 * c.burnt_depth.back(), c.gas_temperature.back(),
                      1e-6 * pressure, c.energy_residual);

@@ -264,7 +264,7 @@ Kind stability_kind() {
       .tables = {study_table_of("group", case_keys())},
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
-      .files = {{"stability.csv"}, {"outcomes.svg"}},
+      .files = {{"outcomes.svg"}},
       .results = stability_results,
   };
 }

@@ -71,13 +71,13 @@ const std::vector<Key<Reference>>& published_row_keys() {
       scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
       reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                        &Reference::maximum_temperature),
-      scene::text_key<Reference>("point", Standing::paper, "Observation point of the highest temperature.",
-                                 "G2", &Reference::point),
+      scene::text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
+                      &Reference::point),
       reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
                        &Reference::early_temperature),
-      scene::text_key<Reference>("early_point", Standing::paper,
-                                 "Observation point of the highest temperature at early_time.", "G13",
-                                 &Reference::early_point),
+      scene::text_key("early_point", Standing::paper,
+                      "Observation point of the highest temperature at early_time.", "G13",
+                      &Reference::early_point),
       reference_number("spread", Dimension::temperature_difference,
                        "Highest minus lowest published temperature of the bottom at the end of the launch.",
                        &Reference::spread),
@@ -88,13 +88,13 @@ const std::vector<Key<Reference>>& published_row_keys() {
       reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
                        &Reference::rise_begins),
       reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
-      scene::flag_key<Reference>("calibrated", Standing::input,
-                                 "True where constants, and a load that is fitted, are fitted to it.",
-                                 &Reference::calibrated),
-      scene::flag_key<Reference>("selection", Standing::input,
-                                 "True where its other numbers were seen when a form of the model was "
-                                 "picked; they are held out if not.",
-                                 &Reference::selection),
+      scene::flag_key("calibrated", Standing::input,
+                      "True where constants, and a load that is fitted, are fitted to it.",
+                      &Reference::calibrated),
+      scene::flag_key("selection", Standing::input,
+                      "True where its other numbers were seen when a form of the model was picked; they are "
+                      "held out if not.",
+                      &Reference::selection),
   };
   return keys;
 }
@@ -158,12 +158,12 @@ Fault check_references(const StudyFile& study) {
 const StudyKeys& common_keys() {
   static const StudyKeys keys{
       kind_key(),
-      scene::text_key<Study>("title", Standing::input,
-                             "What this study is, for reports; the scene's title where there is none.",
-                             "Critical gap of the 155 mm shell", &Study::title),
-      scene::required(scene::text_key<Study>("scene", Standing::input,
-                                             "Path of the scene from the study file's folder.",
-                                             "scene_155mm.toml", &Study::scene)),
+      scene::text_key("title", Standing::input,
+                      "What this study is, for reports; the scene's title where there is none.",
+                      "Critical gap of the 155 mm shell", &Study::title),
+      scene::required(scene::text_key("scene", Standing::input,
+                                      "Path of the scene from the study file's folder.", "scene_155mm.toml",
+                                      &Study::scene)),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };
@@ -171,8 +171,8 @@ const StudyKeys& common_keys() {
 }
 
 StudyKeys gaps_keys() {
-  return {scene::list_key<Study>("gaps", Dimension::length, between(0, 0.01), Standing::assumed,
-                                 "Gaps to judge; those of the scene if absent.", &Study::gaps)};
+  return {scene::list_key("gaps", Dimension::length, between(0, 0.01), Standing::assumed,
+                          "Gaps to judge; those of the scene if absent.", &Study::gaps)};
 }
 
 StudyKeys search_keys() {
@@ -195,7 +195,7 @@ StudyKeys judging_keys() {
 }
 
 StudyKeys calibration_record_keys() {
-  return {scene::text_key<Study>(
+  return {scene::text_key(
       "calibration", Standing::input,
       "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
       "constants replace the scene's, and hold where the calibrated launch is the study's.",
@@ -204,21 +204,18 @@ StudyKeys calibration_record_keys() {
 
 StudyKeys uncertainty_keys() {
   const StudyKeys records{
-      scene::text_key<Study>(
-          "accuracy", Standing::input,
-          "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it gives "
-          "the numerical uncertainty of every setting in it.",
-          "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
-      study_number(
-          "setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
-          "Replaces the scene's numerics by the cheapest setting of the record that knows the maximum "
-          "temperature to this; on the command line --tolerance.",
-          &Study::setting_tolerance),
-      scene::text_key<Study>(
-          "model_form", Standing::input,
-          "Path of the record of other models, model_form.json, from the study file's folder; it says how "
-          "far they move the critical gap towards ignition.",
-          "../reports/model_form/model_form.json", &Study::model_form_record),
+      scene::text_key("accuracy", Standing::input,
+                      "Path of the record of an accuracy study, accuracy.json, from the study file's folder; "
+                      "it gives the numerical uncertainty of every setting in it.",
+                      "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
+      study_number("setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
+                   "Replaces the scene's numerics by the cheapest setting of the record that knows the "
+                   "maximum temperature to this; on the command line --tolerance.",
+                   &Study::setting_tolerance),
+      scene::text_key("model_form", Standing::input,
+                      "Path of the record of other models, model_form.json, from the study file's folder; it "
+                      "says how far they move the critical gap towards ignition.",
+                      "../reports/model_form/model_form.json", &Study::model_form_record),
   };
   return joined(
       {records,
@@ -240,7 +237,7 @@ StudyKeys uncertainty_keys() {
 
 StudyKeys reference_keys() {
   return {
-      scene::text_key<Study>(
+      scene::text_key(
           "references", Standing::input,
           "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
           "table8.toml", &Study::references_file),

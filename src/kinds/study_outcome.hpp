@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace launchsafe::kinds {
@@ -31,7 +30,7 @@ std::vector<Failure> failures_of(const Result& result) {
 template <class Answer>
 bool is_indeterminate(const Answer& answer) {
   return answer.critical.kind == study::CriticalGapKind::indeterminate ||
-         std::any_of(answer.verdicts.begin(), answer.verdicts.end(), [](const study::GapVerdict& row) {
+         std::ranges::any_of(answer.verdicts, [](const study::GapVerdict& row) {
            return row.judgement.verdict == study::Verdict::indeterminate;
          });
 }

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -134,33 +133,30 @@ Fault check_variants(const VaryReader& reader, const Varied& admitted) {
 
 std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
   return keys::joined<VaryText>(
-      {{scene::required(scene::text_key<VaryText>(
+      {{scene::required(scene::text_key(
             "key", scene::Standing::input,
             "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
             "peak_pressure", &VaryText::name)),
         scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
                         "Its values, in a unit of the key; every combination with other keys is a case.",
                         &VaryText::values),
-        scene::number_key<VaryText>("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
-                                    "Instead of values: how many, evenly spaced over the range.",
-                                    &VaryText::count)},
+        scene::number_key("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
+                          "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
        keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
 }
 
 std::vector<scene::Key<VariantText>> variant_keys() {
   using scene::Standing;
   return {
-      scene::required(scene::text_key<VariantText>("name", Standing::input,
-                                                   "What it is called in tables; each once.", "bonded charge",
-                                                   &VariantText::name)),
-      scene::text_key<VariantText>("description", Standing::input, "What it is, a phrase.",
-                                   "the charge is glued to the wall", &VariantText::description),
-      scene::text_key<VariantText>(
-          "calibration", Standing::input,
-          "Path of the record of its own calibration, from the study file's folder; the study's if absent, "
-          "or where the record found no constants. Its scene keys are in the table set, and what it accepts "
-          "in accept.",
-          "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
+      scene::required(scene::text_key("name", Standing::input, "What it is called in tables; each once.",
+                                      "bonded charge", &VariantText::name)),
+      scene::text_key("description", Standing::input, "What it is, a phrase.",
+                      "the charge is glued to the wall", &VariantText::description),
+      scene::text_key("calibration", Standing::input,
+                      "Path of the record of its own calibration, from the study file's folder; the study's "
+                      "if absent, or where the record found no constants. Its scene keys are in the table "
+                      "set, and what it accepts in accept.",
+                      "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
   };
 }
 

@@ -138,11 +138,10 @@ Fault check_distribution(const VaryReader& reader) {
 }
 
 std::vector<scene::Key<VaryRecord>> vary_record_keys() {
-  return {scene::text_key<VaryRecord>("calibration", scene::Standing::input,
-                                      "Instead of the other keys: the calibration.json whose fitted "
-                                      "constants vary together, by the covariance "
-                                      "of its fit; of kind sensitivity.",
-                                      "../reports/calibrate_table8/calibration.json", &VaryRecord::name)};
+  return {scene::text_key("calibration", scene::Standing::input,
+                          "Instead of the other keys: the calibration.json whose fitted constants vary "
+                          "together, by the covariance of its fit; of kind sensitivity.",
+                          "../reports/calibrate_table8/calibration.json", &VaryRecord::name)};
 }
 
 Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {

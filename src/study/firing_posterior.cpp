@@ -4,7 +4,6 @@
 #include <boost/math/tools/roots.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <numeric>

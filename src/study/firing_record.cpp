@@ -2,7 +2,6 @@
 
 #include "launchsafe/study/record_reader.hpp"
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>

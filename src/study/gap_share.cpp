@@ -1,6 +1,6 @@
 #include "launchsafe/study/gap_share.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace launchsafe::study {

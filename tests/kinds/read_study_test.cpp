@@ -5,6 +5,7 @@
 #include "study/synthetic_launch.hpp"
 
 #include <cstddef>
+#include <utility>
 
 namespace {
 

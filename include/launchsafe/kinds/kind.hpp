@@ -76,7 +76,7 @@ struct Kind {
   /// Fills StudyFile::cases. All else is known, the gaps to judge too.
   study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
-  std::vector<FileName> files;  ///< that its reports may have, besides report.md and study.json
+  std::vector<FileName> files;  ///< of its reports, besides report.md, study.json and those of tables
   std::vector<ResultTable> (*results)();
 };
 

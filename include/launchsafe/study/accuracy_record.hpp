@@ -5,10 +5,8 @@
 #include "launchsafe/study/recorded_launch.hpp"
 #include "launchsafe/study/reference_value.hpp"
 
-#include <cstddef>
 #include <limits>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 

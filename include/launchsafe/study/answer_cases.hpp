@@ -6,7 +6,6 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <string>
 #include <vector>
 
 namespace launchsafe::study {

@@ -6,7 +6,6 @@
 #include "launchsafe/study/study_file.hpp"
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // table of causes in studies/README.md is this one.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <functional>
 #include <limits>
-#include <string>
 
 namespace launchsafe::study {
 

@@ -1,7 +1,6 @@
 // A study divided over several processes or machines.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -10,9 +10,8 @@
 #include "launchsafe/study/model_form.hpp"
 
 #include <cstddef>
-#include <limits>
-#include <memory>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -89,10 +88,10 @@ struct StatedUncertainty {
   double value = 0;     ///< K, of T max
   std::string because;  ///< the source, in words
 };
+
 /// What kinds of study ask each by itself. The module that has the kinds says what that is, and gives access
 /// to it; here it is carried along.
 struct KindSettings;
-
 
 /// What a study file says, in SI.
 struct Study {

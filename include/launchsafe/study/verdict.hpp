@@ -5,7 +5,6 @@
 #include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/case_statements.hpp"
 
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
