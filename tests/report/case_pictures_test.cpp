@@ -365,7 +365,7 @@ TEST(CasePictures, OfTheAirOfGapsThatCloseAreAgainstTime) {
   closing.contact_time = closing.time[2];
   const std::vector<CasePicture> drawn = pictures(run.drawn(), "air");
   ASSERT_EQ(drawn.size(), 1U);
-  const std::vector<Plot>& panels = drawn[0].plot.panels;
+  const std::vector<Plot> panels = plot_of(drawn, "air_0.04cm.svg").panels;
   ASSERT_EQ(panels.size(), 3U);
   EXPECT_NEAR(panels[0].series[0].y[1], 50.0, 1e-9);
   EXPECT_NEAR(panels[1].series[0].y[2], 10.0, 1e-9);
