@@ -1,6 +1,5 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "commands.hpp"
-#include "launchsafe/report/safety_evidence.hpp"
 #include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "output_folder.hpp"

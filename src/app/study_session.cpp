@@ -29,7 +29,7 @@ bool report_stands(const std::filesystem::path& folder, const StudyRecord& recor
   return !record.files.empty() && record.complete && same_study(record.manifest, manifest) &&
          record.manifest.program_version == manifest.program_version &&
          record.manifest.commit == manifest.commit && record.failures == failures &&
-         store::files_unchanged(folder, record.files);
+         store::read_as_written(folder, record.files);
 }
 
 ExitCode exit_code_of(const kinds::StudyOutcome& result) {

@@ -67,11 +67,20 @@ std::string digits_of(double value, const std::string& form, int digits) {
   return report::significant(value, digits);
 }
 
-/// Facts by name, those that were pushed last first; behind a bar in a form: "margin_K|down 1", where the
+/// "416.25 ± 0.20"; a number alone where its error is not known.
+std::string with_error(double value, double error) {
+  if (!(error > 0.0)) return report::fixed(value, 1);
+  const int decimals = decimals_for(error);
+  return report::fixed(value, decimals) + " ± " + report::fixed(rounded_up(error, decimals), decimals);
+}
+
+/// Facts by name, those that were pushed last first; behind bars in forms: "margin_K|down 1", where the
 /// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger, "is 1"
-/// where a number or a word is that one, and "counted case" is "2 cases"; of a text "words" has blanks
-/// between them and "first 12" is its beginning; of a list "list 4" are its first texts, "and" all of them,
-/// "some" is there where it has any, and "count verdict SAFE" is how many rows have that there.
+/// where a number or a word is that one, "measured error_K" tells a number with that error, and "counted
+/// case" is "2 cases"; of a text "words" has blanks between them and "first 12" is its beginning; of a list
+/// "list 4" are its first texts, "joined" and "and" all of them, "some" is there where it has any, "any
+/// warning fault" where a row has something under one of these, "all verdict SAFE" where all rows have that
+/// there, and "count verdict SAFE" is how many have.
 class Facts : public mustache::basic_context<std::string> {
  public:
   explicit Facts(std::vector<const Row*> facts) : stack_(std::move(facts)) {}
@@ -80,10 +89,10 @@ class Facts : public mustache::basic_context<std::string> {
   const Fields* get_partial(const std::string&) const override { return nullptr; }
 
   const Fields* get(const std::string& name) const override {
-    const std::size_t bar = name.find('|');
-    const Row& fact = find(name.substr(0, bar));
-    return bar == std::string::npos || fact.is_null() ? issue(fact)
-                                                      : issue(in_form(fact, name.substr(bar + 1)));
+    const std::vector<std::string> parts = split_at(name, "|");
+    const Row* fact = &find(parts.front());
+    for (std::size_t i = 1; i < parts.size() && !fact->is_null(); ++i) fact = &in_form(*fact, parts[i]);
+    return issue(*fact);
   }
 
  private:
@@ -96,18 +105,25 @@ class Facts : public mustache::basic_context<std::string> {
     return nothing;
   }
 
+  static bool has(const Row& row, const std::string& key) { return !fact_text(found_in(row, key)).empty(); }
+
   const Row& in_form(const Row& fact, const std::string& words) const {
     std::istringstream stream(words);
     std::string form, digits = "0", value;
     stream >> form >> digits;
     std::getline(stream >> std::ws, value);
-    if (const Row& stated = find(digits); stated.is_number()) digits = fact_text(stated);
+    const Row& stated = find(digits);
+    if (stated.is_number()) digits = fact_text(stated);
     const int number = std::atoi(digits.c_str());
     Row made = fact_text(fact);
+    const auto has_value = [&](const Row& row) { return fact_text(found_in(row, digits)) == value; };
     if (form == "count") {
-      made = std::ranges::count_if(fact,
-                                   [&](const Row& row) { return fact_text(found_in(row, digits)) == value; });
-    } else if (form == "list" || form == "and") {
+      made = std::ranges::count_if(fact, has_value);
+    } else if (form == "all") {
+      made = std::ranges::all_of(fact, has_value);
+    } else if (form == "any") {
+      made = std::ranges::any_of(fact, [&](const Row& row) { return has(row, digits) || has(row, value); });
+    } else if (form == "list" || form == "and" || form == "joined") {
       std::vector<std::string> texts;
       for (const Row& each : fact) texts.push_back(fact_text(each));
       if (number > 0 && texts.size() > static_cast<std::size_t>(number)) {
@@ -119,7 +135,7 @@ class Facts : public mustache::basic_context<std::string> {
         texts.pop_back();
         texts.back() += " and " + last;
       }
-      made = fmt::format("{}", fmt::join(texts, ", "));
+      made = fmt::format("{}", fmt::join(texts, form == "joined" ? "; " : ", "));
     } else if (form == "words") {
       std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
     } else if (form == "first") {
@@ -130,6 +146,8 @@ class Facts : public mustache::basic_context<std::string> {
       made = fact_text(fact) == digits;
     } else if (form == "some") {
       made = !fact.empty();
+    } else if (form == "measured") {
+      made = with_error(fact.get<double>(), stated.is_number() ? stated.get<double>() : 0.0);
     } else if (form == "over") {
       made = fact.is_number() && fact.get<double>() > number;
     } else if (fact.is_number()) {
@@ -248,11 +266,17 @@ std::vector<const Row*> selected(const PageText& text, const Row& facts) {
     const auto number = [&key](const Row* row) { return number_of(*row, key); };
     if (rule == "first") {
       rows.resize(std::min<std::size_t>(rows.size(), std::stoul(key)));
-    } else if (rule == "largest" || rule == "smallest") {
-      std::erase_if(rows, [&](const Row* row) { return std::isnan(number(row)); });
-      if (rows.empty()) return rows;
-      rows = {rule == "largest" ? *std::ranges::max_element(rows, {}, number)
-                                : *std::ranges::min_element(rows, {}, number)};
+    } else if (rule == "with") {
+      std::erase_if(rows, [&](const Row* row) { return fact_text(found_in(*row, key)).empty(); });
+    } else if (rule == "largest" || rule == "smallest" || rule == "lowest") {
+      // What is not known may be lower than all others.
+      const auto is_unknown = [&](const Row* row) { return std::isnan(number(row)); };
+      const bool unknown = rule == "lowest" && std::ranges::any_of(rows, is_unknown);
+      std::erase_if(rows, [&](const Row* row) { return is_unknown(row) != unknown; });
+      if (rows.empty() || unknown) continue;
+      const auto [least, most] = std::ranges::minmax(rows, {}, number);
+      const double wanted = number(rule == "largest" ? most : least);
+      std::erase_if(rows, [&](const Row* row) { return number(row) != wanted; });
     } else if (words >> value) {  // where, except
       const std::string wanted = filled(value, {&facts});
       std::erase_if(rows, [&](const Row* row) {

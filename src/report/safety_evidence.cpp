@@ -1,35 +1,39 @@
-#include "launchsafe/report/safety_evidence.hpp"
-
+// What a safety report rests on: the folders of studies, read and held against what they say of themselves,
+// and against each other.
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/study_axes.hpp"
+#include "safety_facts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <sstream>
 #include <string_view>
 
 namespace launchsafe::report {
+namespace safety {
 namespace {
 
 using std::filesystem::path;
 using store::Error;
 
-Error refused(std::string message) { return {Error::Kind::corrupt, std::move(message)}; }
-Error refused(const path& place, std::string_view found, std::string_view allowed) {
-  return refused(fmt::format("{}: {}; allowed: {}", place.string(), found, allowed));
-}
+constexpr const char* results = "study.json";
 
-path study_json_of(const StudyEvidence& study) { return study.folder / "study.json"; }
+Error refused(std::string message) { return {Error::Kind::corrupt, std::move(message)}; }
+/// Of a file of a study, which its command would make anew.
+Error refused(const StudyEvidence& study, const path& file, std::string_view found,
+              std::string_view allowed) {
+  return refused(fmt::format("{}: {}; allowed: {} ({})", (study.folder / file).string(), found, allowed,
+                             study.command()));
+}
 
 // --- one study ---
 
@@ -39,65 +43,50 @@ std::pair<std::string, std::string> parts_of(const std::string& input) {
   constexpr std::string_view heading = "\n\n# scene\n";
   const std::size_t begin = input.rfind(heading);
   if (begin == std::string::npos) return {input, {}};
-  const std::size_t first = begin + heading.size(), end = input.find("\n\n# ", first);
-  return {input.substr(0, begin), input.substr(first, end == std::string::npos ? end : end - first)};
+  const std::string scene = input.substr(begin + heading.size());
+  return {input.substr(0, begin), scene.substr(0, scene.find("\n\n# "))};
 }
 
+/// A study file; without a kind, for which it is refused, where a manifest was edited.
 Row keys_asked(const std::string& study_file) {
-  Row asked = Row::object();
   try {
-    for (const auto& [key, node] : toml::parse(study_file)) {
-      const auto text = node.value<std::string>();
-      asked[std::string(key.str())] = text ? Row(*text) : Row(true);
-    }
+    std::ostringstream keys;
+    keys << toml::json_formatter(toml::parse(study_file));
+    return Row::parse(keys.str());
   } catch (const toml::parse_error&) {
-    // A manifest that was edited: without a kind the study is refused.
+    return Row::object();
   }
-  return asked;
 }
 
 /// Files as they were written.
-store::MaybeError check_files(StudyEvidence& study) {
-  for (const store::WrittenFile& file : study.record.files) {
-    const path place = study.folder / file.name;
-    auto bytes = store::read_file(place);
-    if (!bytes)
-      return refused(place, "the manifest lists this file, and it cannot be read",
-                     fmt::format("a study's report with all of its files ({})", study.command()));
-    if (store::sha256(*bytes) != file.sha256)
-      return refused(place,
-                     "this is not what the study wrote, its checksum differs from that of the manifest",
-                     fmt::format("files as they were written ({})", study.command()));
-    if (file.name.ends_with(".svg")) study.drawings[file.name] = std::move(*bytes);
-    if (file.name == "study.json") study.study = Row::parse(*bytes, nullptr, false);
+store::MaybeError read_files(StudyEvidence& study) {
+  auto files = store::read_as_written(study.folder, study.record.files);
+  if (!files)
+    return refused(
+        fmt::format("{}; allowed: files as they were written ({})", files.error().message, study.command()));
+  for (store::TextFile& file : *files) {
+    if (file.name == results) study.study = Row::parse(file.text, nullptr, false);
+    if (file.name.ends_with(".svg")) study.drawings[file.name] = std::move(file.text);
   }
   if (study.study.is_null()) return {};
-  if (!study.study.is_object() || text_of(study.study, "kind").empty())
-    return refused(study_json_of(study), "found no results of a study", "study.json as a study writes it");
-  if (text_of(study.study, "kind") != study.kind)
-    return refused(study_json_of(study),
-                   fmt::format("found results of kind {}, its manifest is of a study of kind {}",
-                               text_of(study.study, "kind"), study.kind),
-                   "study.json as a study writes it");
+  const std::string kind = text_of(study.study, "kind");
+  if (kind.empty() || kind != study.kind)
+    return refused(
+        study, results,
+        fmt::format("found results of kind \"{}\", its manifest is of a study of kind {}", kind, study.kind),
+        "results as a study writes them");
   study.title = text_of(study.study, "title");
   if (study.record.study.empty()) study.record.study = text_of(study.study, "study");
   return {};
 }
 
-bool has_several_values(const Row& axis) {
-  const auto values = axis.find("values");
-  return text_of(axis, "key") != quantity::gap().key() && values != axis.end() && values->size() > 1;
-}
-
 Tells told_by(const StudyEvidence& study) {
-  if (!study.finished()) return Tells::nothing;
   const auto first_has = [&](const char* table, const char* key) {
     const Row& rows = study.rows(table);
     return !rows.empty() && rows.front().contains(key);
   };
-  if (study.study.contains("verdicts"))
-    // A study of a few launches names each of them; of many, what varies tells them apart.
-    return first_has("cases", "case") ? Tells::launch : Tells::sweep;
+  // A study of a few launches names each of them; of many, what varies tells them apart.
+  if (study.study.contains("verdicts")) return first_has("cases", "case") ? Tells::launch : Tells::sweep;
   if (first_has("settings", "temperature_bound_K")) return Tells::accuracy;
   if (study.study.contains("indices")) return Tells::sensitivity;
   if (first_has("cases", "invariants")) return Tells::stability;
@@ -127,32 +116,34 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
   if (study.tells != Tells::launch && study.tells != Tells::sweep) return {};
   const Row &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
   if (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0)
-    return refused(study_json_of(study),
+    return refused(study, results,
                    fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
                    "every gap in every case");
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (!verdicts[i].contains(quantity::reason_code().key()) || !study.study.contains("extrapolated"))
-      return refused(study_json_of(study),
+      return refused(study, results,
                      "an earlier program wrote these verdicts, without what they rest on as columns",
-                     fmt::format("a study that this program made ({})", study.command()));
-    if (text_of(verdicts[i], "verdict") != "SAFE" ||
-        may_be_safe(study, verdicts[i], cases[i * cases.size() / verdicts.size()]))
-      continue;
-    return refused(study_json_of(study),
-                   fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the "
-                               "uncertainty or the critical gap contradicts",
-                               number_of(verdicts[i], "gap_cm")),
-                   "verdicts as a study writes them");
+                     "a study that this program made");
+    if (text_of(verdicts[i], "verdict") == "SAFE" &&
+        !may_be_safe(study, verdicts[i], cases[i * cases.size() / verdicts.size()]))
+      return refused(study, results,
+                     fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the "
+                                 "uncertainty or the critical gap contradicts",
+                                 number_of(verdicts[i], "gap_cm")),
+                     "verdicts as a study writes them");
   }
   return {};
 }
 
 /// An unfinished study has told of its runs in its results file alone.
-store::MaybeError read_runs(StudyEvidence& study) {
+store::MaybeError count_runs(StudyEvidence& study) {
   if (!std::filesystem::exists(study.folder / "cases")) return {};
   const auto opened = store::CaseStore::open_to_read(study.folder, study.record.manifest.model_version);
   if (!opened) return opened.error();
-  study.runs = (*opened)->records();
+  for (const store::RunRecord& run : (*opened)->records()) {
+    study.done += run.state == store::CaseState::done;
+    study.failed += run.state == store::CaseState::failed || run.state == store::CaseState::timed_out;
+  }
   return {};
 }
 
@@ -169,23 +160,23 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
   study.record = std::move(*record);
   const store::Manifest& manifest = study.record.manifest;
   if (manifest.model_version != run::model_version)
-    return refused(folder,
+    return refused(study, store::manifest_name,
                    fmt::format("its study is of model version {}, this program is of {}",
                                manifest.model_version, run::model_version),
-                   "studies of this version, computed again by " + study.command());
+                   "studies of this version");
   const auto [file, scene_text] = parts_of(manifest.input_text);
   study.asked = keys_asked(file);
   study.kind = text_of(study.asked, "kind");
   study.title = text_of(study.asked, "title");
-  auto scene = scene::parse_scene(scene_text, folder / "manifest.json");
+  auto scene = scene::parse_scene(scene_text, folder / store::manifest_name);
   if (!scene)
     return refused(fmt::format("{}: its input holds no scene that this program reads: {}",
-                               (folder / "manifest.json").string(), scene.error().message()));
+                               (folder / store::manifest_name).string(), scene.error().message()));
   study.scene = std::move(*scene);
-  if (auto error = check_files(study)) return *error;
+  if (auto error = read_files(study)) return *error;
   study.tells = told_by(study);
   if (auto error = check_verdicts(study)) return *error;
-  if (auto error = read_runs(study)) return *error;
+  if (auto error = count_runs(study)) return *error;
   return study;
 }
 
@@ -193,155 +184,219 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
 
 /// Whether scenes that differ in a key are of different shells. Loads, cracks, gaps, constants of the
 /// surface, interfaces and numerics are what studies vary.
-bool is_of_shell(const study::Difference& difference) {
-  const std::string& key = difference.key.name;
+bool is_of_shell(const std::string& key) {
   if (key == "charge.crack_radius" || key == "charge.flaw_size" || key == "charge.crack_friction")
     return false;
   return key == scene::foreign_shell || key == "symmetry" || key.starts_with("steel.") ||
          key.starts_with("charge.") || key.starts_with("elastic.") || key.starts_with("material.");
 }
 
-store::MaybeError compare_scenes(SafetyEvidence& evidence) {
+/// One study of a kind, and all of one shell.
+store::MaybeError compare_studies(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
   for (StudyEvidence& study : evidence.studies) {
+    const auto first = std::ranges::find_if(evidence.studies, [&](const StudyEvidence& each) {
+      return each.kind == study.kind && each.tells == study.tells;
+    });
+    if (&*first != &study)
+      return refused(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
+                                 first->folder.string(), study.folder.string(), study.kind));
     // One about the program, and not about a launch, has scenes of its own.
     if (&study == &main || study.tells == Tells::stability) continue;
     study.differences = study::differences(study.scene.scene, main.scene.scene);
-    const auto accepted_by = [](const StudyEvidence& each) {
-      std::vector<std::string> all;
-      for (const scene::Acceptance& one : each.scene.scene.accepted) all.push_back(one.key + "=" + one.value);
-      return all;
-    };
-    if (accepted_by(study) != accepted_by(main)) study.differences.push_back({{.name = "accept"}, {}, {}});
-    std::string of_shell;
+    const auto said_by = [](const scene::Acceptance& one) { return one.key + "=" + one.value; };
+    if (!std::ranges::equal(study.scene.scene.accepted, main.scene.scene.accepted, {}, said_by, said_by))
+      study.differences.push_back({{.name = "accept"}, {}, {}});
+    std::vector<std::string> of_shell;
     for (const study::Difference& each : study.differences)
-      if (is_of_shell(each)) of_shell += (of_shell.empty() ? "" : ", ") + each.key.name;
-    if (of_shell.empty()) continue;
-    return refused(
-        fmt::format("the studies concern different shells: {} \"{}\", {} \"{}\", which differ in {}; "
-                    "allowed: studies of one shell in a report",
-                    main.folder.string(), main.scene.scene.title, study.folder.string(),
-                    study.scene.scene.title, of_shell));
+      if (is_of_shell(each.key.name)) of_shell.push_back(each.key.name);
+    if (!of_shell.empty())
+      return refused(
+          fmt::format("the studies concern different shells: {} \"{}\", {} \"{}\", which differ in {}; "
+                      "allowed: studies of one shell in a report",
+                      main.folder.string(), main.scene.scene.title, study.folder.string(),
+                      study.scene.scene.title, fmt::join(of_shell, ", ")));
   }
   return {};
 }
 
-store::MaybeError check_kinds(const SafetyEvidence& evidence) {
+// --- one launch, whichever study judges it ---
+
+double bound_of(const CaseEvidence& judged) {
+  return number_of(*judged.critical, "critical_gap_at_least_cm");
+}
+
+/// cm; 0 for what ignites without a gap.
+double bracket_of(const CaseEvidence& judged) {
+  const double width = number_of(*judged.critical, "critical_gap_upper_cm") -
+                       number_of(*judged.critical, "critical_gap_lower_cm");
+  return std::isfinite(width) ? width : 0.0;
+}
+
+bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
+  constexpr double round_off = 1e-6;  // cm
+  const double first = bound_of(a), second = bound_of(b);
+  if (std::isnan(first) || std::isnan(second)) return std::isnan(first) && std::isnan(second);
+  return std::abs(first - second) <= round_off + bracket_of(a) + bracket_of(b);
+}
+
+/// Whether two cases are of one launch, computed with the same numerics.
+bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
+  for (const CaseEvidence* judged : {&a, &b}) {
+    for (const auto& [key, value] : judged->values)
+      if (!study::same_number(a.value(key), b.value(key))) return false;
+    for (const study::Difference& each : judged->study->differences) {
+      const std::string& key = each.key.name;
+      const bool is_of_launch =
+          key != "title" && key != "accept" && key != "gap.thickness" && !key.starts_with("output.");
+      if (is_of_launch && !a.values.contains(key) && !b.values.contains(key)) return false;
+    }
+  }
+  return true;
+}
+
+/// Refuses studies that judge the same launch, with the same numerics, by different lower bounds of its
+/// critical gap: they do not rest on the same records or statements. Where numerics or any other key of the
+/// scene differs the bounds may. Not compared are critical gaps beyond the end of a search, and a comparison
+/// whose result is the record of other models, which it cannot use itself.
+store::MaybeError check_agreement(const SafetyEvidence& evidence) {
+  const auto text = [](const CaseEvidence& each) {
+    const double bound = bound_of(each);
+    return fmt::format("{} (case {}) {}", each.study->folder.string(), each.label,
+                       std::isfinite(bound) ? significant(bound, 6) + " cm" : "a bound that is not known");
+  };
+  std::vector<CaseEvidence> earlier;
   for (const StudyEvidence& study : evidence.studies)
-    for (const StudyEvidence* first = evidence.studies.data(); first != &study; ++first)
-      if (first->kind == study.kind && first->tells == study.tells)
-        return refused(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
-                                   first->folder.string(), study.folder.string(), study.kind));
+    for (CaseEvidence& each : cases_of(study)) {
+      const std::string kind = text_of(*each.critical, "critical_gap_kind");
+      if (kind != "value" && kind != "all-ignite") continue;
+      for (const CaseEvidence& other : earlier) {
+        if (other.study == &study || have_one_bound(other, each) || !is_same_launch(other, each)) continue;
+        return refused(fmt::format(
+            "two studies give one launch different lower bounds of its critical gap: {}, {}; allowed: "
+            "studies of a launch with one uncertainty, which name the same calibration, accuracy and "
+            "model_form and state the same",
+            text(other), text(each)));
+      }
+      earlier.push_back(std::move(each));
+    }
   return {};
 }
 
-/// Gaps of a case that are called SAFE, evaluated again on the case's stored run, must be as warm as their
-/// verdicts say.
-store::MaybeError check_against_run(const StudyEvidence& study, const CaseEvidence& judged,
-                                    const run::MechanicsResult& stored) {
-  if (stored.trace.samples() < 2) return {};
-  const auto scene = scene_of(study, judged);
-  if (!scene)
-    return refused(study_json_of(study), "found a case that its scene cannot be: " + scene.error().message(),
-                   "results as a study writes them");
+// --- the stored runs of the main study ---
+
+/// Gaps of a case, evaluated again on its stored run: one that is called SAFE must be as warm as its verdict
+/// says. Others that are not went on from ignition in a run of their own.
+store::MaybeError check_against_run(const CaseEvidence& judged, StoredLaunch& stored) {
+  constexpr double same_temperature = 0.01;  // K
+  const run::MechanicsResult& mechanics = stored.result.mechanics;
   for (const Row* row : judged.verdicts) {
-    if (text_of(*row, "verdict") != "SAFE") continue;
     const double gap = number_of(*row, "gap_cm"), said = number_of(*row, "temperature_max_K");
-    const double found =
-        run::evaluate_gap(scene->scene, stored.trace, gap / shown_gap(1.0)).at_stations.temperature;
-    if (std::abs(found - said) <= same_temperature) continue;
-    return refused(
-        study_json_of(study),
-        fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K",
-                    gap, said, judged.label, found),
-        fmt::format("results and case files of one study ({})", study.command()));
+    run::GapResult found = run::evaluate_gap(stored.scene, mechanics.trace, gap / shown_gap(1.0));
+    const double temperature = found.at_stations.temperature;
+    if (std::abs(temperature - said) <= same_temperature)
+      stored.result.gaps.push_back(std::move(found));
+    else if (text_of(*row, "verdict") == "SAFE")
+      return refused(*judged.study, results,
+                     fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} "
+                                 "gives {:.6g} K",
+                                 gap, said, judged.label, temperature),
+                     "results and case files of one study");
   }
   return {};
 }
 
-/// The stored runs of the main study, as far as they were kept. A file under another case's name is damaged
-/// too.
+/// As far as they were kept. A file under another case's name is damaged too.
 store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
   if (main.tells != Tells::launch) return {};
-  const std::vector<CaseEvidence> cases = cases_of(main);
-  for (const Row& row : main.rows("runs")) {
-    const path name(text_of(row, "stored_case")), file = main.folder / name;
-    if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(file)) continue;
-    auto stored = store::read_case_file(file);
-    if (!stored)
-      return refused(fmt::format("{}; allowed: case files as they were written ({})", stored.error().message,
+  for (const CaseEvidence& each : cases_of(main)) {
+    const path name(text_of(*each.run, "stored_case"));
+    if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(main.folder / name))
+      continue;
+    const auto scene = each.scene();
+    if (!scene)
+      return refused(main, results, "found a case that its scene cannot be: " + scene.error().message(),
+                     "results as a study writes them");
+    auto read = store::read_case_file(main.folder / name);
+    if (!read)
+      return refused(fmt::format("{}; allowed: case files as they were written ({})", read.error().message,
                                  main.command()));
-    if (store::CaseIdentity(stored->manifest.input_text).hash() != name.stem())
-      return refused(file, "this is the file of another case",
-                     fmt::format("case files as they were written ({})", main.command()));
-    for (const CaseEvidence& each : cases)
-      if (each.label == text_of(row, "case"))
-        if (auto error = check_against_run(main, each, stored->result.mechanics)) return *error;
-    evidence.mechanics[text_of(row, "case")] = std::move(stored->result.mechanics);
+    if (store::CaseIdentity(read->manifest.input_text).hash() != name.stem())
+      return refused(main, name, "this is the file of another case", "case files as they were written");
+    StoredLaunch stored{scene->scene, {std::move(read->result.mechanics), {}}};
+    if (stored.result.mechanics.trace.samples() < 2) continue;
+    if (auto error = check_against_run(each, stored)) return *error;
+    evidence.stored.emplace(each.label, std::move(stored));
   }
   return {};
 }
 
 }  // namespace
 
+std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
+  if (study.tells != Tells::launch && study.tells != Tells::sweep) return {};
+  // Peak pressure and defect stand in every table of cases or verdicts.
+  Row axes = Row::array();
+  for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure()},
+                                    {"charge.crack_radius", quantity::crack_radius()},
+                                    {"charge.flaw_size", quantity::flaw_size()}})
+    axes.push_back({{"scene_key", key}, {"key", column.key()}, {"unit", column.form.unit}});
+  for (const Row& axis : study.rows("axes"))
+    if (text_of(axis, "key") != quantity::gap().key()) axes.push_back(axis);
+  const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
+  const std::size_t gaps = verdicts.size() / criticals.size();
+  std::vector<CaseEvidence> cases;
+  for (const Row& critical : criticals) {
+    CaseEvidence each{&study, &critical, &critical, {}, {}, {}, {}};
+    for (std::size_t i = 0; i < gaps; ++i) each.verdicts.push_back(&verdicts[cases.size() * gaps + i]);
+    std::vector<std::string> places;
+    for (const Row& axis : axes) {
+      const std::string column = text_of(axis, "key"), unit = text_of(axis, "unit");
+      const auto key = scene::describe_key(study.scene, text_of(axis, "scene_key"), {});
+      double shown = number_of(critical, column);
+      if (std::isnan(shown)) shown = number_of(*each.verdicts.front(), column);
+      if (!key || std::isnan(shown)) continue;
+      each.values[key->name] = shown / shown_value(1.0, {.dimension = key->dimension, .unit = unit});
+      if (found_in(axis, "values").size() < 2) continue;
+      places.push_back(text_of(axis, "name") + " " + significant(shown, 6) +
+                       (unit.empty() ? "" : " " + unit));
+      std::ranges::replace(places.back(), '_', ' ');
+    }
+    const std::string place = fmt::format("{}", fmt::join(places, ", "));
+    each.label = critical.contains("case") ? text_of(critical, "case") : place;
+    each.others = fmt::format("{}", fmt::join(places | std::views::drop(2), ", "));
+    for (const Row& run : study.rows("runs"))
+      if (text_of(run, "case") == each.label) each.run = &run;
+    cases.push_back(std::move(each));
+  }
+  return cases;
+}
+
 double own_value(const StudyEvidence& study, const std::string& key) {
   return key == "load.peak" ? scene::PressureHistory(study.scene.scene.load).stated_peak()
                             : study::number_in(study.scene, key);
 }
 
-/// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
-std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
-  struct Varied {
-    std::string scene_key, column, words;
-    Form form;
-  };
-  std::vector<Varied> all{
-      {"load.peak", quantity::peak_pressure().key(), "", quantity::peak_pressure().form},
-      {"charge.crack_radius", quantity::crack_radius().key(), "", quantity::crack_radius().form},
-      {"charge.flaw_size", quantity::flaw_size().key(), "", quantity::flaw_size().form}};
-  for (const Row& axis : study.rows("axes")) {
-    const auto key = scene::describe_key(study.scene, text_of(axis, "scene_key"), {});
-    if (!key || text_of(axis, "key") == quantity::gap().key()) continue;
-    std::string words = has_several_values(axis) ? text_of(axis, "name") : "";
-    std::ranges::replace(words, '_', ' ');
-    all.push_back({key->name,
-                   text_of(axis, "key"),
-                   words,
-                   {.dimension = key->dimension, .unit = text_of(axis, "unit")}});
-  }
-  std::map<std::string, const Row*> run_of;
-  for (const Row& run : study.rows("runs")) run_of[text_of(run, "case")] = &run;
-  const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
-  std::vector<CaseEvidence> cases;
-  for (const Row& critical : criticals) {
-    CaseEvidence& each = cases.emplace_back(CaseEvidence{text_of(critical, "case"), &critical});
-    const std::size_t gaps = verdicts.size() / criticals.size(), first = (cases.size() - 1) * gaps;
-    for (std::size_t i = first; i < first + gaps; ++i) each.verdicts.push_back(&verdicts[i]);
-    int axis = 0;
-    for (const Varied& varied : all) {
-      double shown = number_of(critical, varied.column);
-      if (std::isnan(shown) && gaps > 0) shown = number_of(*each.verdicts.front(), varied.column);
-      if (std::isnan(shown)) continue;
-      each.values[varied.scene_key] = shown / shown_value(1.0, varied.form);
-      if (varied.words.empty()) continue;
-      const std::string place = varied.words + " " + significant(shown, 6) +
-                                (varied.form.unit.empty() ? "" : " " + varied.form.unit);
-      if (!critical.contains("case")) each.label += (each.label.empty() ? "" : ", ") + place;
-      if (++axis > 2) each.others += (each.others.empty() ? "" : ", ") + place;
-    }
-    const auto run = run_of.find(each.label);
-    each.status = text_of(run != run_of.end() ? *run->second : critical, "status");
-  }
-  return cases;
+double CaseEvidence::value(const std::string& key) const {
+  const auto found = values.find(key);
+  return found != values.end() ? found->second : own_value(*study, key);
 }
 
-scene::Expected<scene::SceneFile> scene_of(const StudyEvidence& study, const CaseEvidence& judged) {
-  std::vector<study::Change> changes;
-  for (const auto& [key, value] : judged.values)
-    if (!study::same_number(value, own_value(study, key))) changes.push_back({key, value, {}, key, {}});
-  return study::with_changes(study.scene, changes);
+bool CaseEvidence::is_own() const {
+  return std::ranges::all_of(values, [&](const auto& each) {
+    return study::same_number(each.second, own_value(*study, each.first));
+  });
 }
+
+scene::Expected<scene::SceneFile> CaseEvidence::scene() const {
+  std::vector<study::Change> changes;
+  for (const auto& [key, value] : values)
+    if (!study::same_number(value, own_value(*study, key))) changes.push_back({key, value, {}, key, {}});
+  return study::with_changes(study->scene, changes);
+}
+
+}  // namespace safety
 
 std::string StudyEvidence::command() const {
   return fmt::format("launchsafe study {} -o DIR", record.study.empty() ? "STUDY.toml" : record.study);
@@ -365,17 +420,16 @@ const StudyEvidence& SafetyEvidence::main() const {
   return found != studies.end() ? *found : studies.front();
 }
 
-store::Result<SafetyEvidence> read_safety_evidence(const std::vector<path>& folders) {
+store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) {
   SafetyEvidence evidence;
-  for (const path& folder : folders) {
-    auto study = read_study(folder, evidence.studies.size() + 1);
+  for (const std::filesystem::path& folder : folders) {
+    auto study = safety::read_study(folder, evidence.studies.size() + 1);
     if (!study) return study.error();
     evidence.studies.push_back(std::move(*study));
   }
-  if (auto error = check_kinds(evidence)) return *error;
-  if (auto error = compare_scenes(evidence)) return *error;
-  if (auto error = check_agreement(evidence)) return *error;
-  if (auto error = read_stored_runs(evidence)) return *error;
+  if (auto error = safety::compare_studies(evidence)) return *error;
+  if (auto error = safety::check_agreement(evidence)) return *error;
+  if (auto error = safety::read_stored_runs(evidence)) return *error;
   return evidence;
 }
 

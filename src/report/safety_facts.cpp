@@ -1,3 +1,4 @@
+// What a safety report tells: rows of studies, what was selected from them, and what was computed besides.
 #include "safety_facts.hpp"
 
 #include "launchsafe/report/number.hpp"
@@ -12,7 +13,12 @@
 #include <cmath>
 #include <set>
 
-namespace launchsafe::report::safety {
+namespace launchsafe::report {
+namespace safety {
+
+// The templates that are built in, of src/report/templates.
+extern const char *const built_in_html, *const built_in_markdown, *const built_in_texts;
+
 namespace {
 
 /// Verdict rows that page one holds.
@@ -42,77 +48,28 @@ std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
   return used || !setting_of(main, study).is_null() ? "yes" : "no";
 }
 
-/// Of a study, without its tables.
+/// Of a study, without its tables: its manifest, but for its input, and what else is told of it.
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
-  const store::Manifest& manifest = study.record.manifest;
-  const auto runs_in = [&](store::CaseState state) {
-    return std::ranges::count(study.runs, state, &store::RunRecord::state);
-  };
+  Row facts = store::to_json(study.record);
+  facts.erase("input");
   Row all = Row::array(), told = Row::array();  // what a scene writes out changes no number
   for (const study::Difference& each : study.differences) {
     all.push_back(each.key.name);
     if (each.key.name != "title" && !each.key.name.starts_with("output.")) told.push_back(each.key.name);
   }
-  return {{"label", study.label},
-          {"kind", study.kind},
-          {"file", study.record.study},
-          {"command", study.command()},
-          {"scene_title", study.scene.scene.title},
-          {"finished", study.finished()},
-          {"lacks_pictures", study.finished() && !study.record.complete},
-          {"done", runs_in(store::CaseState::done)},
-          {"failed", runs_in(store::CaseState::failed) + runs_in(store::CaseState::timed_out)},
-          {"made", manifest.start_time},
-          {"commit", manifest.commit},
-          {"compiler", manifest.compiler},
-          {"compiler_flags", manifest.compiler_flags},
-          {"input_sha256", manifest.input_sha256},
-          {"version", manifest.model_version},
-          {"program", manifest.program_version},
-          {"record_used", record_text(main, study)},
-          {"own_scenes", study.tells == Tells::stability},
-          {"all_differences", all},
-          {"differences", told},
-          {"asked", study.asked}};
-}
-
-/// With its tables.
-Row tables_of(const StudyEvidence& study, const StudyEvidence& main) {
-  Row all = study.finished() ? study.study : Row::object();
-  all.update(about(study, main));
-  return all;
-}
-
-// --- what the answer rests on ---
-
-/// The least that the critical gap can be at the hottest temperature of a sweep over it; of several cases at
-/// that the smallest, and nothing where one has no bound.
-Row hottest_of(const StudyEvidence& sweep) {
-  double hottest = -HUGE_VAL, least = HUGE_VAL;
-  for (const CaseEvidence& each : cases_of(sweep)) {
-    const auto found = each.values.find("initial_temperature");
-    if (found == each.values.end() || found->second < hottest) continue;
-    if (found->second > hottest) least = HUGE_VAL;
-    hottest = found->second;
-    const bool ignites = text_of(*each.critical, "critical_gap_kind") == "all-ignite";
-    const double bound = ignites ? 0.0 : number_of(*each.critical, "critical_gap_at_least_cm");
-    // Written so that a bound that is not known stays.
-    least = least < bound || std::isnan(least) ? least : bound;
-  }
-  if (!std::isfinite(hottest)) return {};
-  return {{"temperature_K", hottest},
-          {"at_least_cm", std::isfinite(least) && least > 0.0 ? Row(least) : Row()},
-          {"none", least == 0.0}};
-}
-
-/// "300", or of a sweep over it "219 to 344": K, what the verdicts hold for.
-std::string temperature_text(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
-  std::set<double> all;
-  for (const CaseEvidence& each : cases)
-    if (const auto found = each.values.find("initial_temperature"); found != each.values.end())
-      all.insert(found->second);
-  if (all.empty()) all.insert(study.scene.scene.initial_temperature);
-  return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
+  facts.update({{"label", study.label},
+                {"kind", study.kind},
+                {"command", study.command()},
+                {"scene_title", study.scene.scene.title},
+                {"finished", study.finished()},
+                {"done", study.done},
+                {"failed", study.failed},
+                {"record_used", record_text(main, study)},
+                {"own_scenes", study.tells == Tells::stability},
+                {"all_differences", all},
+                {"differences", told},
+                {"asked", study.asked}});
+  return facts;
 }
 
 /// Whether a study is of the main one's launch: numerics may differ, and what it varies itself.
@@ -126,30 +83,178 @@ bool is_of_same_launch(const StudyEvidence& study) {
   });
 }
 
-/// What the verdicts say beside themselves, and what the study does not say.
-void add_limits(const StudyEvidence& main, const std::vector<CaseEvidence>& cases, Row& facts) {
-  std::vector<const Row*> verdicts;
-  std::set<std::string> models;  // under which ignition is not excluded
-  bool warned = false;
+// --- cases ---
+
+bool is_value(const CaseEvidence& judged) {
+  return text_of(*judged.critical, "critical_gap_kind") == "value";
+}
+
+/// Whether complete coupled runs on both sides of a case's critical gap do what is expected of them.
+bool is_confirmed(const CaseEvidence& judged) {
+  std::set<std::string> expected;
+  for (const Row& run : judged.study->rows("coupled_runs")) {
+    if (text_of(run, "case") != judged.label) continue;
+    if (text_of(run, "outcome") != text_of(run, "expected")) return false;
+    expected.insert(text_of(run, "expected"));
+  }
+  return expected.size() == 2;
+}
+
+JudgedGap gap_of(const CaseEvidence& judged, const Row& verdict) {
+  JudgedGap gap{.gap = number_of(verdict, "gap_cm"),
+                .safe = text_of(verdict, "verdict") == "SAFE",
+                .margin = number_of(verdict, "margin_K"),
+                .uncertainty = number_of(verdict, "uncertainty_K")};
+  if (!is_value(judged)) return gap;
+  const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
+  gap.distance = lower - gap.gap;
+  gap.distance_uncertainty = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
+  return gap;
+}
+
+/// cm: what a rule recommends over all cases, the smallest of what it allows in each. Nothing where one
+/// allows none.
+Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& criterion) {
+  Row smallest;
+  for (const CaseEvidence& each : cases) {
+    std::vector<JudgedGap> gaps;
+    for (const Row* row : each.verdicts) gaps.push_back(gap_of(each, *row));
+    const std::size_t row = largest_gap_under(criterion, gaps);
+    if (row == gaps.size()) return {};
+    if (smallest.is_null() || gaps[row].gap < smallest.get<double>()) smallest = gaps[row].gap;
+  }
+  return smallest;
+}
+
+/// The case with the smallest critical gap; nullptr where none is a value.
+const CaseEvidence* smallest_of(const std::vector<CaseEvidence>& cases) {
+  const CaseEvidence* smallest = nullptr;
+  const auto gap = [](const CaseEvidence& each) { return number_of(*each.critical, "critical_gap_cm"); };
   for (const CaseEvidence& each : cases)
-    for (const Row* row : each.verdicts) {
-      verdicts.push_back(row);
-      warned = warned || !text_of(*row, "validity_warnings").empty() || !text_of(*row, "unaccepted").empty();
-      if (text_of(*row, "verdict") != "UNSAFE") models.insert(text_of(*row, "model_form"));
-    }
-  models.erase("");
-  if (!verdicts.empty()) facts["counts"] = counts_of(verdicts);
-  facts["warned"] = warned;
-  facts["other_models"] = models;
-  const auto says = [&](const char* record, const char* by_hand) {
-    return main.asked.contains(record) ||
-           std::ranges::any_of(main.rows("stated_by_hand"),
-                               [&](const Row& row) { return text_of(row, "key") == by_hand; });
+    if (is_value(each) && (smallest == nullptr || gap(each) < gap(*smallest))) smallest = &each;
+  return smallest;
+}
+
+/// Whether nothing says how wrong a row is: its uncertainty is then no number to hold a margin against.
+bool is_uncertain(const Row* verdict) {
+  const std::string code = text_of(*verdict, quantity::reason_code().key());
+  return code == to_string(study::ReasonCode::validity_warning) ||
+         code == to_string(study::ReasonCode::unaccepted);
+}
+
+/// The row of a case with its critical gap as printed: what moves towards ignition alone lowers it alone.
+Row told_case(const CaseEvidence& judged) {
+  Row row = *judged.critical;
+  const auto number = [&](const char* key) { return number_of(row, key); };
+  const auto verdict_of = [](const Row* verdict) { return text_of(*verdict, "verdict"); };
+  row["case"] = judged.label;
+  row["confirmed"] = is_confirmed(judged);
+  row["critical_gap"] = row["critical_gap_reads_as"];
+  // Digits that tell the ends of the bracket apart.
+  row["bracket_decimals"] =
+      std::max(decimals_for(number("critical_gap_upper_cm") - number("critical_gap_lower_cm")), 3);
+  const auto gap = measured_gap(number("critical_gap_cm"), number("critical_gap_at_least_cm"),
+                                number("critical_gap_at_most_cm"));
+  if (is_value(judged) && gap) {
+    row["critical_gap"] = gap->text("cm");
+    row["lower_cm"] = gap->lower();
+    row["upper_cm"] = gap->upper();
+    row["from"] = fixed(std::max(0.0, gap->lower()), gap->decimals);
+    row["to"] = fixed(gap->upper(), gap->decimals);
+  }
+  row["largest_safe_gap_cm"] = allowed_in_all({judged}, GapCriterion{});
+  row["of"] = judged.verdicts.size();
+  for (const char* word : {"SAFE", "INDETERMINATE", "UNSAFE"})
+    row[word] = std::ranges::count(judged.verdicts, word, verdict_of);
+  return row;
+}
+
+/// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
+/// no margin, nor is anything after ignition, when T max is that of the burning skin.
+Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
+  Row row = verdict;
+  const JudgedGap gap = gap_of(judged, verdict);
+  const bool ignited = !text_of(row, "ignition_cause").empty();
+  const bool is_known = judged.completed() && std::isfinite(gap.uncertainty) && !is_uncertain(&row);
+  const int decimals = decimals_for(gap.uncertainty);
+  const auto down = [&](bool told, double value, int places) {
+    return told && judged.completed() && std::isfinite(value) ? Row(rounded_down(value, places)) : Row();
   };
-  const bool inputs = says("", "input_uncertainty"), computation = says("accuracy", "numerical_uncertainty"),
-             form = says("model_form", "model_form_uncertainty");
-  if (!inputs || !computation || !form)
-    facts["assumed"] = {{"inputs", !inputs}, {"computation", !computation}, {"models", !form}};
+  row["case"] = judged.label;
+  row["margin_K"] = down(!ignited, gap.margin, decimals);
+  row["uncertainty_K"] = is_known ? Row(rounded_up(gap.uncertainty, decimals)) : Row();
+  row["margin_over_uncertainty"] =
+      down(is_known && gap.uncertainty > 0 && !ignited, gap.margin / gap.uncertainty, 1);
+  row["distance_cm"] = down(true, gap.distance, 3);
+  if (!judged.completed()) row["temperature_max_K"] = nullptr;
+  // What else the reason says, but for what page one says of all rows.
+  for (const char* clause : {"limited", "noise", "ring", "model_form", "accepted"})
+    if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
+  if (!text_of(row, "extrapolated").empty()) row["beside"].push_back("extrapolated");
+  return row;
+}
+
+/// What is smallest, and in how many cases there is none.
+Row summary_of(const std::vector<CaseEvidence>& cases) {
+  std::size_t none_safe = 0, unknown = 0;
+  for (const CaseEvidence& each : cases) {
+    const std::string kind = text_of(*each.critical, "critical_gap_kind");
+    none_safe += kind == "all-ignite";
+    unknown += kind != "all-ignite" && kind != "all-safe" && kind != "value";
+  }
+  const CaseEvidence* smallest = smallest_of(cases);
+  return {{"count", cases.size()},
+          {"sweeps", !cases.empty() && cases.front().study->tells == Tells::sweep},
+          {"none_safe", none_safe},
+          {"unknown", unknown},
+          {"smallest", smallest != nullptr ? told_case(*smallest) : Row()}};
+}
+
+/// The case of the scene's own launch, or else the one with the smallest critical gap, or the first.
+const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
+  const auto own = std::ranges::find_if(cases, &CaseEvidence::is_own);
+  if (own != cases.end()) return *own;
+  const CaseEvidence* smallest = smallest_of(cases);
+  return smallest != nullptr ? *smallest : cases.front();
+}
+
+// --- what the report says ---
+
+/// What the study answers over all cases, and what a criterion recommends.
+Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
+              const std::optional<GapCriterion>& criterion) {
+  Row answer{{"study", study.label},
+             {"finished", study.finished()},
+             {"criterion", criterion ? Row(criterion->text) : Row()},
+             {"criterion_source", criterion ? Row(criterion->source) : Row()},
+             {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion) : Row()},
+             {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{})},
+             {"cases", Row::array()}};
+  for (const CaseEvidence& each : cases) answer["cases"].push_back(told_case(each));
+  return answer;
+}
+
+/// "300", or of a sweep over it "219 to 344": K, what the verdicts hold for.
+std::string temperature_text(const StudyEvidence& main, const std::vector<CaseEvidence>& cases) {
+  std::set<double> all;
+  for (const CaseEvidence& each : cases) all.insert(each.value("initial_temperature"));
+  if (all.empty()) all.insert(main.scene.scene.initial_temperature);
+  return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
+}
+
+/// Which shares of the uncertainty the main study neither has a record of nor states; nothing where none is
+/// missing.
+Row assumed_by(const StudyEvidence& main) {
+  const auto assumes = [&](const char* record, const char* by_hand) {
+    return !main.asked.contains(record) &&
+           std::ranges::none_of(main.rows("stated_by_hand"),
+                                [&](const Row& row) { return text_of(row, "key") == by_hand; });
+  };
+  const bool inputs = assumes("", "input_uncertainty"),
+             models = assumes("model_form", "model_form_uncertainty"),
+             computation = assumes("accuracy", "numerical_uncertainty");
+  if (!inputs && !computation && !models) return {};
+  return {{"inputs", inputs}, {"computation", computation}, {"models", models}};
 }
 
 /// A study's own drawing of that name.
@@ -162,59 +267,74 @@ Row drawing_of(const StudyEvidence* study, const std::string& file, PageFacts& a
 /// The pictures that a sweep drew: one for every place on the axes behind the first two, in the order of the
 /// cases.
 Row pictures_of(const StudyEvidence& sweep, PageFacts& all) {
-  std::vector<std::pair<std::string, std::vector<CaseEvidence>>> places;
+  std::vector<std::vector<CaseEvidence>> places;
   for (CaseEvidence& each : cases_of(sweep)) {
-    auto place = std::ranges::find(places, each.others, [](const auto& one) { return one.first; });
-    if (place == places.end()) place = places.insert(place, {each.others, {}});
-    place->second.push_back(std::move(each));
+    auto place =
+        std::ranges::find(places, each.others, [](const auto& cases) { return cases.front().others; });
+    if (place == places.end()) place = places.insert(place, std::vector<CaseEvidence>{});
+    place->push_back(std::move(each));
   }
   std::vector<std::string> axes;
-  for (const Row& axis : sweep.rows("axes")) axes.push_back(text_of(axis, "name"));
-  axes.resize(std::min<std::size_t>(axes.size(), 2));
-  std::string names = fmt::format("{}", fmt::join(axes, " and "));
-  std::ranges::replace(names, '_', ' ');
+  for (const Row& axis : sweep.rows("axes"))
+    if (axes.size() < 2) axes.push_back(text_of(axis, "name"));
   Row pictures = Row::array();
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::string file = fmt::format("critical_gap{}.svg", i > 0 ? fmt::format("_{}", i + 1) : "");
-    Row picture = drawing_of(&sweep, file, all);
+    Row picture =
+        drawing_of(&sweep, i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1), all);
     if (picture.is_null()) continue;
-    picture.update(summary_of(sweep, places[i].second));
-    picture.update({{"axes", names}, {"others", places[i].first}});
+    picture.update(summary_of(places[i]));
+    picture.update({{"axes", axes}, {"others", places[i].front().others}});
     pictures.push_back(std::move(picture));
   }
   return pictures;
 }
 
 /// The case that the report is about in detail.
-void add_own(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts& all) {
-  const StudyEvidence& main = evidence.main();
-  Row& facts = all.facts["own"];
-  facts = told_case(main, own);
-  facts["is_own"] = is_own(main, own);
+Row own_facts(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts& all) {
+  Row facts = told_case(own);
+  facts["is_own"] = own.is_own();
   facts["completed"] = own.completed();
   facts["certain"] = own.completed() && !std::ranges::all_of(own.verdicts, is_uncertain);
-  for (const Row& row : main.rows("gap_shares"))
-    if (text_of(row, "case") == own.label) facts["gap_shares"].push_back(row);
-  if (!own.completed()) return;
-  for (const Row* row : own.verdicts) {
-    facts["completed_verdicts"].push_back(*row);
-    if (std::isfinite(number_of(*row, "uncertainty_K"))) facts["shares"].push_back(*row);
-  }
-  facts.update(fit_facts(main, own));
-  if (const auto stored = evidence.mechanics.find(own.label); stored != evidence.mechanics.end())
-    all.facts["pictures"] = picture_facts(main, own, stored->second, all);
+  if (!own.completed()) return facts;
+  facts.update(fit_facts(own));
+  for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
+  if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
+    all.facts["pictures"] = picture_facts(own, stored->second, all);
+  return facts;
 }
 
-}  // namespace
+/// Of the cases of a launch. Few verdicts stand on page one, and of many the cases.
+void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>& cases, PageFacts& all) {
+  Row& facts = all.facts;
+  const CaseEvidence& own = own_case(cases);
+  facts["own"] = own_facts(evidence, own, all);
+  facts["own"]["told"] = cases.size() == 1 || own.is_own();
+  facts["judged"] = true;
+  Row verdicts = Row::array();
+  for (const CaseEvidence& each : cases) {
+    facts["fits"].push_back(fit_facts(each)["left_out"]);
+    if (facts["fits"].back()["rows"] > 0)
+      facts["drawings"]["launch"] = drawing_of(own.study, "temperature.svg", all);
+    for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row));
+  }
+  if (cases.size() > 1) facts["left_out"] = facts["fits"];
+  facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {{"verdicts", verdicts},
+                                                                      {"cases", facts["answer"]["cases"]}};
+}
 
 PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
   const StudyEvidence& main = evidence.main();
-  const bool of_launch = main.tells == Tells::launch, of_sweep = main.tells == Tells::sweep;
-  const std::vector<CaseEvidence> cases =
-      of_launch || of_sweep ? cases_of(main) : std::vector<CaseEvidence>{};
+  const std::vector<CaseEvidence> cases = cases_of(main);
+  const bool of_launch = main.tells == Tells::launch;
   PageFacts all;
   Row& facts = all.facts;
-  facts["main"] = tables_of(main, main);
+  // With its tables.
+  const auto tables_of = [&](const StudyEvidence& study) {
+    Row tables = study.finished() ? study.study : Row::object();
+    tables.update(about(study, main));
+    return tables;
+  };
+  facts["main"] = tables_of(main);
   for (const StudyEvidence& study : evidence.studies) facts["studies"].push_back(about(study, main));
   for (const auto& [name, tells] : {std::pair{"launch", Tells::launch},
                                     {"sweep", Tells::sweep},
@@ -223,46 +343,24 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
                                     {"sensitivity", Tells::sensitivity},
                                     {"stability", Tells::stability}}) {
     const StudyEvidence* study = evidence.find(tells);
-    facts[name] = study != nullptr ? tables_of(*study, main) : Row();
+    facts[name] = study != nullptr ? tables_of(*study) : Row();
     if (study == nullptr) facts["missing"] = true;
   }
   facts["scene"] = scene_facts(main, all);
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  facts["case_count"] = cases.size();
-  facts["covered"] = !cases.empty();
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion);
-  if (of_sweep || cases.size() > 1) facts["summary"] = summary_of(main, cases);
-  add_limits(main, cases, facts);
-  if (const CaseEvidence* own = of_launch ? own_case(main, cases) : nullptr) {
-    add_own(evidence, *own, all);
-    if (cases.size() == 1 || is_own(main, *own)) facts["told"] = facts["own"];
-    facts["judged"] = true;
-    facts["cases"] = facts["answer"]["cases"];
-    Row verdicts = Row::array(), fits = Row::array();
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      const Row fit = fit_facts(main, cases[i]);
-      facts["cases"][i]["drawn"] = fit["fit"]["rows"] > 0;
-      if (fit.contains("left_out")) fits.push_back(fit["left_out"]);
-      for (std::size_t row = 0; row < cases[i].verdicts.size(); ++row)
-        verdicts.push_back(told_verdict(cases[i], row));
-    }
-    if (cases.size() > 1) facts["left_out"] = fits;
-    const bool fits_page = verdicts.size() <= most_rows_on_page_one;
-    facts["page_one"] = {{"verdicts", fits_page ? verdicts : Row()},
-                         {"cases", fits_page ? Row() : facts["cases"]}};
-    if (!fits_page) facts["section_two"]["verdicts"] = verdicts;
-    if (std::ranges::any_of(facts["cases"], [](const Row& each) { return each["drawn"] == true; }))
-      facts["drawings"]["launch"] = drawing_of(&main, "temperature.svg", all);
-  }
-  if (const StudyEvidence* sweep = evidence.find(Tells::sweep)) {
-    facts["hottest"] = hottest_of(*sweep);
-    facts["envelopes"] = pictures_of(*sweep, all);
-  }
-  if (const StudyEvidence* accuracy = evidence.find(Tells::accuracy)) {
+  if (cases.size() > 1 || (!cases.empty() && !of_launch)) facts["summary"] = summary_of(cases);
+  facts["assumed"] = assumed_by(main);
+  std::set<std::string> models;  // under which ignition is not excluded
+  for (const Row& row : main.rows("verdicts"))
+    if (text_of(row, "verdict") != "UNSAFE") models.insert(text_of(row, "model_form"));
+  models.erase("");
+  facts["other_models"] = models;
+  if (of_launch) add_launch(evidence, cases, all);
+  if (const StudyEvidence* sweep = evidence.find(Tells::sweep)) facts["envelopes"] = pictures_of(*sweep, all);
+  if (const StudyEvidence* accuracy = evidence.find(Tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
-    if (!facts["setting"].is_null()) facts["meshes"] = accuracy->rows("reference");
-  }
   if (const StudyEvidence* sensitivity = evidence.find(Tells::sensitivity))
     facts["same_launch"] = is_of_same_launch(*sensitivity);
   facts["drawings"]["models"] = drawing_of(evidence.find(Tells::models), "model_form.svg", all);
@@ -272,14 +370,12 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
     if (const double misfit = std::abs(number_of(row, "temperature_max_computed_minus_published_K"));
         text_of(row, "used_for") != "fitted" && misfit > worst)
       worst = misfit;
-  if (const std::size_t rows = main.rows("comparison").size(); rows > 0)
-    facts["published"] = {{"rows", rows}, {"worst_K", worst}};
+  if (!main.rows("comparison").empty()) facts["published"]["worst_K"] = worst;
   return all;
 }
 
-}  // namespace launchsafe::report::safety
-
-namespace launchsafe::report {
+}  // namespace
+}  // namespace safety
 
 PageTemplates built_in_templates() {
   PageTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};

@@ -2,7 +2,6 @@
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/section_drawing.hpp"
-#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -13,8 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 namespace launchsafe::report::safety {
 namespace {
@@ -32,39 +29,38 @@ std::string short_value(const std::string& value) {
 
 /// All inputs, but those of a law of which no body is made.
 Row inputs_of(const scene::SceneFile& file) {
-  std::map<std::string, scene::DocumentedKey> documented;
-  for (scene::DocumentedKey& key : scene::describe_keys()) documented.emplace(key.description.name, key);
-  const auto is_used = [&](const std::string& law) {
-    return (law != "steel" && law != "elastic") ||
-           std::ranges::find(file.scene.bodies, law, &scene::Body::material) != file.scene.bodies.end();
-  };
-  const auto text = [](scene::Standing standing, const std::string& citation) {
-    return fmt::format("{}: {}", scene::meaning_of(standing), citation);
-  };
-  Row inputs = Row::array();
-  const auto add = [&](const std::string& key, const std::string& value, const std::string& standing,
-                       const std::string& meaning) {
-    inputs.push_back(
-        {{"key", key}, {"value", short_value(value)}, {"standing", standing}, {"meaning", meaning}});
-  };
-  for (const scene::ListedKey& key : scene::list_keys(file)) {
-    if (!is_used(key.name.substr(0, key.name.find('.')))) continue;
-    // The manifest writes every key: one with the value of the program's default has the default's standing.
-    const auto found = documented.find(key.name);
-    const bool is_default = found != documented.end() && found->second.default_text == key.value;
-    add(key.name, key.value,
-        !key.citation.empty() ? text(key.standing, key.citation)
-        : is_default ? fmt::format("{} (default)", scene::meaning_of(found->second.description.standing))
-                     : "stated",
-        key.sentence);
-  }
+  std::vector<scene::ListedKey> listed = scene::list_keys(file);
   // Values of bodies, interfaces and further materials whose source the scene says.
   for (const scene::Source& source : file.scene.sources)
     for (const std::string& name : source.keys)
       if (const auto key = scene::describe_key(file, name, {});
           key && scene::find_key(scene::scene_keys(), name) == nullptr)
-        add(name, scene::format_value(*key, scene::value_in(file, name)),
-            text(source.standing, source.citation), key->sentence);
+        listed.push_back({name,
+                          scene::format_value(*key, scene::value_in(file, name)),
+                          source.standing,
+                          key->sentence,
+                          {},
+                          source.citation});
+  const std::vector<scene::DocumentedKey> documented = scene::describe_keys();
+  const auto name_of = [](const scene::DocumentedKey& key) { return key.description.name; };
+  Row inputs = Row::array();
+  for (const scene::ListedKey& key : listed) {
+    const std::string law = key.name.substr(0, key.name.find('.'));
+    if ((law == "steel" || law == "elastic") &&
+        std::ranges::find(file.scene.bodies, law, &scene::Body::material) == file.scene.bodies.end())
+      continue;
+    // The manifest writes every key: one with the value of the program's default has the default's standing.
+    const auto found = std::ranges::find(documented, key.name, name_of);
+    const bool is_default = found != documented.end() && found->default_text == key.value;
+    const std::string standing =
+        !key.citation.empty() ? fmt::format("{}: {}", scene::meaning_of(key.standing), key.citation)
+        : is_default          ? fmt::format("{} (default)", scene::meaning_of(found->description.standing))
+                              : "stated";
+    inputs.push_back({{"key", key.name},
+                      {"value", short_value(key.value)},
+                      {"standing", standing},
+                      {"meaning", key.sentence}});
+  }
   return inputs;
 }
 
@@ -129,22 +125,18 @@ Row scene_facts(const StudyEvidence& study, PageFacts& all) {
   return facts;
 }
 
-Row picture_facts(const StudyEvidence& study, const CaseEvidence& judged, const run::MechanicsResult& stored,
-                  PageFacts& all) {
-  const auto scene = scene_of(study, judged);
-  if (!scene || stored.trace.samples() < 2) return {};
+Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFacts& all) {
   Row facts = Row::object();
-  run::CaseResult result{stored, {}};
+  run::CaseResult shown_result{stored.result.mechanics, {}};
   for (const Row* row : shown_gaps(judged)) {
-    result.gaps.push_back(
-        run::evaluate_gap(scene->scene, stored.trace, number_of(*row, "gap_cm") / shown_gap(1.0)));
-    const double found = result.gaps.back().at_stations.temperature;
-    if (std::abs(found - number_of(*row, "temperature_max_K")) <= same_temperature) continue;
-    // Ignition under two-way coupling goes on in a run of its own.
-    result.gaps.pop_back();
-    facts["other_histories"].push_back(*row);
+    const double gap = number_of(*row, "gap_cm") / shown_gap(1.0);
+    const auto found = std::ranges::find(stored.result.gaps, gap, &run::GapResult::gap);
+    if (found != stored.result.gaps.end())
+      shown_result.gaps.push_back(*found);
+    else  // ignition under two-way coupling goes on in a run of its own
+      facts["other_histories"].push_back(*row);
   }
-  const DrawnCase drawn{scene->scene, result};
+  const DrawnCase drawn{stored.scene, shown_result};
   for (const PictureKind& kind : picture_kinds()) {
     const std::string word = kind.word;
     if (word != "pressure" && word != "histories" && word != "profile" && word != "fields") continue;
@@ -152,19 +144,17 @@ Row picture_facts(const StudyEvidence& study, const CaseEvidence& judged, const 
       facts["lacks"].push_back({{"word", word}, {"why", why}});
       continue;
     }
-    Row shown = Row::array();
     for (CasePicture& each : kind.pictures(drawn)) {
       if (each.file == "profile_spread.svg" ||
           (word == "fields" && !each.file.starts_with("field_temperature")))
         continue;
-      shown.push_back({{"file", each.file},
-                       {"gap_cm", each.gap ? Row(shown_gap(*each.gap)) : Row()},
-                       {"time_ms", each.time ? Row(in(millisecond, *each.time)) : Row()}});
+      // The last snapshot shows what the launch has done.
+      if (word == "fields") facts[word] = Row::array();
+      facts[word].push_back({{"file", each.file},
+                             {"gap_cm", each.gap ? Row(shown_gap(*each.gap)) : Row()},
+                             {"time_ms", each.time ? Row(in(millisecond, *each.time)) : Row()}});
       std::visit([&](auto& plot) { all.drawings[each.file] = std::move(plot); }, each.plot);
     }
-    // The last snapshot shows what the launch has done.
-    if (word == "fields" && shown.size() > 1) shown = Row::array({shown.back()});
-    facts[word] = std::move(shown);
   }
   return facts;
 }

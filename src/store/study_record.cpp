@@ -24,7 +24,9 @@ nlohmann::ordered_json files_json(const std::vector<WrittenFile>& files) {
   return list;
 }
 
-nlohmann::ordered_json json_of(const StudyRecord& record) {
+}  // namespace
+
+nlohmann::ordered_json to_json(const StudyRecord& record) {
   const Manifest& manifest = record.manifest;
   nlohmann::ordered_json libraries;
   for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
@@ -48,6 +50,8 @@ nlohmann::ordered_json json_of(const StudyRecord& record) {
   if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
   return object;
 }
+
+namespace {
 
 std::vector<WrittenFile> files_from(const nlohmann::json& list) {
   std::vector<WrittenFile> files;
@@ -170,7 +174,7 @@ Result<StudyRecord> record_of_report(const fs::path& folder) {
 MaybeError write_study_record(const fs::path& folder, const StudyRecord& record) {
   const fs::path path = folder / manifest_name;
   const std::string text =
-      json_of(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+      to_json(record).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   const MaybeError error = write_file_atomically(path, text, IfExists::refuse);
   if (!error || error->kind != Error::Kind::conflict) return error;
   // Ours of before, or another shard's of a moment ago.
@@ -239,11 +243,19 @@ Result<std::vector<std::string>> write_report_files(const fs::path& folder, Stud
   return remarks;
 }
 
-bool files_unchanged(const fs::path& folder, const std::vector<WrittenFile>& files) {
-  return std::ranges::all_of(files, [&](const WrittenFile& file) {
-    const Result<std::string> content = read_file(folder / file.name);
-    return content && sha256(*content) == file.sha256;
-  });
+Result<std::vector<TextFile>> read_as_written(const fs::path& folder, const std::vector<WrittenFile>& files) {
+  std::vector<TextFile> read;
+  for (const WrittenFile& file : files) {
+    Result<std::string> content = read_file(folder / file.name);
+    const char* fault = !content ? "the manifest lists this file, and it cannot be read"
+                        : sha256(*content) != file.sha256 ? "this is not what was written, its checksum "
+                                                            "differs from that of the manifest"
+                                                          : nullptr;
+    if (fault != nullptr)
+      return Error{Error::Kind::corrupt, fmt::format("{}: {}", (folder / file.name).string(), fault)};
+    read.push_back({file.name, std::move(*content)});
+  }
+  return read;
 }
 
 }  // namespace launchsafe::store

@@ -1,8 +1,13 @@
 #include "launchsafe/report/page_texts.hpp"
 
+#include "launchsafe/store/atomic_file.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +43,69 @@ TEST(PageTexts, TellOneFromMany) {
       "1}}are{{/cases|over 1}}\n";
   EXPECT_EQ(said_by(file, "cases", {{"cases", 1}}).front(), "1 other case is");
   EXPECT_EQ(said_by(file, "cases", {{"cases", 3}}).front(), "3 other cases are");
+}
+
+TEST(PageTexts, TellHowManyRowsHaveSomething) {
+  const Row facts{{"rows",
+                   {{{"verdict", "SAFE"}, {"warning", ""}, {"fault", nullptr}},
+                    {{"verdict", "INDETERMINATE"}, {"warning", ""}, {"fault", "drift"}}}},
+                  {"none", Row::array()}};
+  const std::string file =
+      "@all\n{{#rows|all verdict SAFE}}all{{/rows|all verdict SAFE}}{{#none|all verdict SAFE}} of "
+      "none{{/none|all "
+      "verdict SAFE}}\n"
+      "@any\n{{#rows|any warning fault}}faults{{/rows|any warning fault}}{{#rows|any "
+      "warning}}warnings{{/rows|any "
+      "warning}}\n"
+      "@count\n{{rows|count verdict SAFE}} of {{rows|count}}{{#rows|count verdict UNSAFE|over 0}}, some "
+      "UNSAFE{{/rows|count verdict UNSAFE|over 0}}\n";
+  EXPECT_EQ(said_by(file, "all", facts), std::vector<std::string>{" of none"});
+  EXPECT_EQ(said_by(file, "any", facts), std::vector<std::string>{"faults"});
+  EXPECT_EQ(said_by(file, "count", facts), std::vector<std::string>{"1 of 2"});
+}
+
+// What is not known is no reason to tell the smallest that is.
+TEST(PageTexts, ChooseTheRowsThatAreLowestOrNotKnown) {
+  Row facts{{"rows",
+             {{{"case", "a"}, {"K", 300}, {"cm", 0.03}},
+              {{"case", "b"}, {"K", 340}, {"cm", 0.02}},
+              {{"case", "c"}, {"K", 340}, {"cm", 0.01}}}}};
+  const std::string file =
+      "@hot\n= item of rows largest K lowest cm\n{{case}}\n@bound\n= item of rows with cm\n{{case}}\n";
+  EXPECT_EQ(said_by(file, "hot", facts), std::vector<std::string>{"c"});
+  facts["rows"][1]["cm"] = nullptr;
+  EXPECT_EQ(said_by(file, "hot", facts), std::vector<std::string>{"b"});
+  EXPECT_EQ(said_by(file, "bound", facts), (std::vector<std::string>{"a", "c"}));
+}
+
+// 0.196 rounded up to the two digits of an error that begins with 1.
+TEST(PageTexts, TellANumberInTheDigitsOfItsError) {
+  const std::string file = "@line\n{{K|measured error_K}} K\n";
+  EXPECT_EQ(said_by(file, "line", {{"K", 416.2454}, {"error_K", 0.1961}}).front(), "416.25 ± 0.20 K");
+  EXPECT_EQ(said_by(file, "line", {{"K", 416.2454}, {"error_K", nullptr}}).front(), "416.2 K");
+}
+
+// A form that is none would leave a text, or a warning, as if nothing had been asked.
+TEST(PageTexts, OfTheProgramUseFormsThatThereAre) {
+  const std::set<std::string> forms{"all",   "and",   "any",    "count", "counted",   "down", "first",
+                                    "fixed", "is",    "joined", "list",  "measured",  "over", "percent",
+                                    "sci",   "short", "sig",    "some",  "uncertain", "up",   "words"};
+  const std::regex tag(R"(\{\{[^}]*\}\})"), form(R"(\|([a-z_]+))"),
+      column(R"(\n\| [^\n|]+ \| [^\n|]+ \| ([a-z_]+))");
+  std::size_t found = 0;
+  const auto expect_known = [&](const std::string& text, const std::regex& pattern, const std::string& file) {
+    for (std::sregex_iterator each(text.begin(), text.end(), pattern), end; each != end; ++each, ++found)
+      EXPECT_TRUE(forms.contains((*each)[1])) << each->str() << " in " << file;
+  };
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(LAUNCHSAFE_SOURCE_DIR) / "src")) {
+    if (entry.path().extension() != ".mustache") continue;
+    const std::string text = *store::read_file(entry.path());
+    for (std::sregex_iterator each(text.begin(), text.end(), tag), end; each != end; ++each)
+      expect_known(each->str(), form, entry.path());
+    expect_known(text, column, entry.path());
+  }
+  EXPECT_GT(found, 300u);
 }
 
 // A number that is none is neither left out nor taken for a value.

@@ -56,7 +56,7 @@ TEST_F(SafetyReport, MarkupInAStudyIsShownAndNotObeyed) {
 TEST_F(SafetyReport, AnEditedFileIsRefused) {
   const path study = copy_of("critical_gap_155mm");
   replace_in(study / "study.json", "INDETERMINATE", "SAFE");
-  EXPECT_TRUE(has(fault_of({study}), "study.json: this is not what the study wrote")) << fault_of({study});
+  EXPECT_TRUE(has(fault_of({study}), "study.json: this is not what was written")) << fault_of({study});
   const path other = copy_of("accuracy");
   std::filesystem::remove(other / "accuracy.csv");
   EXPECT_TRUE(has(fault_of({other}), "accuracy.csv")) << fault_of({other});
@@ -107,6 +107,31 @@ TEST_F(SafetyReport, WarningsAreToldWhateverTheReasonSays) {
   EXPECT_FALSE(has(file_of({study}, "report.md"), "Verdicts with validity warnings"));
   change(study, [](auto& results) { results["verdicts"].back()["validity_warnings"] = "cracks run away"; });
   EXPECT_TRUE(has(file_of({study}, "report.md"), "Verdicts with validity warnings"));
+}
+
+TEST_F(SafetyReport, VerdictsThatAreIndeterminateAreCountedOnPageOneAndToldWithTheirCause) {
+  const path study = copy_of("critical_gap_155mm");
+  const auto page_one = [&] {
+    const std::string page = file_of({study}, "report.md");
+    return page.substr(0, page.find("## 2."));
+  };
+  EXPECT_TRUE(
+      has(page_one(), "Of 6 verdicts 3 are SAFE (at 300 K before launch), 2 UNSAFE and 1 INDETERMINATE."));
+  change(study, [](auto& results) {
+    auto& row = results["verdicts"][2];
+    row["verdict"] = "INDETERMINATE";
+    row["reason_code"] = "validity-warning";
+    row["cause"] = row["validity_warnings"] = "cracks run away";
+    row["limited"] = "limiters acted";
+  });
+  EXPECT_TRUE(
+      has(page_one(), "Of 6 verdicts 2 are SAFE (at 300 K before launch), 2 UNSAFE and 2 INDETERMINATE."));
+  EXPECT_TRUE(has(page_one(), "cracks run away; limiters acted; ignition not excluded"));
+  EXPECT_TRUE(has(page_one(), "| 0.02 | INDETERMINATE |"));
+  change(study, [](auto& results) {
+    for (auto& row : results["verdicts"]) row["verdict"] = "INDETERMINATE";
+  });
+  EXPECT_TRUE(has(page_one(), "All 6 verdicts are INDETERMINATE: nothing is shown to be safe."));
 }
 
 TEST_F(SafetyReport, ResultsOfAnotherKindThanTheManifestsAreRefused) {

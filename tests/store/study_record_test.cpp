@@ -50,7 +50,7 @@ TEST_F(ReportFolder, ReplacesItsOwnFilesAndNothingElse) {
   EXPECT_EQ(state("stability.csv"), FileState::foreign);
   expect_refused("stability.csv");
   EXPECT_EQ(*read_file(folder() / "stability.csv"), "mine");
-  EXPECT_TRUE(files_unchanged(folder(), read_study_record(folder())->files));
+  EXPECT_TRUE(read_as_written(folder(), read_study_record(folder())->files));
 }
 
 // A folder that somebody passed on may hold a manifest with any names.

@@ -24,8 +24,8 @@ struct LeastSquares {
   double at(const std::vector<double>& row) const;
   /// Half width of the two-sided band of one new observation at confidence `level` in (0, 1) (Student t).
   double prediction_half_width(const std::vector<double>& row, double level) const;
-
- private:
+  /// x^T (X^T X)^-1 x, of a row that was fitted how far its own value draws the fit: residual/(1 - leverage)
+  /// is what it is off a fit through the other rows alone.
   double leverage(const std::vector<double>& row) const;
 };
 

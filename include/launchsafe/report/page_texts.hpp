@@ -46,7 +46,8 @@ struct PageText {
 store::Result<std::vector<PageText>> texts_in(const std::string& file, const std::string& name);
 
 /// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
-/// nothing; facts that are false or empty have nothing to say.
+/// nothing; facts that are false or empty have nothing to say. All rows with the largest or smallest number
+/// are chosen; "lowest" are those without a number where there are such, and else those with the smallest.
 std::vector<const Row*> selected(const PageText& text, const Row& facts);
 
 /// A template filled with facts, the inner ones last. Errors: corrupt.

@@ -1,14 +1,71 @@
-// A safety report: facts are rows of the studies and what was selected from them; what is said of them, where
-// and in which digits, stands in templates.
+// A safety report: the folders that studies left, read and checked; facts, which are rows of the studies and
+// what was selected from them; and templates, which say what is said of them, where and in which digits.
 #pragma once
 
 #include "launchsafe/report/gap_criterion.hpp"
 #include "launchsafe/report/page_sections.hpp"
-#include "launchsafe/report/safety_evidence.hpp"
+#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/store/study_record.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
+#include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace launchsafe::report {
+
+/// What a finished study tells, by the tables that it has: verdicts of one launch or of a few cases, verdicts
+/// over axes with several values, ...
+enum class Tells { nothing, launch, sweep, models, accuracy, sensitivity, stability };
+
+/// One study.
+struct StudyEvidence {
+  std::string label;  ///< "S1", in the order in which the user named them
+  std::filesystem::path folder;
+  store::StudyRecord record;
+  std::string kind, title;
+  Row asked;               ///< the study file
+  scene::SceneFile scene;  ///< what was simulated, with what the study sets
+  Row study;               ///< study.json; null while the study is not finished
+  Tells tells = Tells::nothing;
+  std::map<std::string, std::string> drawings = {};  ///< its pictures as it drew them, SVG by file name
+  std::size_t done = 0, failed = 0;                  ///< runs in its results file; 0 without one
+  /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
+  std::vector<study::Difference> differences = {};
+
+  bool finished() const { return study.is_object(); }
+  /// That makes it again, or goes on with it.
+  std::string command() const;
+  /// The rows of a table of study.json; none where it has no such table.
+  const Row& rows(const std::string& table) const;
+};
+
+/// The stored run of a case, with the gaps that are in it as warm as their verdicts say.
+struct StoredLaunch {
+  scene::Scene scene;
+  run::CaseResult result;
+};
+
+/// All of it. There is at least one study.
+struct SafetyEvidence {
+  std::vector<StudyEvidence> studies;
+  std::map<std::string, StoredLaunch> stored = {};  ///< of the main study, as far as they were kept, by case
+  /// The finished study that tells that; nullptr without one.
+  const StudyEvidence* find(Tells what) const;
+  /// The one that the report is about: that of a launch, or else the first that is not finished or sweeps, or
+  /// the first.
+  const StudyEvidence& main() const;
+};
+
+/// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
+/// message each: no study there, a file that was edited or is missing, a model version other than this
+/// program's or another study's, a damaged case, verdicts without the code of their reason as an earlier
+/// program wrote them, a SAFE that its own numbers or its stored run contradict, two studies of a kind that
+/// tell the same, studies of different shells, studies that bound the critical gap of one launch differently.
+store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
 
 /// The templates of safety reports that are built in.
 PageTemplates built_in_templates();

@@ -5,6 +5,8 @@
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -49,6 +51,9 @@ enum class FileState {
 };
 FileState state_of(const std::filesystem::path& folder, const StudyRecord& record, const std::string& name);
 
+/// What manifest.json of it is.
+nlohmann::ordered_json to_json(const StudyRecord& record);
+
 /// Reads manifest.json. Errors: missing, unreadable, corrupt (also somebody else's file of that name).
 Result<StudyRecord> read_study_record(const std::filesystem::path& folder);
 
@@ -71,7 +76,8 @@ Result<std::vector<std::string>> write_report_files(const std::filesystem::path&
 Result<std::filesystem::path> set_aside(const std::filesystem::path& folder,
                                         const std::vector<std::string>& names);
 
-/// Whether every file has the content that was recorded.
-bool files_unchanged(const std::filesystem::path& folder, const std::vector<WrittenFile>& files);
+/// Files with the content that was recorded. Errors: corrupt (a file that is missing or has another content).
+Result<std::vector<TextFile>> read_as_written(const std::filesystem::path& folder,
+                                              const std::vector<WrittenFile>& files);
 
 }  // namespace launchsafe::store
