@@ -1,5 +1,5 @@
 // Files that launchsafe init and launchsafe emit write, as they are in the source. Names in double braces
-// stand for values; see filled_text.hpp.
+// stand for values; see report/page_texts.hpp.
 #pragma once
 
 namespace launchsafe::app {

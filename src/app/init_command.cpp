@@ -1,9 +1,9 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "built_in_texts.hpp"
 #include "commands.hpp"
-#include "filled_text.hpp"
 #include "key_schema.hpp"
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/quantity.hpp"
@@ -72,20 +72,20 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
                     const std::string& csv) {
   const double factor = arguments.calibre / published_calibre;
   const double duration = curve ? curve->time.back() : factor * published_exit;
-  const TextValues values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
-                          {"factor", fmt::format("{:.4g}", factor)},
-                          {"charge_begin", scaled_length(118, factor)},
-                          {"charge_end", scaled_length(678, factor)},
-                          {"length", scaled_length(740, factor)},
-                          {"bore", scaled_length(65, factor)},
-                          {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-                          {"load", load_lines(arguments, curve) + expected_velocity_line},
-                          {"selective_inertia", curve ? "" : selective_inertia_lines},
-                          {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
-  NamedTexts files{{"scene.toml", filled(scene_template, values)},
-                   {"critical_gap.toml", filled(study_template, values)},
-                   {"accuracy.toml", filled(accuracy_template, values)},
-                   {"firings.toml", filled(firings_template, values)},
+  const report::Row values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
+                           {"factor", fmt::format("{:.4g}", factor)},
+                           {"charge_begin", scaled_length(118, factor)},
+                           {"charge_end", scaled_length(678, factor)},
+                           {"length", scaled_length(740, factor)},
+                           {"bore", scaled_length(65, factor)},
+                           {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+                           {"load", load_lines(arguments, curve) + expected_velocity_line},
+                           {"selective_inertia", curve ? "" : selective_inertia_lines},
+                           {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  NamedTexts files{{"scene.toml", report::filled(scene_template, {&values})},
+                   {"critical_gap.toml", report::filled(study_template, {&values})},
+                   {"accuracy.toml", report::filled(accuracy_template, {&values})},
+                   {"firings.toml", report::filled(firings_template, {&values})},
                    {"calibration.json", shipped_calibration},
                    {"scene.schema.json", scene_schema().dump(1) + "\n"},
                    {"study.schema.json", study_schema().dump(1) + "\n"}};

@@ -1,8 +1,8 @@
 #include "slurm_script.hpp"
 
 #include "built_in_texts.hpp"
-#include "filled_text.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "shell_words.hpp"
 
 #include <fmt/format.h>
@@ -145,7 +145,7 @@ std::filesystem::path slurm_folder(const std::filesystem::path& output) { return
 
 NamedTexts slurm_scripts(const SlurmStudy& study) {
   const SlurmRequest request = request_of(study);
-  const TextValues values{
+  const report::Row values{
       {"folder", shell_quoted(slurm_folder(study.asked.output).string())},
       {"job", job_name(study)},
       {"status", study.asked.shards > 1
@@ -170,9 +170,9 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
       {"study", shell_quoted(study.asked.study.string())},
       {"time", predicted_time(study)},
       {"time_factor", fmt::format("{:.3g}", time_factor)}};
-  return {{"shard.sbatch", filled(shard_template, values)},
-          {"merge.sbatch", filled(merge_template, values)},
-          {std::string(submit_name), filled(submit_template, values)}};
+  return {{"shard.sbatch", report::filled(shard_template, {&values})},
+          {"merge.sbatch", report::filled(merge_template, {&values})},
+          {std::string(submit_name), report::filled(submit_template, {&values})}};
 }
 
 }  // namespace launchsafe::app
