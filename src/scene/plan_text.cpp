@@ -45,7 +45,8 @@ std::string bodies_text(const Scene& scene) {
     parts +=
         fmt::format("{}{} {:.6g}", parts.empty() ? "" : ", ", material.name, mass_of(scene, material.name));
   text += row("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
-  if (has_charge(scene)) text += row("a charge that cooled", cooling_text(scene));
+  if (has_charge(scene) && scene.surface.model == GapModel::closing)
+    text += row("a charge that cooled", cooling_text(scene));
   return text;
 }
 
