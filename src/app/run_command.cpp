@@ -287,7 +287,7 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
   options.stop = &stop_requested();
-  options.threads = study::available_cores();
+  options.threads = study::threads_for_one_run(scene::particle_count(scene));
   const double end = scene::end_time(scene.load);
   options.progress = [&, end](double share) {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

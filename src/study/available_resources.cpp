@@ -1,8 +1,10 @@
 #include "launchsafe/study/scheduler.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -103,7 +105,38 @@ double left_in_version_1(const fs::path& group) {
   return limit < 1e15 ? left_of(limit, group / "memory.usage_in_bytes", 0.0) : unlimited;
 }
 
+/// Tasks of others that run on the machine now, the fewest of a few looks: most run for a moment. None where
+/// nothing tells.
+int busy_processors() {
+  constexpr int looks = 5;
+  int fewest = std::numeric_limits<int>::max();
+  for (int look = 0; look < looks; ++look) {
+    std::ifstream stream("/proc/loadavg");
+    std::string one, five, fifteen;
+    int running = 1;  // this one
+    stream >> one >> five >> fifteen >> running;
+    fewest = std::min(fewest, running - 1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return fewest;
+}
+
 }  // namespace
+
+int threads_beside(int cores, int processors, int busy) {
+  return std::clamp(processors - busy, 1, std::max(1, cores));
+}
+
+int useful_threads(std::int64_t particles, int threads) {
+  constexpr std::int64_t fewest_of_a_thread = 1500;
+  return static_cast<int>(std::clamp<std::int64_t>(particles / fewest_of_a_thread, 1, std::max(1, threads)));
+}
+
+int threads_for_one_run(std::int64_t particles) {
+  const int useful = useful_threads(particles, available_cores());
+  if (useful == 1) return 1;
+  return threads_beside(useful, static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN)), busy_processors());
+}
 
 int available_cores() {
   int cores = cores_by_affinity();

@@ -2,6 +2,7 @@
 
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
@@ -146,8 +147,9 @@ class CaseLoop {
   }
 
   run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
-    const run::RunOptions run_options{options_.stop,     options_.time_limit, allotment.report_share,
-                                      allotment.threads, run.checkpoints,     run.launch};
+    const int threads = useful_threads(scene::particle_count(run.scene), allotment.threads);
+    const run::RunOptions run_options{options_.stop, options_.time_limit, allotment.report_share,
+                                      threads,       run.checkpoints,     run.launch};
     if (run.skin_gap) return options_.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
     result.mechanics = options_.runners.mechanics(run.scene, run_options);

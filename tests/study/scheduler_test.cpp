@@ -172,6 +172,23 @@ TEST(Scheduler, FindsMemoryThatIsAvailable) {
   EXPECT_LT(available_memory(), 1e15);  // this machine says what it has
 }
 
+TEST(Scheduler, ARunLeavesProcessorsAloneThatOtherWorkKeepsBusy) {
+  EXPECT_EQ(threads_beside(2, 2, 0), 2);
+  EXPECT_EQ(threads_beside(2, 2, 1), 1);
+  EXPECT_EQ(threads_beside(2, 2, 40), 1);
+  EXPECT_EQ(threads_beside(2, 64, 40), 2) << "there are others free for its two";
+  EXPECT_EQ(threads_beside(8, 8, 3), 5);
+  EXPECT_EQ(threads_beside(1, 0, 0), 1) << "where the machine does not say how many it has";
+}
+
+TEST(Scheduler, ARunOfFewParticlesTakesOneThread) {
+  EXPECT_EQ(useful_threads(1166, 2), 1) << "the shipped scene";
+  EXPECT_EQ(useful_threads(4000, 2), 2);
+  EXPECT_EQ(useful_threads(4000, 16), 2);
+  EXPECT_EQ(useful_threads(1'000'000, 16), 16);
+  EXPECT_EQ(useful_threads(0, 0), 1);
+}
+
 TEST(Scheduler, FindsAtLeastOneCore) { EXPECT_GE(available_cores(), 1); }
 
 }  // namespace
