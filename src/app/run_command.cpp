@@ -109,9 +109,9 @@ std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mec
   text += line("wall time", report::duration(mechanics.wall_time));
   if (!(mechanics.processor_time > 0)) return text;
   text += line("processor time", report::duration(mechanics.processor_time));
-  text += line("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
-                                          mechanics.particle_updates() / mechanics.processor_time / 1e6));
-  return text;
+  return text +
+         line("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
+                                         mechanics.update_rate() / 1e6));
 }
 
 report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {

@@ -110,7 +110,7 @@ AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
   const run::MechanicsResult& mechanics = runs.front().result.mechanics;
   const scene::CellRange mesh = scene::cells_of_charge(scene);
   row.setting.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
-  row.setting.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
+  row.setting.processor_time = mechanics.work_time();
   row.wall_time = mechanics.wall_time;
   row.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
   row.memory = run::cost_of(scene).memory();

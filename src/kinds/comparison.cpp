@@ -20,7 +20,7 @@ void judge(const Variant& variant, const study::StudyCase& input, std::vector<st
   static_cast<study::CaseAnswer&>(of) = answer_from(variant.judged, input, runs);
   if (run_without_result(runs) != nullptr || was_cut_off(runs.front())) return;
   const run::MechanicsResult& mechanics = runs.front().result.mechanics;
-  of.processor_time = mechanics.processor_time > 0 ? mechanics.processor_time : mechanics.wall_time;
+  of.processor_time = mechanics.work_time();
   if (!of.completed()) return;
   const surface::SkinModel model = study::without_reaction(surface::skin_model(input.scene.scene));
   for (const double gap : variant.judged.gaps)

@@ -98,7 +98,8 @@ nlohmann::ordered_json timing_json(const study::Timing& timing) {
       {{"jobs", "jobs", count(), "Runs at once."}, &Timing::jobs},
       {{"particle_updates", "particle updates", keys::scientific(2), "Of all runs."},
        &Timing::particle_updates},
-      {{"run_time", "time of runs", keys::fixed(1, second), "Wall time of all runs."}, &Timing::run_time},
+      {{"run_time", "time of runs", keys::fixed(1, second), "Processor time of all runs."},
+       &Timing::run_time},
       {quantity::updates_per_second(), &Timing::updates_per_second}};
   return json_of(quantities, timing);
 }

@@ -184,7 +184,7 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
     record.wall_time = result.mechanics.wall_time;
     record.processor_time = result.mechanics.processor_time;
   }
-  result.mechanics.wall_time = 0;
+  result.mechanics.wall_time = result.mechanics.processor_time = 0;
   keep(case_bytes(scene, result, manifest), std::move(record));
 }
 

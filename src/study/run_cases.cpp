@@ -188,7 +188,7 @@ class CaseLoop {
     } else if (run.has_result() && computed) {
       ++timing_.runs;
       timing_.particle_updates += mechanics.particle_updates();
-      timing_.run_time += mechanics.wall_time;
+      timing_.run_time += mechanics.work_time();
     }
   }
 

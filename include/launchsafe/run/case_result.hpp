@@ -151,7 +151,9 @@ struct MechanicsResult {
   double processor_time = 0;  ///< s, of the run's threads: what other work on the machine disturbs least
   /// Particles times the steps that this run computed.
   double particle_updates() const { return double(steps - steps_before) * double(particles); }
-  double update_rate() const { return wall_time > 0 ? particle_updates() / wall_time : 0; }
+  /// s, of processor time; of wall time where that is not known.
+  double work_time() const { return processor_time > 0 ? processor_time : wall_time; }
+  double update_rate() const { return work_time() > 0 ? particle_updates() / work_time() : 0; }  ///< 1/s
   std::vector<MaterialMass> masses;  ///< by material, in the order of the first body of each
   trace::BottomTrace trace;
   std::vector<MonitorSample> monitor;

@@ -56,7 +56,7 @@ struct Timing {
   std::size_t runs = 0;    ///< mechanical runs that were started
   std::size_t reused = 0;  ///< mechanical runs whose stored result, or the answer drawn from it, was used
   double particle_updates = 0;  ///< of all runs
-  double run_time = 0;          ///< s, sum of the runs' wall times
+  double run_time = 0;          ///< s, sum of the runs' processor times
   int jobs = 1;                 ///< cases at a time
   double updates_per_second() const { return run_time > 0 ? particle_updates / run_time : 0; }  ///< a core
 };
