@@ -2,6 +2,8 @@
 
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/answer_cases.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
@@ -16,7 +18,7 @@
 namespace launchsafe::kinds {
 
 using study::CaseOutcome, study::CaseRun, study::CaseRuns, study::Confirmation, study::FinishedRun,
-    study::ProgressTracker, study::StudyOptions;
+    study::PlannedRun, study::ProgressTracker, study::StudyOptions;
 
 std::string label_with_skin(const CaseOutcome& outcome, double gap) {
   return fmt::format("{}, coupled at {}", outcome.input.label, report::centimetres(gap));
@@ -28,13 +30,8 @@ bool CriticalGapResult::any_indeterminate() const {
 
 namespace {
 
-/// One case on its runs: the mechanics, those under a raised load where there are, and of its longer launch.
+/// One case on its runs: the mechanics, and those under a raised load where there are.
 CaseOutcome judged(const study::Study& study, const study::StudyCase& input, std::vector<FinishedRun> runs) {
-  std::optional<FinishedRun> longer_launch;
-  if (scene::longer_launch(input.scene.scene.load)) {
-    longer_launch = std::move(runs.back());
-    runs.pop_back();
-  }
   if (const FinishedRun* run = run_without_result(runs))
     return without_result(study, input, run->outcome, run->failure);
   CaseOutcome outcome;
@@ -49,15 +46,17 @@ CaseOutcome judged(const study::Study& study, const study::StudyCase& input, std
   }
   evaluate(study, outcome);
   evaluate_film(study, outcome);
-  if (longer_launch && outcome.completed()) {
-    run::MechanicsResult& mechanics = longer_launch->result.mechanics;
-    if (!longer_launch->has_result()) {
-      mechanics.status = run::RunStatus::interrupted;
-      mechanics.reason = longer_launch->failure;
-    }
-    evaluate_longer_launch(study, mechanics, outcome);
-  }
   return outcome;
+}
+
+/// The case on the run of its longer launch.
+void take_longer_launch(const study::Study& study, const FinishedRun& run, CaseOutcome& outcome) {
+  run::MechanicsResult mechanics = run.result.mechanics;
+  if (!run.has_result()) {
+    mechanics.status = run::RunStatus::interrupted;
+    mechanics.reason = run.failure;
+  }
+  evaluate_longer_launch(study, mechanics, outcome);
 }
 
 Confirmation expectation(double gap, bool ignition) {
@@ -90,12 +89,28 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
     confirmation.difference = confirmation.maximum_temperature - traced.at_stations.temperature;
 }
 
-/// Coupled runs on both sides of every bracket, from checkpoints of the mechanics where those were computed.
-void run_confirmations(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
-  std::vector<CaseRuns> runs;
-  std::vector<std::pair<CaseOutcome*, std::size_t>> places;
-  for (CaseOutcome& outcome : result.details) {
-    if (outcome.critical.kind != study::CriticalGapKind::value) continue;
+/// Lets a longer launch go on from a checkpoint of the case's own, where they are one launch up to its exit.
+void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
+  const scene::Scene own = scene::mechanical_part(outcome.input.scene.scene);
+  scene::Scene same = longer.scene;
+  same.load = own.load;
+  if (!outcome.result.mechanics.checkpoints || scene::to_toml(same) != scene::to_toml(own)) return;
+  longer.launch = &outcome.result.mechanics;
+  longer.same_until = scene::read_time(own.load);
+  const double left =
+      1.0 + 1.0 / scene::parts_of_launch - longer.same_until / scene::end_time(longer.scene.load);
+  longer.cost = left * cost_of(longer.scene);
+}
+
+/// Runs that go on from a launch which was computed, and what takes each.
+class FollowingRuns {
+ public:
+  FollowingRuns(CriticalGapResult& result, const StudyOptions& options)
+      : result_(result), options_(options) {}
+
+  /// Coupled runs on both sides of its bracket.
+  void add_confirmations(CaseOutcome& outcome) {
+    if (outcome.critical.kind != study::CriticalGapKind::value) return;
     outcome.confirmations = {expectation(outcome.critical.lower, false),
                              expectation(outcome.critical.upper, true)};
     for (std::size_t side = 0; side < 2; ++side) {
@@ -103,16 +118,42 @@ void run_confirmations(CriticalGapResult& result, const StudyOptions& options, P
       CaseRun run = study::skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));
       run.launch = &outcome.result.mechanics;
       if (run.launch->checkpoints) run.cost = continued_cost(run);
-      runs.push_back({{}, {planned_run(std::move(run))}, options.shard.index});
-      places.emplace_back(&outcome, side);
+      add(std::move(run), [&outcome, side](const FinishedRun& finished) {
+        take_confirmation(outcome, finished, outcome.confirmations[side]);
+      });
     }
   }
-  run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-    const auto [outcome, side] = places[i];
-    take_confirmation(*outcome, finished.front(), outcome->confirmations[side]);
-  });
-  for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-}
+
+  /// The longer launch of cases that share it.
+  void add_longer_launch(const PlannedRun& planned, const std::vector<std::size_t>& members) {
+    const CaseOutcome& first = result_.details[members.front()];
+    if (!first.completed()) return;
+    CaseRun run = planned.make();
+    go_on_from(first, run);
+    add(std::move(run), [this, members](const FinishedRun& finished) {
+      for (const std::size_t each : members)
+        take_longer_launch(result_.study.study, finished, result_.details[each]);
+    });
+  }
+
+  void run(ProgressTracker& tracker) {
+    run_cases(runs_, options_, tracker, result_.timing,
+              [this](std::size_t i, std::vector<FinishedRun>& finished) { takers_[i](finished.front()); });
+  }
+
+ private:
+  using Taker = std::function<void(const FinishedRun&)>;
+
+  void add(CaseRun run, Taker taker) {
+    runs_.push_back({{}, {planned_run(std::move(run))}, options_.shard.index});
+    takers_.push_back(std::move(taker));
+  }
+
+  CriticalGapResult& result_;
+  const StudyOptions& options_;
+  std::vector<CaseRuns> runs_;
+  std::vector<Taker> takers_;
+};
 
 /// The launches of gaps that close, for the cases that ask for them.
 void run_closing_gaps(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
@@ -135,14 +176,26 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   const bool confirm = study.confirmations_per_case > 0;
   ProgressTracker tracker(options.progress);
   result.details.resize(study.cases.size());
-  const std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
+  std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
+  std::vector<PlannedRun> longer(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (with_longer_launch(study.cases[runs[i].members.front()].scene.scene)) {
+      longer[i] = std::move(runs[i].runs.back());
+      runs[i].runs.pop_back();
+    }
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
     for (const std::size_t member : runs[i].members) {
       result.details[member] = judged(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
     }
   });
-  if (confirm) run_confirmations(result, options, tracker);
+  FollowingRuns following(result, options);
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (longer[i].make) following.add_longer_launch(longer[i], runs[i].members);
+  if (confirm)
+    std::ranges::for_each(result.details, [&](CaseOutcome& each) { following.add_confirmations(each); });
+  following.run(tracker);
+  for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
   run_closing_gaps(result, options, tracker);
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);

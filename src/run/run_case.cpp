@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -115,6 +116,14 @@ void add_skins(const scene::Scene& scene, CaseResult& result) {
       add_skin(shot, gap, result.mechanics.trace, ignition_temperature(scene));
 }
 
+/// The last checkpoint before a time (s), if there is one.
+const Runner* last_before(const std::shared_ptr<const Checkpoints>& checkpoints, double time) {
+  if (!checkpoints) return nullptr;
+  const auto after =
+      std::ranges::find_if(checkpoints->runs, [&](const auto& each) { return each->time() >= time; });
+  return after == checkpoints->runs.begin() ? nullptr : std::prev(after)->get();
+}
+
 /// Takes a snapshot of a launch at the earliest ignition of its gaps, by a second run from the last
 /// checkpoint before it, or from the start: bitwise what the launch had.
 void add_snapshot_of_ignition(const scene::Scene& scene, CaseResult& result, const RunOptions& options) {
@@ -125,12 +134,8 @@ void add_snapshot_of_ignition(const scene::Scene& scene, CaseResult& result, con
   RunOptions own = options;
   own.progress = nullptr;
   Runner again(scene, own, std::nullopt);
-  if (result.mechanics.checkpoints) {
-    const auto& runs = result.mechanics.checkpoints->runs;
-    const auto after =
-        std::find_if(runs.begin(), runs.end(), [&](const auto& each) { return each->time() >= time; });
-    if (after != runs.begin()) again.continue_from(**(after - 1));
-  }
+  if (const Runner* checkpoint = last_before(result.mechanics.checkpoints, time))
+    again.continue_from(*checkpoint);
   again.end_with_snapshot(time);
   std::vector<Snapshot>& snapshots = result.mechanics.snapshots;
   for (Snapshot& shot : again.run().snapshots) {
@@ -144,6 +149,9 @@ void add_snapshot_of_ignition(const scene::Scene& scene, CaseResult& result, con
 
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options) {
   Runner runner(scene, options, std::nullopt);
+  if (options.launch != nullptr)
+    if (const Runner* checkpoint = last_before(options.launch->checkpoints, options.same_until))
+      runner.continue_from(*checkpoint);
   if (options.checkpoints && scene.numerics.formulation == scene::Formulation::total_lagrangian)
     runner.keep_checkpoints();
   MechanicsResult result = runner.run();

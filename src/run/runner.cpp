@@ -3,6 +3,7 @@
 #include "flush_denormals.hpp"
 #include "launchsafe/run/processor_time.hpp"
 #include "launchsafe/run/stable_factor.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "snapshot.hpp"
 
@@ -66,6 +67,14 @@ void Runner::continue_from(const Runner& other) {
   time_step_ = other.time_step_;
   next_sample_ = other.next_sample_;
   next_monitor_ = other.next_monitor_;
+  longer_time_ = other.longer_time_;
+  longer_monitor_ = other.longer_monitor_;
+  next_longer_ = other.next_longer_;
+  if (launch_time_ == longer_time_) {
+    result_.monitor = std::move(longer_monitor_);
+    next_monitor_ = next_longer_;
+    longer_time_ = 0.0;
+  }
   snapshots_ = other.snapshots_;
   largest_energy_ = other.largest_energy_;
   if (!surface_) return;
@@ -77,6 +86,8 @@ void Runner::continue_from(const Runner& other) {
 void Runner::keep_checkpoints(std::size_t enough) {
   checkpoints_ = std::make_shared<Checkpoints>();
   enough_checkpoints_ = enough;
+  if (const auto longer = scene::longer_launch(simulation_.scene().load))
+    longer_time_ = scene::end_time(*longer);
 }
 
 double Runner::time_of_checkpoint(std::size_t index, double duration) {
@@ -137,6 +148,7 @@ std::optional<CombustionHistory> Runner::take_combustion(const MechanicsResult& 
 void Runner::begin() {
   first_step_ = time_step_ = simulation_.stable_time_step();
   take_monitor_sample(time_step_);
+  take_longer_sample(time_step_);
   take_due_snapshots();
 }
 
@@ -195,6 +207,7 @@ void Runner::advance(double dt) {
   take_due_snapshots();
   if (simulation_.scene().output.asks_for_snapshots()) take_snapshots_of_events(samples);
   if (time >= next_monitor_ && !last) take_monitor_sample(dt);
+  if (time >= next_longer_) take_longer_sample(dt);
   if (samples && !last && checkpoints_) take_due_checkpoint();
 }
 
@@ -285,6 +298,12 @@ void Runner::stop_now(RunStatus status, const std::string& what) {
 void Runner::take_monitor_sample(double time_step) {
   result_.monitor.push_back(monitor_sample(simulation_, time_step));
   next_monitor_ = simulation_.time() + launch_time_ / static_cast<double>(monitor_samples);
+}
+
+void Runner::take_longer_sample(double time_step) {
+  if (!(longer_time_ > 0.0)) return;
+  longer_monitor_.push_back(monitor_sample(simulation_, time_step));
+  next_longer_ = simulation_.time() + longer_time_ / static_cast<double>(monitor_samples);
 }
 
 }  // namespace launchsafe::run

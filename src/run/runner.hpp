@@ -69,6 +69,7 @@ class Runner {
   void stop(RunStatus status, std::string reason);
   void stop_now(RunStatus status, const std::string& what);
   void take_monitor_sample(double time_step);
+  void take_longer_sample(double time_step);
 
   RunOptions options_;
   mpm::Simulation simulation_;
@@ -89,6 +90,11 @@ class Runner {
   std::size_t enough_checkpoints_ = 0;
   double next_sample_ = simulation_.scene().output.trace_interval;
   double next_monitor_ = 0;
+  /// s, of the launch that goes on for longer and may continue from the checkpoints; 0 without either. Its
+  /// monitor has other instants.
+  double longer_time_ = 0;
+  std::vector<MonitorSample> longer_monitor_;
+  double next_longer_ = 0;
   SnapshotTaker snapshots_{simulation_.scene()};
   bool ends_with_snapshots_ = false;
   double largest_energy_ = least_judged_energy(simulation_.scene());

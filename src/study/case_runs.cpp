@@ -101,10 +101,11 @@ CaseRun longer_run(const StudyCase& input) {
 void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
   const std::size_t first = cases.members.front();
   const StudyFile* of = &study;
-  cases.runs.push_back({[of, first, checkpoints] {
+  const bool longer = study.study.in_detail && with_longer_launch(study.cases[first].scene.scene);
+  cases.runs.push_back({[of, first, checkpoints, longer] {
     const StudyCase input = of->cases[first];
     CaseRun run = mechanics_run(input.scene.scene, input.label);
-    run.checkpoints = checkpoints;
+    run.checkpoints = checkpoints || longer;
     return run;
   }});
   if (study.study.kind.goes_through_ignition)
@@ -120,8 +121,7 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
       const StudyCase input = of->cases[first];
       return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
     }});
-  if (study.study.in_detail && with_longer_launch(study.cases[first].scene.scene))
-    cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
+  if (longer) cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
 }
 
 void predict_costs(std::vector<CaseRuns>& cases) {

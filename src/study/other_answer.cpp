@@ -22,7 +22,8 @@ CriticalGap none_up_to(double largest, std::size_t gaps) {
   return bound;
 }
 
-OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace) {
+OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& whole) {
+  const trace::BottomTrace trace = trace::of_rings(whole);
   std::vector<double> gaps = study.gaps;
   gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());

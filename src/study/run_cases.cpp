@@ -148,8 +148,8 @@ class CaseLoop {
 
   run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
     const int threads = useful_threads(scene::particle_count(run.scene), allotment.threads);
-    const run::RunOptions run_options{options_.stop, options_.time_limit, allotment.report_share,
-                                      threads,       run.checkpoints,     run.launch};
+    const run::RunOptions run_options{options_.stop,   options_.time_limit, allotment.report_share, threads,
+                                      run.checkpoints, run.launch,          run.same_until};
     if (run.skin_gap) return options_.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
     result.mechanics = options_.runners.mechanics(run.scene, run_options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace launchsafe::trace {
 
@@ -69,6 +70,20 @@ BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t
 }  // namespace
 
 BottomTrace thinned(const BottomTrace& trace) { return with_samples(trace, kept_samples(trace.samples())); }
+
+BottomTrace of_rings(BottomTrace trace) {
+  const std::vector<Station> stations = std::move(trace.stations);
+  trace.stations.clear();
+  for (const Station& station : stations)
+    if (!station.observation) trace.stations.push_back(station);
+  for (std::vector<double>& energy : trace.friction) {
+    const std::vector<double> whole = std::move(energy);
+    energy.clear();
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      if (!stations[i % stations.size()].observation) energy.push_back(whole[i]);
+  }
+  return trace;
+}
 
 BottomTrace until(const BottomTrace& trace, double time) {
   constexpr double round_off = 1e-12;  // s

@@ -1,8 +1,14 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 
+#include "../../src/run/runner.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/run_cases.hpp"
 #include "study/synthetic_launch.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <memory>
 
 namespace {
 
@@ -52,6 +58,33 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
   EXPECT_TRUE(outcome.completed());
   for (const Confirmation& each : outcome.confirmations) EXPECT_TRUE(each.completed);
   EXPECT_FALSE(result.any_indeterminate());
+}
+
+/// s, up to which runs of a study go on from its launch, of which the fraction of a cell that conducts is
+/// left out up to a bound.
+std::vector<double> same_until_of(double conduction_bound) {
+  std::vector<double> same_until;
+  StudyOptions options = synthetic_options();
+  options.runners.mechanics = [&](const scene::Scene& scene, const run::RunOptions& of_run) {
+    run::MechanicsResult result = synthetic_mechanics(scene);
+    if (of_run.checkpoints) result.checkpoints = std::make_shared<const run::Checkpoints>();
+    if (of_run.launch != nullptr) same_until.push_back(of_run.same_until);
+    return result;
+  };
+  run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants +
+                            fmt::format("physics.conduction_bound = {}\n", conduction_bound)),
+                   options);
+  return same_until;
+}
+
+TEST(CriticalGapStudy, ALongerLaunchGoesOnFromTheCasesOwnWhereBothAreOneUntilItsExit) {
+  const scene::Scene own = study_of(critical_text + gap_keys + synthetic_constants).scene.scene;
+  const double short_share = scene::make_plan(own).conduction.value,
+               long_share = scene::make_plan(with_longer_launch(own).value()).conduction.value;
+  ASSERT_LT(short_share, long_share);
+  EXPECT_EQ(same_until_of(2.0 * long_share), std::vector{18e-3});
+  EXPECT_EQ(same_until_of(0.5 * short_share), std::vector{18e-3});
+  EXPECT_TRUE(same_until_of(0.5 * (short_share + long_share)).empty()) << "the longer one alone conducts";
 }
 
 TEST(CriticalGapStudy, TheResultDoesNotDependOnTheNumberOfThreads) {

@@ -2,6 +2,7 @@
 #include "burning_scenes.hpp"
 #include "launchsafe/materials/deflagration.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -75,6 +76,33 @@ TEST(Checkpoints, LeadToTheSameLaunchBitwise) {
     // Without checkpoints the mechanics is the same, and with them it is no other launch.
     EXPECT_EQ(run_mechanics(scene).trace.bottom_pressure, from_start.trace.bottom_pressure);
   }
+}
+
+TEST(Checkpoints, ALongerLaunchGoesOnFromItsBeginBitwise) {
+  scene::Scene shell = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
+  shell.numerics.cell_size = 10e-3;
+  shell.numerics.inertial_scaling = 16.0;
+  const MechanicsResult launch = launch_of(shell);
+  scene::Scene barrel = shell;
+  barrel.load = scene::longer_launch(shell.load).value();
+  const MechanicsResult whole = run_mechanics(barrel);
+  RunOptions options;
+  options.launch = &launch;
+  options.same_until = scene::read_time(shell.load);
+  const MechanicsResult continued = run_mechanics(barrel, options);
+  EXPECT_GT(continued.steps_before, whole.steps / 2);
+  EXPECT_EQ(continued.steps, whole.steps);
+  EXPECT_EQ(continued.trace.time, whole.trace.time);
+  EXPECT_EQ(continued.trace.bottom_pressure, whole.trace.bottom_pressure);
+  EXPECT_EQ(continued.trace.friction, whole.trace.friction);
+  EXPECT_EQ(continued.end_time, whole.end_time);
+  ASSERT_EQ(continued.monitor.size(), whole.monitor.size());
+  for (std::size_t i = 0; i < whole.monitor.size(); ++i) {
+    EXPECT_EQ(continued.monitor[i].time, whole.monitor[i].time);
+    EXPECT_EQ(continued.monitor[i].energy.external, whole.monitor[i].energy.external);
+  }
+  options.same_until = 0.0;
+  EXPECT_EQ(run_mechanics(barrel, options).steps_before, 0u) << "nothing is said to be the same";
 }
 
 TEST(Checkpoints, SaveMostOfARunThatIgnitesLate) {

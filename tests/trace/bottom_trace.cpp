@@ -56,6 +56,15 @@ TEST(ThinnedTrace, KeepsTheIntegralOfThePressure) {
   }
 }
 
+TEST(Trace, OfRingsHasNoObservationPoints) {
+  const BottomTrace whole = example(5), rings = of_rings(whole);
+  ASSERT_EQ(rings.stations.size(), 1u);
+  EXPECT_EQ(rings.stations[0].name, "S1");
+  EXPECT_EQ(rings.bottom_pressure, whole.bottom_pressure);
+  for (const auto& energy : rings.friction)
+    EXPECT_EQ(energy, (std::vector{100.0, 101.0, 102.0, 103.0, 104.0}));
+}
+
 TEST(Trace, UntilATimeEndsWithTheLastSampleBefore) {
   const BottomTrace whole = example(9);
   const BottomTrace cut = until(whole, whole.time[5]),

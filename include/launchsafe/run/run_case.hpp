@@ -26,11 +26,14 @@ struct RunOptions {
   /// For `run_with_skin` with two-way coupling: the finished mechanics of the same launch, from whose
   /// checkpoints it goes on. The scenes may differ in what does not influence the mechanics.
   const MechanicsResult* launch = nullptr;
+  /// s, for `run_mechanics`: until then the scene's launch is `launch`, from whose checkpoints it goes on.
+  double same_until = 0;
 };
 
 /// Runs the mechanics of a scene over its load's duration and records the bottom trace, the monitors and the
 /// snapshots. Never throws on numerical failure: the status says what happened, and what was recorded until
-/// then is kept. The result depends on the scene alone, bitwise, not on threads or on what else runs.
+/// then is kept. The result depends on the scene alone, bitwise, not on threads, on what else runs, or on
+/// the launch from which it goes on.
 MechanicsResult run_mechanics(const scene::Scene& scene, const RunOptions& options = {});
 
 /// Skin temperatures of one gap (m) on a finished trace, with the trace's sampling error. The scene's surface

@@ -24,6 +24,7 @@ struct CaseRun {
   bool checkpoints = false;        ///< the result of the mechanics keeps them, where it is computed
   /// Of a complete run: the mechanics of its launch, from whose checkpoints it goes on; it outlives the run.
   const run::MechanicsResult* launch = nullptr;
+  double same_until = 0;  ///< s, of the mechanics of a longer launch: until then it is `launch`
 };
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label);
@@ -50,7 +51,8 @@ double memory_of(const CaseRun& run);
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
-  /// at last, where `Study::in_detail` says so, the longer launch if there is one.
+  /// at last, where `Study::in_detail` says so, the longer launch if there is one, which goes on from the
+  /// first.
   std::vector<PlannedRun> runs;
   int shard = 1;
 };

@@ -58,6 +58,9 @@ BottomTrace delayed(const BottomTrace& trace, double instant, double delay);
 /// `trace` and b of `other`. Nothing where the two do not have the same samples and stations.
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other);
 
+/// The rings alone, which tile the bottom: what is asked of them costs half without observation points.
+BottomTrace of_rings(BottomTrace trace);
+
 /// The samples up to a time (s) alone.
 BottomTrace until(const BottomTrace& trace, double time);
 
