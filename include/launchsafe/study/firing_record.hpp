@@ -21,7 +21,9 @@ std::string to_json_text(const FiringRecord& record);
 /// Whether a text is meant to be such a record.
 bool is_firing_record(const std::string& text);
 /// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
-/// in errors.
+/// in errors. Rounds that were made up and a digest that was computed anew are not recognised, as firings
+/// that were made up are not: a digest guards against mistakes and idle edits. Constants of the scene that
+/// are not those of the posterior buy nothing, as verdicts count with the heat that the posterior asks for.
 scene::Expected<FiringRecord> parse_firing_record(const std::string& text, const std::string& file);
 
 /// All of it as a text, of which another one is another calibration.
