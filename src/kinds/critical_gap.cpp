@@ -99,7 +99,7 @@ void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
   longer.same_until = scene::read_time(own.load);
   const double left =
       1.0 + 1.0 / scene::parts_of_launch - longer.same_until / scene::end_time(longer.scene.load);
-  longer.cost = left * cost_of(longer.scene);
+  longer.cost = left * study::cost_of(longer.scene);
 }
 
 /// Runs that go on from a launch which was computed, and what takes each.
@@ -179,7 +179,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   std::vector<CaseRuns> runs = case_runs(study, options.shard.count, confirm);
   std::vector<PlannedRun> longer(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i)
-    if (with_longer_launch(study.cases[runs[i].members.front()].scene.scene)) {
+    if (study::with_longer_launch(study.cases[runs[i].members.front()].scene.scene)) {
       longer[i] = std::move(runs[i].runs.back());
       runs[i].runs.pop_back();
     }
