@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <initializer_list>
 
 namespace launchsafe::app {
@@ -53,13 +54,14 @@ std::string log_folder(const SlurmStudy& study) {
   return folder;
 }
 
-/// The number in the largest unit of which it is a whole multiple, as the program reads it: "8GB", "90s".
+/// The number in the largest unit of which it is a whole multiple, or in the last one, of size 1, as the
+/// program reads it: "8GB", "90s".
 std::string amount(double value, std::initializer_list<std::pair<double, const char*>> units) {
   for (const auto& [size, name] : units) {
     const double number = std::round(value / size);
     if (number * size == value) return report::exact(number) + name;
   }
-  return report::exact(value);
+  return report::exact(value) + std::prev(units.end())->second;
 }
 
 std::string size_text(double bytes) {
