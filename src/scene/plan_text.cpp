@@ -21,7 +21,8 @@ std::string row(std::string_view name, const std::string& value) {
 }
 
 /// A charge that shrank away from its base as it cooled, held at its nose. Linear expansion of Composition B
-/// 54.6e-6/K, of steel 11.7e-6/K [L]: their difference is that of model section 14, 24 um over 0.56 m.
+/// 54.6e-6/K, of steel 11.7e-6/K [A]: of them only the difference counts, 24 um a kelvin over 0.56 m as model
+/// section 14 gives it.
 std::string cooling_text(const Scene& scene) {
   constexpr double of_charge = 54.6e-6, of_steel = 11.7e-6;  // 1/K
   const Extent charge = charge_extent(scene);
