@@ -98,12 +98,13 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 }
 
 CaseAnswer answer_of(const CaseOutcome& outcome) {
-  CaseAnswer answer{.outcome = outcome.outcome,
-                    .failure = outcome.failure,
-                    .validity_warnings = outcome.evidence->validity_warnings,
-                    .friction_rise = outcome.evidence->friction_rise,
-                    .critical = outcome.critical,
-                    .verdicts = outcome.verdicts};
+  CaseAnswer answer;
+  answer.outcome = outcome.outcome;
+  answer.failure = outcome.failure;
+  answer.validity_warnings = outcome.evidence->validity_warnings;
+  answer.friction_rise = outcome.evidence->friction_rise;
+  answer.critical = outcome.critical;
+  answer.verdicts = outcome.verdicts;
   for (const GapVerdict& row : answer.verdicts)
     answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
   const run::MechanicsResult& mechanics = outcome.result.mechanics;

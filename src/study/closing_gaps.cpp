@@ -121,7 +121,11 @@ std::string bond_of(const scene::Scene& scene) {
 void add_points(const StudyCase& input, const ClosingBound& bound, const std::vector<double>& gaps,
                 const RunBatch& run, ClosingAnswer& answer) {
   if (!bound.unknown_for.empty()) {
-    for (const double gap : gaps) answer.points.push_back({.gap = gap, .unknown_for = bound.unknown_for});
+    for (const double gap : gaps) {
+      ClosingPoint& point = answer.points.emplace_back();
+      point.gap = gap;
+      point.unknown_for = bound.unknown_for;
+    }
     return;
   }
   std::vector<CaseRun> runs;
