@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iterator>
 #include <initializer_list>
+#include <iterator>
 
 namespace launchsafe::app {
 namespace {
