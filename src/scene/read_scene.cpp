@@ -77,6 +77,10 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
   settle_load(file.scene);
   if (!file.given.contains("numerics.selective_inertia"))
     file.scene.numerics.selective_inertia = usual_selective_inertia(file.scene);
+  // As a number it is part of what determines a stored launch.
+  if (file.scene.surface.model == GapModel::closing && has_charge(file.scene) &&
+      !file.given.contains("gap.release_duration"))
+    file.scene.surface.release_duration = transit_time(file.scene);
   return validate(file);
 }
 

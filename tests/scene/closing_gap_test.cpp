@@ -87,6 +87,14 @@ TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   }
 }
 
+TEST(ClosingGap, IsWrittenWithTheTimeOverWhichTheChargeLetsGo) {
+  // What determines a stored launch has it, so that none of an earlier release takes its place.
+  EXPECT_NE(to_toml(parse_scene(closing(), "shell.toml")->scene).find("gap.release_duration = "),
+            std::string::npos);
+  EXPECT_EQ(to_toml(parse_scene(small_scene, "shell.toml")->scene).find("release_duration"),
+            std::string::npos);
+}
+
 TEST(ClosingGap, MayBeWiderThanOneOfTheReservoir) {
   const auto wide = [](std::string text) { return with(std::move(text), "0, 0.01 cm", "0, 2 cm"); };
   EXPECT_TRUE(parse_scene(wide(closing()), "shell.toml"));
