@@ -15,11 +15,11 @@
 
 namespace launchsafe::kinds {
 
-using keys::fixed, keys::kelvin, keys::scientific, keys::text;
+using keys::fixed, keys::kelvin, keys::scientific, keys::significant, keys::text;
 using report::centimetres, report::Column, report::Quantities, report::reads_as, report::ReportTable,
     report::Row, report::Shown, report::Table, report::table_of;
-using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::GapVerdict, study::Line,
-    study::StudyCase;
+using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::FittedCurve, study::GapFit,
+    study::GapVerdict, study::Line, study::StudyCase;
 namespace quantity = report::quantity;
 
 namespace {
@@ -127,14 +127,21 @@ Quantities<OtherRow> longer_launch_quantities() {
 
 /// A line over the gap; only that of least squares has errors.
 struct FittedLine {
-  std::string label, name;
+  NamedOutcome of;
+  std::string name;
   const Line* line;
-  const math::LeastSquares* errors = nullptr;
+  const GapFit* fit = nullptr;
 };
 
-Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
-  Quantities<FittedLine> quantities{
-      {for_programs(quantity::case_name()), &FittedLine::label},
+Quantities<FittedLine> line_quantities() {
+  const auto least_squares = [](double math::LeastSquares::*member) {
+    return [member](const GapFit& fit) { return fit.least_squares.*member; };
+  };
+  const auto error = [](std::size_t coefficient) {
+    return [coefficient](const GapFit& fit) { return fit.least_squares.standard_errors[coefficient]; };
+  };
+  return {
+      {quantity::case_name(), &FittedLine::of, &CaseOutcome::input, &StudyCase::label},
       {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
       {{"slope", "slope", fixed(1, keys::kelvin_per_centimetre), "Rise of T max over the gap."},
        &FittedLine::line,
@@ -144,30 +151,75 @@ Quantities<FittedLine> line_quantities(const std::vector<double>& gaps) {
        &Line::intercept},
       {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
        &FittedLine::line,
-       &Line::root_mean_square}};
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const keys::Form form = quantity::gap().form;
-    quantities.emplace_back(Column{"residual_" + report::digits_of(gaps[i], form) + "_" + form.unit,
-                                   "residual " + report::digits_of(gaps[i], form), fixed(2, kelvin),
-                                   "T max at that gap less the line."},
-                            [i](const FittedLine& row) {
-                              return i < row.line->residuals.size() ? row.line->residuals[i]
-                                                                    : study::not_a_number;
-                            });
+       &Line::root_mean_square},
+      {for_programs(Column{"slope_standard_error", "slope error", fixed(1, keys::kelvin_per_centimetre),
+                           "Standard error of the slope."}),
+       &FittedLine::fit, error(1)},
+      {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
+                           "Standard error of the intercept."}),
+       &FittedLine::fit, error(0)},
+      {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
+       &FittedLine::fit, least_squares(&math::LeastSquares::r_squared)},
+      {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
+                           "Standard deviation of the residuals."}),
+       &FittedLine::fit, least_squares(&math::LeastSquares::residual_deviation)},
+      {for_programs(Column{"reaches_ignition", "reaches ignition at", significant(4, keys::centimetre),
+                           "Gap at which the line reaches the ignition temperature."}),
+       &FittedLine::fit, &GapFit::reaches_ignition},
+      {for_programs(Column{"reaches_ignition_half_width", "within", significant(2, keys::centimetre),
+                           "Half the width of the band of 95 % there."}),
+       &FittedLine::fit, &GapFit::reaches_ignition_half_width}};
+}
+
+/// A gap that does not ignite beside the lines through it and its neighbours.
+struct FittedRow {
+  NamedOutcome of;
+  std::size_t gap;
+  const GapFit& fit() const { return *of->fit; }
+  double residual(const std::optional<Line>& line) const {
+    return line ? line->residuals[gap] : study::not_a_number;
   }
-  return keys::joined<FittedLine>(
-      {quantities,
-       {{for_programs(Column{"slope_standard_error", "slope error", fixed(1, keys::kelvin_per_centimetre),
-                             "Standard error of the slope."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[1]; }},
-        {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
-                             "Standard error of the intercept."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.standard_errors[0]; }},
-        {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.r_squared; }},
-        {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
-                             "Standard deviation of the residuals."}),
-         &FittedLine::errors, [](const math::LeastSquares& fit) { return fit.residual_deviation; }}}});
+};
+
+Quantities<FittedRow> fitted_row_quantities() {
+  return {{quantity::case_name(), &FittedRow::of, &CaseOutcome::input, &StudyCase::label},
+          {quantity::gap(), [](const FittedRow& row) { return row.fit().gaps[row.gap]; }},
+          {quantity::temperature_max(), [](const FittedRow& row) { return row.fit().temperatures[row.gap]; }},
+          {{"residual", "less the line", fixed(2, kelvin), "T max less the line of least squares."},
+           [](const FittedRow& row) { return row.residual(row.fit().ordinary); }},
+          {{"left_out", "less what the others predict", fixed(2, kelvin),
+            "T max less the line of least squares through the other rows."},
+           [](const FittedRow& row) { return row.fit().left_out[row.gap]; }},
+          {{"residual_mixed", "less the published form", fixed(2, kelvin),
+            "T max less the line of that slope through the zero-gap row."},
+           [](const FittedRow& row) { return row.residual(row.fit().mixed); }},
+          {{"residual_published", "less the published line", fixed(2, kelvin),
+            "T max less the line as published."},
+           [](const FittedRow& row) { return row.residual(row.fit().published); }}};
+}
+
+/// A curve through the rows of a case.
+struct CurveRow {
+  NamedOutcome of;
+  const FittedCurve* curve;
+};
+
+Quantities<CurveRow> curve_quantities() {
+  return {{quantity::case_name(), &CurveRow::of, &CaseOutcome::input, &StudyCase::label},
+          {{"curve", "curve", text(), "What was fitted."}, &CurveRow::curve, &FittedCurve::name},
+          {{"coefficients", "coefficients", keys::count(), "How many it has."},
+           &CurveRow::curve,
+           &FittedCurve::coefficients},
+          {{"rms", "RMS", significant(2, kelvin), "Root mean square of the residuals."},
+           &CurveRow::curve,
+           &FittedCurve::root_mean_square},
+          {{"left_out_rms", "RMS left out", significant(2, kelvin),
+            "The same of what each row is off the curve through the others."},
+           &CurveRow::curve,
+           &FittedCurve::left_out},
+          {{"aicc", "AICc", significant(3), "Akaike's criterion, corrected for few rows: less is better."},
+           &CurveRow::curve,
+           &FittedCurve::corrected_akaike}};
 }
 
 Table as_calibrated_table(const CriticalGapResult& result) {
@@ -219,20 +271,37 @@ Table without_exit_table(const CriticalGapResult& result) {
                      &CaseOutcome::longer_launch, "critical_gap.note.without_exit");
 }
 
-Table fit_table(const CaseOutcome& outcome) {
-  if (!outcome.fit) return {};
-  const study::GapFit& fit = *outcome.fit;
-  const auto& ols = fit.least_squares;
-  const std::string& label = outcome.input.label;
-  std::vector<FittedLine> rows{{label, "least squares", &fit.ordinary, &ols}};
-  if (fit.mixed)
-    rows.push_back({label, "its slope through the zero-gap row (the published form)", &*fit.mixed});
-  if (fit.published) rows.push_back({label, "as published", &*fit.published});
-  const Quantities<FittedLine> quantities = line_quantities(fit.gaps);
-  Table table = table_of("T max = intercept + slope * gap over the rows that do not ignite, " + label,
-                         quantities, rows);
-  table.notes = said("critical_gap.note.fit", report::json_of(quantities, rows.front()));
+Table fit_table(const CriticalGapResult& result) {
+  std::vector<FittedLine> rows;
+  for (const CaseOutcome& outcome : result.details) {
+    if (!outcome.fit) continue;
+    const GapFit& fit = *outcome.fit;
+    rows.push_back({&outcome, "least squares", &fit.ordinary, &fit});
+    if (fit.mixed)
+      rows.push_back({&outcome, "its slope through the zero-gap row (the published form)", &*fit.mixed});
+    if (fit.published) rows.push_back({&outcome, "as published", &*fit.published});
+  }
+  Table table =
+      table_of("T max = intercept + slope * gap over the rows that do not ignite", line_quantities(), rows);
+  Row facts = Row::object();
+  for (const FittedLine& row : rows) facts["lines"].push_back(report::json_of(line_quantities(), row));
+  table.notes = said("critical_gap.note.fit", facts);
   return table;
+}
+
+Table fitted_row_table(const CriticalGapResult& result) {
+  std::vector<FittedRow> rows;
+  for (const CaseOutcome& outcome : result.details)
+    for (std::size_t i = 0; outcome.fit && i < outcome.fit->gaps.size(); ++i) rows.push_back({&outcome, i});
+  return table_of("Rows against the lines", fitted_row_quantities(), rows);
+}
+
+Table curve_table(const CriticalGapResult& result) {
+  std::vector<CurveRow> rows;
+  for (const CaseOutcome& outcome : result.details)
+    if (outcome.fit)
+      for (const FittedCurve& curve : outcome.fit->curves) rows.push_back({&outcome, &curve});
+  return table_of("Three curves through the rows that do not ignite", curve_quantities(), rows);
 }
 
 Table run_table(const CriticalGapResult& result) {
@@ -320,10 +389,11 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
                             ReportTable{without_exit_table(result), "", "without_exit"},
                             ReportTable{air_model_table(result), "", "air_models"},
                             ReportTable{air_energy_table(result), "", "air_energy"},
-                            ReportTable{gap_share_table(result), "", "gap_shares", Shown::page}})
+                            ReportTable{gap_share_table(result), "", "gap_shares", Shown::page},
+                            ReportTable{fit_table(result), "", "fit"},
+                            ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
+                            ReportTable{curve_table(result), "", "fit_curves", Shown::page}})
     report.items.push_back(std::move(table));
-  for (const CaseOutcome& outcome : result.details)
-    report.items.push_back(ReportTable{fit_table(outcome), "", "fit"});
   report.items.push_back(report::Statement{undecided_text(result)});
 }
 
@@ -344,7 +414,9 @@ std::vector<ResultTable> detail_results() {
                                {"air_models", "", keys::described(film_quantities())},
                                {"air_energy", "", report::air_energy_columns()},
                                {"gap_shares", "", report::gap_share_columns()},
-                               {"fit", "", keys::described(line_quantities({}))},
+                               {"fit", "", keys::described(line_quantities())},
+                               {"fit_rows", "", keys::described(fitted_row_quantities())},
+                               {"fit_curves", "", keys::described(curve_quantities())},
                                {"runs", "", report::run_columns()}};
   std::ranges::move(closing_results(), std::back_inserter(all));
   return all;

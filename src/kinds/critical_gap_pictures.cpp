@@ -20,8 +20,6 @@ using study::CaseAnswer, study::CriticalGap, study::CriticalGapKind, study::Stud
 namespace {
 
 constexpr std::size_t most_pictures = 9, most_lines = 6;
-/// What the pictures show, for who cannot see them.
-constexpr const char* picture_text = "critical gap";
 
 /// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
@@ -289,9 +287,11 @@ GapPictures gap_pictures(const CriticalGapResult& result) {
     made.remarks.push_back(
         fmt::format("The pictures have lines for {} of {} values of {}; critical_gaps.csv has all.",
                     most_lines, several[1]->values.size(), several[1]->key.heading));
-  for (std::size_t i = 0; i < std::min(plots.size(), most_pictures); ++i)
+  for (std::size_t i = 0; i < std::min(plots.size(), most_pictures); ++i) {
+    std::string shows = plots[i].title;
     made.pictures.push_back({fmt::format("critical_gap{}.svg", i == 0 ? "" : fmt::format("_{}", i + 1)),
-                             std::move(plots[i]), picture_text});
+                             std::move(plots[i]), std::move(shows)});
+  }
   return made;
 }
 

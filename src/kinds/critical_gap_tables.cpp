@@ -79,10 +79,16 @@ Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
   return quantities;
 }
 
-/// What a case is called, and where it lies: of few cases the name says it.
+/// What a case is called, and where it lies: of few cases the name says it, of many the axes do.
 Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
   Quantities<JudgedCase> place = of_part<JudgedCase>(answered_axes(study), &JudgedCase::answered);
-  if (!in_detail) return place;
+  if (!in_detail) {
+    place.emplace_back(for_programs(quantity::case_name()),
+                       [keys = report::shown_axes(study)](const JudgedCase& row) {
+                         return place_text(keys, row.answered.coordinates());
+                       });
+    return place;
+  }
   for (auto& each : place) each = for_programs(each);
   place.emplace(place.begin(), quantity::case_name(), &JudgedCase::answered, &AnsweredCase::label);
   return place;
@@ -101,6 +107,11 @@ Quantities<AnsweredCase> run_quantities(const std::vector<double>& gaps) {
          [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 
+Column largest_safe_gap() {
+  return for_programs(Column{"largest_safe_gap", "largest SAFE gap", keys::significant(6, keys::centimetre),
+                             "Largest computed gap that, with all smaller ones, is SAFE."});
+}
+
 Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail) {
   Column assumed{"assumed_shares", "assumed", text(),
                  "What the bounds rest on and nothing says of the case."};
@@ -112,6 +123,8 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
       {place_quantities(study, in_detail),
        of_part<JudgedCase>(report::bounded_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer,
                            &CaseAnswer::critical),
+       {{largest_safe_gap(), &JudgedCase::answered, &AnsweredCase::answer, &CaseAnswer::verdicts,
+         study::largest_safe_gap}},
        in_detail ? confirmed : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
          [study](const JudgedCase& row) {

@@ -121,6 +121,17 @@ std::string to_text(const Report& report, const std::filesystem::path& folder) {
 
 namespace {
 
+/// Shares of the uncertainty that the study neither states nor has a record of, by the keys that state them.
+nlohmann::ordered_json assumed_json(const study::Study& study) {
+  auto assumed = nlohmann::ordered_json::object();
+  if (!std::isfinite(study.input_uncertainty)) assumed["input_uncertainty"] = true;
+  if (study.accuracy.empty() && !std::isfinite(study.numerical_uncertainty))
+    assumed["numerical_uncertainty"] = true;
+  if (!study.model_form && !std::isfinite(study.model_form_uncertainty))
+    assumed["model_form_uncertainty"] = true;
+  return assumed;
+}
+
 /// What verdicts rest on that were calibrated on firings.
 nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
   int rounds[2] = {0, 0};
@@ -142,7 +153,13 @@ std::string study_json(const study::StudyFile& study, const Report& report,
     head["firings"] = firings_json(*study.study.calibration.firings);
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
-  if (study.study.kind.gives_verdicts) add_acceptances(study::acceptances_of(study), head);
+  if (study.study.kind.gives_verdicts) {
+    head["assumed"] = assumed_json(study.study);
+    add_acceptances(study::acceptances_of(study), head);
+  }
+  for (const auto& item : report.items)
+    if (const auto* picture = std::get_if<Picture>(&item))
+      head["pictures"].push_back({{"file", picture->file}, {"shows", picture->alternative}});
   std::string text = json_file_text(head);
   text.resize(text.rfind("\n}"));  // open the object again
   std::vector<const ReportTable*> tables;

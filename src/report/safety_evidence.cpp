@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <sstream>
 #include <string_view>
 
@@ -85,8 +84,8 @@ Tells told_by(const StudyEvidence& study) {
     const Row& rows = study.rows(table);
     return !rows.empty() && rows.front().contains(key);
   };
-  // A study of a few launches names each of them; of many, what varies tells them apart.
-  if (study.study.contains("verdicts")) return first_has("cases", "case") ? Tells::launch : Tells::sweep;
+  // A study of a few launches tells how each of them ran.
+  if (study.study.contains("verdicts")) return study.study.contains("runs") ? Tells::launch : Tells::sweep;
   if (first_has("settings", "temperature_bound_K")) return Tells::accuracy;
   if (study.study.contains("indices")) return Tells::sensitivity;
   if (first_has("cases", "invariants")) return Tells::stability;
@@ -135,18 +134,6 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
   return {};
 }
 
-/// An unfinished study has told of its runs in its results file alone.
-store::MaybeError count_runs(StudyEvidence& study) {
-  if (!std::filesystem::exists(study.folder / "cases")) return {};
-  const auto opened = store::CaseStore::open_to_read(study.folder, study.record.manifest.model_version);
-  if (!opened) return opened.error();
-  for (const store::RunRecord& run : (*opened)->records()) {
-    study.done += run.state == store::CaseState::done;
-    study.failed += run.state == store::CaseState::failed || run.state == store::CaseState::timed_out;
-  }
-  return {};
-}
-
 store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) {
   StudyEvidence study;
   study.label = fmt::format("S{}", number);
@@ -176,7 +163,6 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
   if (auto error = read_files(study)) return *error;
   study.tells = told_by(study);
   if (auto error = check_verdicts(study)) return *error;
-  if (auto error = count_runs(study)) return *error;
   return study;
 }
 
@@ -348,9 +334,8 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
   const std::size_t gaps = verdicts.size() / criticals.size();
   std::vector<CaseEvidence> cases;
   for (const Row& critical : criticals) {
-    CaseEvidence each{&study, &critical, &critical, {}, {}, {}, {}};
+    CaseEvidence each{&study, &critical, &critical, text_of(critical, "case"), {}, {}};
     for (std::size_t i = 0; i < gaps; ++i) each.verdicts.push_back(&verdicts[cases.size() * gaps + i]);
-    std::vector<std::string> places;
     for (const Row& axis : axes) {
       const std::string column = text_of(axis, "key"), unit = text_of(axis, "unit");
       const auto key = scene::describe_key(study.scene, text_of(axis, "scene_key"), {});
@@ -358,14 +343,7 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
       if (std::isnan(shown)) shown = number_of(*each.verdicts.front(), column);
       if (!key || std::isnan(shown)) continue;
       each.values[key->name] = shown / shown_value(1.0, {.dimension = key->dimension, .unit = unit});
-      if (found_in(axis, "values").size() < 2) continue;
-      places.push_back(text_of(axis, "name") + " " + significant(shown, 6) +
-                       (unit.empty() ? "" : " " + unit));
-      std::ranges::replace(places.back(), '_', ' ');
     }
-    const std::string place = fmt::format("{}", fmt::join(places, ", "));
-    each.label = critical.contains("case") ? text_of(critical, "case") : place;
-    each.others = fmt::format("{}", fmt::join(places | std::views::drop(2), ", "));
     for (const Row& run : study.rows("runs"))
       if (text_of(run, "case") == each.label) each.run = &run;
     cases.push_back(std::move(each));

@@ -62,8 +62,6 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
                 {"command", study.command()},
                 {"scene_title", study.scene.scene.title},
                 {"finished", study.finished()},
-                {"done", study.done},
-                {"failed", study.failed},
                 {"record_used", record_text(main, study)},
                 {"own_scenes", study.tells == Tells::stability},
                 {"all_differences", all},
@@ -142,30 +140,14 @@ bool is_uncertain(const Row* verdict) {
          code == to_string(study::ReasonCode::unaccepted);
 }
 
-/// The row of a case with its critical gap as printed: what moves towards ignition alone lowers it alone.
+/// The row of a case, and how its verdicts came out.
 Row told_case(const CaseEvidence& judged) {
   Row row = *judged.critical;
-  const auto number = [&](const char* key) { return number_of(row, key); };
-  const auto verdict_of = [](const Row* verdict) { return text_of(*verdict, "verdict"); };
   row["case"] = judged.label;
   row["confirmed"] = is_confirmed(judged);
-  row["critical_gap"] = row["critical_gap_reads_as"];
-  // Digits that tell the ends of the bracket apart.
-  row["bracket_decimals"] =
-      std::max(decimals_for(number("critical_gap_upper_cm") - number("critical_gap_lower_cm")), 3);
-  const auto gap = measured_gap(number("critical_gap_cm"), number("critical_gap_at_least_cm"),
-                                number("critical_gap_at_most_cm"));
-  if (is_value(judged) && gap) {
-    row["critical_gap"] = gap->text("cm");
-    row["lower_cm"] = gap->lower();
-    row["upper_cm"] = gap->upper();
-    row["from"] = fixed(std::max(0.0, gap->lower()), gap->decimals);
-    row["to"] = fixed(gap->upper(), gap->decimals);
-  }
-  row["largest_safe_gap_cm"] = allowed_in_all({judged}, GapCriterion{});
-  row["of"] = judged.verdicts.size();
   for (const char* word : {"SAFE", "INDETERMINATE", "UNSAFE"})
-    row[word] = std::ranges::count(judged.verdicts, word, verdict_of);
+    row[word] = std::ranges::count(judged.verdicts, word,
+                                   [](const Row* verdict) { return text_of(*verdict, "verdict"); });
   return row;
 }
 
@@ -192,22 +174,6 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
   if (!text_of(row, "extrapolated").empty()) row["beside"].push_back("extrapolated");
   return row;
-}
-
-/// What is smallest, and in how many cases there is none.
-Row summary_of(const std::vector<CaseEvidence>& cases) {
-  std::size_t none_safe = 0, unknown = 0;
-  for (const CaseEvidence& each : cases) {
-    const std::string kind = text_of(*each.critical, "critical_gap_kind");
-    none_safe += kind == "all-ignite";
-    unknown += kind != "all-ignite" && kind != "all-safe" && kind != "value";
-  }
-  const CaseEvidence* smallest = smallest_of(cases);
-  return {{"count", cases.size()},
-          {"sweeps", !cases.empty() && cases.front().study->tells == Tells::sweep},
-          {"none_safe", none_safe},
-          {"unknown", unknown},
-          {"smallest", smallest != nullptr ? told_case(*smallest) : Row()}};
 }
 
 /// The case of the scene's own launch, or else the one with the smallest critical gap, or the first.
@@ -242,49 +208,16 @@ std::string temperature_text(const StudyEvidence& main, const std::vector<CaseEv
   return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
 }
 
-/// Which shares of the uncertainty the main study neither has a record of nor states; nothing where none is
-/// missing.
-Row assumed_by(const StudyEvidence& main) {
-  const auto assumes = [&](const char* record, const char* by_hand) {
-    return !main.asked.contains(record) &&
-           std::ranges::none_of(main.rows("stated_by_hand"),
-                                [&](const Row& row) { return text_of(row, "key") == by_hand; });
-  };
-  const bool inputs = assumes("", "input_uncertainty"),
-             models = assumes("model_form", "model_form_uncertainty"),
-             computation = assumes("accuracy", "numerical_uncertainty");
-  if (!inputs && !computation && !models) return {};
-  return {{"inputs", inputs}, {"computation", computation}, {"models", models}};
-}
-
-/// A study's own drawing of that name.
-Row drawing_of(const StudyEvidence* study, const std::string& file, PageFacts& all) {
-  if (study == nullptr || !study->drawings.contains(file)) return {};
-  all.drawings[file] = study->drawings.at(file);
-  return {{"file", file}};
-}
-
-/// The pictures that a sweep drew: one for every place on the axes behind the first two, in the order of the
-/// cases.
-Row pictures_of(const StudyEvidence& sweep, PageFacts& all) {
-  std::vector<std::vector<CaseEvidence>> places;
-  for (CaseEvidence& each : cases_of(sweep)) {
-    auto place =
-        std::ranges::find(places, each.others, [](const auto& cases) { return cases.front().others; });
-    if (place == places.end()) place = places.insert(place, std::vector<CaseEvidence>{});
-    place->push_back(std::move(each));
-  }
-  std::vector<std::string> axes;
-  for (const Row& axis : sweep.rows("axes"))
-    if (axes.size() < 2) axes.push_back(text_of(axis, "name"));
+/// The pictures of a study whose names begin so, as it drew them, with what it says that they show.
+Row drawings_of(const StudyEvidence* study, const std::string& name, PageFacts& all) {
   Row pictures = Row::array();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    Row picture =
-        drawing_of(&sweep, i == 0 ? "critical_gap.svg" : fmt::format("critical_gap_{}.svg", i + 1), all);
-    if (picture.is_null()) continue;
-    picture.update(summary_of(places[i]));
-    picture.update({{"axes", axes}, {"others", places[i].front().others}});
-    pictures.push_back(std::move(picture));
+  if (study == nullptr) return pictures;
+  for (const auto& [file, drawing] : study->drawings) {
+    if (!file.starts_with(name)) continue;
+    all.drawings[file] = drawing;
+    Row& picture = pictures.emplace_back(Row{{"file", file}});
+    for (const Row& each : study->rows("pictures"))
+      if (text_of(each, "file") == file) picture = each;
   }
   return pictures;
 }
@@ -296,7 +229,8 @@ Row own_facts(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts
   facts["completed"] = own.completed();
   facts["certain"] = own.completed() && !std::ranges::all_of(own.verdicts, is_uncertain);
   if (!own.completed()) return facts;
-  facts.update(fit_facts(own));
+  facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
+                                        [&](const Row& row) { return text_of(row, "case") == own.label; });
   for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
   if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
     all.facts["pictures"] = picture_facts(own, stored->second, all);
@@ -311,13 +245,8 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
   facts["own"]["told"] = cases.size() == 1 || own.is_own();
   facts["judged"] = true;
   Row verdicts = Row::array();
-  for (const CaseEvidence& each : cases) {
-    facts["fits"].push_back(fit_facts(each)["left_out"]);
-    if (facts["fits"].back()["rows"] > 0)
-      facts["drawings"]["launch"] = drawing_of(own.study, "temperature.svg", all);
+  for (const CaseEvidence& each : cases)
     for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row));
-  }
-  if (cases.size() > 1) facts["left_out"] = facts["fits"];
   facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {{"verdicts", verdicts},
                                                                       {"cases", facts["answer"]["cases"]}};
 }
@@ -350,20 +279,20 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion);
-  if (cases.size() > 1 || (!cases.empty() && !of_launch)) facts["summary"] = summary_of(cases);
-  facts["assumed"] = assumed_by(main);
+  facts["sweeps"] = main.tells == Tells::sweep;
   std::set<std::string> models;  // under which ignition is not excluded
   for (const Row& row : main.rows("verdicts"))
     if (text_of(row, "verdict") != "UNSAFE") models.insert(text_of(row, "model_form"));
   models.erase("");
   facts["other_models"] = models;
   if (of_launch) add_launch(evidence, cases, all);
-  if (const StudyEvidence* sweep = evidence.find(Tells::sweep)) facts["envelopes"] = pictures_of(*sweep, all);
   if (const StudyEvidence* accuracy = evidence.find(Tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
   if (const StudyEvidence* sensitivity = evidence.find(Tells::sensitivity))
     facts["same_launch"] = is_of_same_launch(*sensitivity);
-  facts["drawings"]["models"] = drawing_of(evidence.find(Tells::models), "model_form.svg", all);
+  facts["drawings"] = {{"launch", drawings_of(evidence.find(Tells::launch), "temperature", all)},
+                       {"sweep", drawings_of(evidence.find(Tells::sweep), "critical_gap", all)},
+                       {"models", drawings_of(evidence.find(Tells::models), "model_form", all)}};
   // How far those published rows are off that were not fitted.
   double worst = 0;
   for (const Row& row : main.rows("comparison"))
@@ -390,7 +319,7 @@ store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const DrawingLimits& limits) {
   const PageFacts facts = safety::facts_of(evidence, criterion);
   return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
-                     {{"format", "launchsafe safety report 2"},
+                     {{"format", "launchsafe safety report 3"},
                       {"title", evidence.main().title},
                       {"subject", evidence.main().scene.scene.title},
                       {"answer", facts.facts["answer"]}},

@@ -11,7 +11,6 @@ struct CaseEvidence {
   const Row* critical;  ///< its row of the table of cases
   const Row* run;       ///< its row of the table of runs; that of the case where the study has none
   std::string label;    ///< "496 MPa, 30 um, 1 mm"; of a sweep its place on the axes
-  std::string others;   ///< of a sweep its place on the axes behind the first two
   std::vector<const Row*> verdicts;
   std::map<std::string, double> values;  ///< SI, by scene key: in what its launch may differ
 
@@ -34,8 +33,5 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 Row scene_facts(const StudyEvidence& study, PageFacts& all);
 /// The load, histories, profiles and fields of a case that was stored.
 Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFacts& all);
-/// The line through T max of a case against the gap, and how well a row follows from the others, by curve;
-/// only how many rows there are where these are too few.
-Row fit_facts(const CaseEvidence& judged);
 
 }  // namespace launchsafe::report::safety

@@ -225,7 +225,12 @@ Quantities<study::CriticalGap> bounded_gap_quantities() {
         {{"critical_gap_at_most", "at most", keys::significant(3, centimetre),
           "Upper bound of the critical gap."},
          &study::CriticalGap::bounds,
-         &study::GapBounds::at_most}}});
+         &study::GapBounds::at_most},
+        {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
+                             "How it is quoted, in digits that its bounds bear."}),
+         [](const study::CriticalGap& gap) {
+           return measured_gap(gap) ? measured_text(gap) : reads_as(gap);
+         }}}});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {

@@ -412,7 +412,8 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     temperatures.push_back(row.maximum.temperature);
   }
   judge_rows(study, outcome.evidence, outcome.critical, outcome.verdicts);
-  outcome.fit = fit_gaps(gaps, temperatures, study.reference_line);
+  outcome.fit =
+      fit_gaps(gaps, temperatures, outcome.input.scene.scene.charge().kinetics, study.reference_line);
 }
 
 }  // namespace launchsafe::study

@@ -2,6 +2,8 @@
 
 #include "launchsafe/study/statement_text.hpp"
 
+#include <algorithm>
+
 namespace launchsafe::study {
 
 std::string to_string(surface::IgnitionCause cause) {
@@ -37,5 +39,14 @@ void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& o
 }
 
 std::string reason_text(const GapVerdict& row) { return reason_text(row.evidence, row.judgement); }
+
+double largest_safe_gap(const std::vector<GapVerdict>& rows) {
+  double largest = not_a_number, first_other = no_ignition;
+  for (const GapVerdict& each : rows)
+    if (each.judgement.verdict != Verdict::safe) first_other = std::min(first_other, each.gap);
+  for (const GapVerdict& each : rows)
+    if (each.gap < first_other && !(each.gap <= largest)) largest = each.gap;
+  return largest;
+}
 
 }  // namespace launchsafe::study

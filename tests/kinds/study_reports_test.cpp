@@ -61,6 +61,31 @@ TEST(CriticalGapReport, JsonHasTheKeysThatOtherProgramsReadFrom) {
       json["fit"][0]["slope_standard_error_K_per_cm"].is_null());  // two rows: no degree of freedom left
 }
 
+TEST(CriticalGapReport, TellsWhichSharesAreAssumedUntilTheStudyStatesThem) {
+  const auto assumed = [](const std::string& keys) {
+    return json_of(run_critical_gap(study_of(keys + study_text + synthetic_constants), synthetic_options()))
+        .at("assumed");
+  };
+  const auto alone = assumed("");
+  EXPECT_TRUE(alone.contains("numerical_uncertainty"));
+  EXPECT_EQ(alone.size(), 1u) << "the study states the others";
+  EXPECT_TRUE(assumed("numerical_uncertainty = { value = \"5 K\", because = \"a mesh study\" }\n").empty());
+}
+
+// The largest with all smaller ones: a gap that is not SAFE ends it, in whatever order they were asked.
+TEST(CriticalGapReport, TellsTheLargestSafeGapOfTheComputedOnes) {
+  const auto gap = [](double width, study::Verdict verdict) {
+    study::GapVerdict row;
+    row.gap = width;
+    row.judgement.verdict = verdict;
+    return row;
+  };
+  using enum study::Verdict;
+  EXPECT_EQ(largest_safe_gap({gap(3e-4, safe), gap(1e-4, safe), gap(2e-4, indeterminate)}), 1e-4);
+  EXPECT_EQ(largest_safe_gap({gap(0, safe), gap(2e-4, safe)}), 2e-4);
+  EXPECT_TRUE(std::isnan(largest_safe_gap({gap(0, unsafe), gap(1e-4, safe)})));
+}
+
 TEST(CriticalGapReport, NothingThatFailedIsANumber) {
   StudyOptions options = synthetic_options();
   options.runners.mechanics = [](const scene::Scene&, const run::RunOptions&) -> run::MechanicsResult {

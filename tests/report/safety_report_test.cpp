@@ -15,7 +15,7 @@ TEST_F(SafetyReport, ACriterionIsNamedWithItsSourceAndWhatItAllows) {
 TEST_F(SafetyReport, TheJsonNamesTheOriginOfEveryBlock) {
   const auto json =
       nlohmann::json::parse(file_of({shipped("critical_gap_155mm"), shipped("accuracy")}, "report.json"));
-  EXPECT_EQ(json["format"], "launchsafe safety report 2");
+  EXPECT_EQ(json["format"], "launchsafe safety report 3");
   EXPECT_EQ(json["answer"]["largest_safe_gap_cm"], 0.02);
   EXPECT_TRUE(json["answer"]["recommended_gap_cm"].is_null());
   int tables = 0;
@@ -172,6 +172,11 @@ void add_case(nlohmann::ordered_json& results) {
   results["runs"].push_back(results["runs"][0]);
   results["runs"][1]["case"] = results["cases"][1]["case"];
   results["runs"][1]["stored_case"] = "";
+  const auto curves = results["fit_curves"];
+  for (auto row : curves) {
+    row["case"] = results["cases"][1]["case"];
+    results["fit_curves"].push_back(row);
+  }
   for (auto row : verdicts) {
     row["peak_pressure_MPa"] = 510.0;
     row["verdict"] = "INDETERMINATE";
@@ -189,10 +194,9 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE in every case"));
   const auto json = nlohmann::json::parse(file_of({study}, "report.json"));
   for (const auto& block : json["sections"][4]["blocks"]) {
-    if (block["id"] != "left_out_rows") continue;
-    ASSERT_EQ(block["rows"].size(), 2u);
-    EXPECT_EQ(block["rows"][1]["case"], "510 MPa, 30 um, 1 mm");
-    EXPECT_EQ(block["rows"][1]["left_out_rms_K"], block["rows"][0]["left_out_rms_K"]) << "the same rows";
+    if (block["id"] != "curves") continue;
+    ASSERT_EQ(block["rows"].size(), 6u) << "three curves a case";
+    EXPECT_EQ(block["rows"][3]["case"], "510 MPa, 30 um, 1 mm");
     EXPECT_GT(block["rows"][0]["left_out_rms_K"], block["rows"][0]["rms_K"]);
     return;
   }
@@ -201,7 +205,9 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
 
 TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
   const path study = copy_of("critical_gap_155mm");
+  EXPECT_TRUE(has(file_of({study}, "report.md"), "the spread of the inputs"));
   change(study, [](auto& results) {
+    results["assumed"].erase("input_uncertainty");
     results["stated_by_hand"] = {{{"key", "input_uncertainty"}, {"K", 12.5}, {"because", "30 rounds fired"}}};
   });
   const std::string page = file_of({study}, "report.md"), one = page.substr(0, page.find("## 2."));
@@ -354,6 +360,8 @@ TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsThePicturesThatItDrew) 
                                {"values", {0.5, 1.0}}});
     const auto cases = results["cases"], verdicts = results["verdicts"];
     results["cases"] = results["verdicts"] = nlohmann::ordered_json::array();
+    results["pictures"] = {{{"file", "critical_gap.svg"}, {"shows", "Critical gap at flaw size 0.5 mm"}},
+                           {{"file", "critical_gap_2.svg"}, {"shows", "Critical gap at flaw size 1 mm"}}};
     const std::size_t gaps = verdicts.size() / cases.size();
     for (std::size_t i = 0; i < cases.size(); ++i)
       for (const double size : {0.5, 1.0}) {
@@ -370,7 +378,6 @@ TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsThePicturesThatItDrew) 
     const std::string size = files.back().find("_2") == std::string::npos ? "0.5 mm" : "1 mm";
     EXPECT_TRUE(has(block["caption"], "at flaw size " + size)) << block["caption"];
     EXPECT_TRUE(has(block["alternative"], "at flaw size " + size)) << block["alternative"];
-    EXPECT_TRUE(has(block["caption"], "56 combinations")) << "14 pressures times 4 cracks";
   }
   EXPECT_EQ(files, (std::vector<std::string>{"critical_gap.svg", "critical_gap_2.svg"}));
 }

@@ -32,7 +32,6 @@ struct StudyEvidence {
   Row study;               ///< study.json; null while the study is not finished
   Tells tells = Tells::nothing;
   std::map<std::string, std::string> drawings = {};  ///< its pictures as it drew them, SVG by file name
-  std::size_t done = 0, failed = 0;                  ///< runs in its results file; 0 without one
   /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
   std::vector<study::Difference> differences = {};
 

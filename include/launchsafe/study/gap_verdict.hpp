@@ -57,6 +57,8 @@ struct GapVerdict {
 void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& of_case,
                 const CriticalGap& critical, std::vector<GapVerdict>& rows);
 std::string reason_text(const GapVerdict& row);
+/// m, the largest judged gap that with all smaller ones is SAFE; NaN where there is none.
+double largest_safe_gap(const std::vector<GapVerdict>& rows);
 
 /// A coupled run on one side of the bracket.
 struct Confirmation {
