@@ -228,6 +228,11 @@ void add_report(CLI::App& app, CommandLine& line) {
                "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"");
   add_optional(command, "--criterion-source", report.criterion_source, "TEXT",
                "Who asks for that, as the report is to say");
+  add_optional(command, "--document", report.document.number, "TEXT", "Number of the document, for its head");
+  add_optional(command, "--author", report.document.author, "TEXT", "Who made it");
+  add_optional(command, "--date", report.document.date, "TEXT", "Its date, as it is to be printed");
+  add_optional(command, "--approvals", report.document.approvals, "NAME...",
+               "Who approves it: a line each for name, date and signature");
   add_place(command, "--templates", report.templates, "DIR", "folder",
             "Folder of templates in place of those built in: letterhead, language");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "console.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/study/shard.hpp"
 
 #include <filesystem>
@@ -110,6 +111,7 @@ struct ReportArguments {
   std::filesystem::path output;                    ///< folder of the report
   std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
   std::optional<std::string> criterion, criterion_source;
+  report::DocumentHead document;
 };
 ExitCode perform(const ReportArguments& arguments, Console& console);
 

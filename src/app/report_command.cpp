@@ -20,7 +20,10 @@ store::Result<report::PageTemplates> templates_of(const ReportArguments& argumen
 
 /// What manifest.json of the report says: the studies that it is of, and what was asked of them.
 store::StudyRecord record_of(const report::SafetyEvidence& evidence, const ReportArguments& arguments) {
-  std::string input = fmt::format("criterion {}\n", arguments.criterion.value_or("none"));
+  const report::DocumentHead& document = arguments.document;
+  std::string input =
+      fmt::format("criterion {}\ndocument {}, {}, {}, {}\n", arguments.criterion.value_or("none"),
+                  document.number, document.author, document.date, fmt::join(document.approvals, ", "));
   for (const report::StudyEvidence& study : evidence.studies)
     input += fmt::format("{} {}\n", study.record.manifest.input_sha256, study.title);
   return {.manifest = store::make_manifest(input, 1)};
@@ -50,8 +53,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   if (!templates) return console.refuse(templates.error().message);
   const auto evidence = report::read_safety_evidence(arguments.studies);
   if (!evidence) return console.refuse(evidence.error().message);
-  const auto rendered =
-      report::make_safety_report(*evidence, criterion, *templates, {.stop = &stop_requested()});
+  const auto rendered = report::make_safety_report(*evidence, criterion, *templates, arguments.document,
+                                                   {.stop = &stop_requested()});
   if (!rendered) return console.refuse(rendered.error().message);
   if (stop_requested()) {
     console.error("interrupted while drawing; nothing was written");

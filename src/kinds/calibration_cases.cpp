@@ -115,8 +115,7 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
 Fault check_firings(const StudyFile& study) {
   const bool any = has_firings(study.study);
   for (const auto& [key, place] : study.places) {
-    const bool of_firings =
-        key.starts_with("prior.") || key == "demonstration" || key == "next_gaps" || key == "calibration";
+    const bool of_firings = key.starts_with("prior.") || key == "next_gaps" || key == "calibration";
     const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||
                          key == "compare_kinetics" || key == "ignition_bracket";
     if (any ? of_rows : of_firings)

@@ -240,7 +240,8 @@ void calibrate_on_firings(FiringResult& result) {
   const auto launches = launches_of(result, doubled);
   if (launches.empty()) return;
   study::FiringEvidence firings{settings.firings, study::posterior_of(prior, launches, nodes),
-                                study::posterior_of(doubled, launches, nodes), settings.demonstration};
+                                study::posterior_of(doubled, launches, nodes),
+                                result.study.study.demonstration};
   if (firings.posterior.empty() || firings.of_doubled_prior.empty()) {
     result.failure =
         "no constants within prior.localisation, prior.exchange_time, prior.ignition_temperature and "

@@ -123,9 +123,6 @@ std::vector<Key<study::Study>> firing_keys() {
              "By which share the heat of rounds that are fired alike differs, one standard deviation, at a "
              "guess.",
              &FiringSettings::scatter),
-      scene::flag_key("demonstration", Standing::input,
-                      "True where the firings are invented; every verdict that rests on them then says so.",
-                      &FiringSettings::demonstration),
       scene::list_key("next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
                       "Gaps among which the round that would tell most is sought; if absent half of, one, "
                       "one and a half and two times the largest that was fired.",

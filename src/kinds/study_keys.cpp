@@ -164,6 +164,10 @@ const StudyKeys& common_keys() {
       scene::required(scene::text_key("scene", Standing::input,
                                       "Path of the scene from the study file's folder.", "scene_155mm.toml",
                                       &Study::scene)),
+      scene::flag_key("demonstration", Standing::input,
+                      "True where the shell, its launch or its firings are invented: every verdict and every "
+                      "page says so, of studies that rest on such firings too.",
+                      &Study::demonstration),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <regex>
 #include <sstream>
+#include <string_view>
 
 namespace launchsafe::report {
 namespace {
@@ -25,6 +27,7 @@ struct Measure {
   GapCriterion::Condition one;
 };
 constexpr Measure measures[] = {
+    {"T max", "K", {&JudgedGap::temperature, nullptr, 1.0, true}},
     {"margin", "K", {&JudgedGap::margin}},
     {"margin", "uncertainty", {&JudgedGap::margin, &JudgedGap::uncertainty}},
     {"margin", "uncertainties", {&JudgedGap::margin, &JudgedGap::uncertainty}},
@@ -33,17 +36,19 @@ constexpr Measure measures[] = {
     {"distance", "uncertainty", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}},
     {"distance", "uncertainties", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}}};
 
-/// Four words: "margin", ">=", "2", "uncertainty". One uncertainty is part of SAFE already.
-std::optional<GapCriterion::Condition> condition_of(const std::vector<std::string>& words) {
-  if (words.size() != 4 || words[1] != ">=") return std::nullopt;
-  std::istringstream stream(words[2]);
+/// "margin >= 2 uncertainty", or without blanks. One uncertainty is part of SAFE already.
+std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
+  static const std::regex form(R"(([a-zA-Z ]*[a-zA-Z]) ?(<=|>=) ?([0-9.eE+-]*[0-9.]) ?([a-zA-Z]+))");
+  std::smatch parts;
+  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  std::istringstream stream(parts[3]);
   stream.imbue(std::locale::classic());
-  double least = 0;
-  if (!(stream >> least) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
+  double limit = 0;
+  if (!(stream >> limit) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
   for (const Measure& each : measures)
-    if (words[0] == each.word && words[3] == each.unit && std::isfinite(least) &&
-        (each.one.unit != nullptr ? least >= 1.0 : least > 0.0))
-      return GapCriterion::Condition{each.one.of, each.one.unit, each.one.least * least};
+    if (parts[1] == each.word && parts[2] == (each.one.at_most ? "<=" : ">=") && parts[4] == each.unit &&
+        std::isfinite(limit) && (each.one.unit != nullptr ? limit >= 1.0 : limit > 0.0))
+      return GapCriterion::Condition{each.one.of, each.one.unit, each.one.limit * limit, each.one.at_most};
   return std::nullopt;
 }
 
@@ -60,26 +65,24 @@ std::string on_one_line(const std::string& text) {
 bool GapCriterion::met_by(const JudgedGap& row) const {
   return row.safe && std::ranges::all_of(conditions, [&](const Condition& each) {
            const double unit = each.unit != nullptr ? row.*each.unit : 1.0;
-           return row.*each.of >= each.least * unit;  // false for NaN
+           const double value = row.*each.of, limit = each.limit * unit;
+           return each.at_most ? value <= limit : value >= limit;  // false for NaN
          });
 }
 
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source) {
   GapCriterion criterion{on_one_line(text), on_one_line(source), {}};
-  std::istringstream stream(text + " and");
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) {
-    if (word != "and") {
-      words.push_back(word);
-      continue;
-    }
-    const auto condition = condition_of(words);
+  constexpr std::string_view between = " and ";
+  const std::string all = criterion.text + std::string(between);
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = all.find(between, begin);
+    const auto condition = condition_of(all.substr(begin, end - begin));
     if (!condition)
       return fault_of("--criterion", fmt::format("\"{}\"", text),
-                      "\"margin >= N uncertainty\", \"margin >= N K\", \"distance >= N uncertainty\" or "
-                      "\"distance >= N cm\", several with \"and\" between them");
+                      "\"margin >= N uncertainty\", \"margin >= N K\", \"T max <= N K\", \"distance >= N "
+                      "uncertainty\" or \"distance >= N cm\", several with \"and\" between them");
     criterion.conditions.push_back(*condition);
-    words.clear();
+    begin = end + between.size();
   }
   if (!criterion.source.empty()) return criterion;
   return fault_of("--criterion-source", "none",

@@ -43,6 +43,9 @@ store::Result<std::string> drawn(const Drawing& drawing, const DrawingLimits& li
   return std::get<std::string>(drawing);
 }
 
+/// The class of a verdict's cell: the verdict, unless the row says otherwise.
+Row look_of(const Row& row) { return found_in(row, row.contains("look") ? "look" : "verdict"); }
+
 /// The sections with their blocks, as programs read them and templates of pages do.
 class Sections {
  public:
@@ -140,7 +143,7 @@ class Sections {
           block["rows"][i]["cells"].push_back(
               {{"name", heading},
                {"text", word(column.key + "." + cells[i], cells[i])},
-               {"look", column.key == "verdict" ? value : Row(is_number ? "number" : "")}});
+               {"look", column.key == "verdict" ? look_of(*rows[i]) : Row(is_number ? "number" : "")}});
       }
     }
     put(text, "table", *rows.front(), std::move(block));
@@ -193,10 +196,15 @@ store::Result<RenderedReport> render_page(const std::vector<PageText>& order, co
                                           const PageTemplates& templates, const Row& head,
                                           const DrawingLimits& limits) {
   Sections made(order, all, templates.texts, limits);
-  Row page{{"format", head["format"]},       {"language", made.words("language")},
-           {"report", made.words("report")}, {"title", head["title"]},
-           {"subject", head["subject"]},     {"made_of", made.made_of()},
-           {"answer", head["answer"]},       {"sections", std::move(made.sections)}};
+  Row page{{"format", head["format"]},
+           {"language", made.words("language")},
+           {"report", made.words("report")},
+           {"title", head["title"]},
+           {"subject", head["subject"]},
+           {"made_of", made.made_of()},
+           {"answer", head["answer"]},
+           {"document", head["document"]},
+           {"sections", std::move(made.sections)}};
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);

@@ -136,7 +136,7 @@ nlohmann::ordered_json assumed_json(const study::Study& study) {
 nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
   int rounds[2] = {0, 0};
   for (const study::Firing& each : evidence.firings) rounds[each.ignited ? 1 : 0] += each.rounds;
-  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}, {"demonstration", evidence.demonstration}};
+  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
 }
 
 }  // namespace
@@ -148,6 +148,7 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"study", study_file_name(study)},
                               {"title", report.title},
                               {"answer", report.answer}};
+  if (study.study.demonstration) head["demonstration"] = true;
   head.update(members);
   if (study.study.calibration.firings && study.study.kind.gives_verdicts)
     head["firings"] = firings_json(*study.study.calibration.firings);

@@ -136,7 +136,7 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
 
 store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) {
   StudyEvidence study;
-  study.label = fmt::format("S{}", number);
+  study.label = std::string(1, static_cast<char>('A' + number));
   study.folder = folder;
   auto record = store::read_study_record(folder);
   if (!record)
@@ -401,7 +401,7 @@ const StudyEvidence& SafetyEvidence::main() const {
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) {
   SafetyEvidence evidence;
   for (const std::filesystem::path& folder : folders) {
-    auto study = safety::read_study(folder, evidence.studies.size() + 1);
+    auto study = safety::read_study(folder, evidence.studies.size());
     if (!study) return study.error();
     evidence.studies.push_back(std::move(*study));
   }

@@ -102,7 +102,8 @@ JudgedGap gap_of(const CaseEvidence& judged, const Row& verdict) {
   JudgedGap gap{.gap = number_of(verdict, "gap_cm"),
                 .safe = text_of(verdict, "verdict") == "SAFE",
                 .margin = number_of(verdict, "margin_K"),
-                .uncertainty = number_of(verdict, "uncertainty_K")};
+                .uncertainty = number_of(verdict, "uncertainty_K"),
+                .temperature = number_of(verdict, "temperature_max_K")};
   if (!is_value(judged)) return gap;
   const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
   gap.distance = lower - gap.gap;
@@ -151,10 +152,19 @@ Row told_case(const CaseEvidence& judged) {
   return row;
 }
 
+/// The row with how its verdict looks: green is for what rests on no value that somebody had to accept, and
+/// on nothing that was invented.
+Row with_look(const CaseEvidence& judged, Row row) {
+  const bool accepted = !text_of(row, "accepted").empty();
+  if (text_of(row, "verdict") == "SAFE" && (accepted || judged.study->study.contains("demonstration")))
+    row["look"] = "ACCEPTED";
+  return row;
+}
+
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
 /// no margin, nor is anything after ignition, when T max is that of the burning skin.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
-  Row row = verdict;
+  Row row = with_look(judged, verdict);
   const JudgedGap gap = gap_of(judged, verdict);
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const bool is_known = judged.completed() && std::isfinite(gap.uncertainty) && !is_uncertain(&row);
@@ -170,9 +180,10 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
   row["distance_cm"] = down(true, gap.distance, 3);
   if (!judged.completed()) row["temperature_max_K"] = nullptr;
   // What else the reason says, but for what page one says of all rows.
-  for (const char* clause : {"limited", "noise", "ring", "model_form", "accepted"})
+  for (const char* clause : {"limited", "noise", "ring", "model_form"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
-  if (!text_of(row, "extrapolated").empty()) row["beside"].push_back("extrapolated");
+  for (const char* clause : {"extrapolated", "accepted"})
+    if (!text_of(row, clause).empty()) row["beside"].push_back(clause);
   return row;
 }
 
@@ -231,7 +242,7 @@ Row own_facts(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts
   if (!own.completed()) return facts;
   facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
                                         [&](const Row& row) { return text_of(row, "case") == own.label; });
-  for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
+  for (const Row* row : own.verdicts) facts["verdicts"].push_back(with_look(own, *row));
   if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
     all.facts["pictures"] = picture_facts(own, stored->second, all);
   return facts;
@@ -315,14 +326,19 @@ PageTemplates built_in_templates() {
 
 store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const std::optional<GapCriterion>& criterion,
-                                                 const PageTemplates& templates,
+                                                 const PageTemplates& templates, const DocumentHead& document,
                                                  const DrawingLimits& limits) {
   const PageFacts facts = safety::facts_of(evidence, criterion);
   return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
                      {{"format", "launchsafe safety report 3"},
                       {"title", evidence.main().title},
                       {"subject", evidence.main().scene.scene.title},
-                      {"answer", facts.facts["answer"]}},
+                      {"answer", facts.facts["answer"]},
+                      {"document",
+                       {{"number", document.number},
+                        {"author", document.author},
+                        {"date", document.date},
+                        {"approvals", document.approvals}}}},
                      limits);
 }
 

@@ -144,7 +144,7 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   if (study.calibration.firings && std::ranges::any_of(all.distance.foreign, no_firing_speaks_of))
     all.calibrated_gap = -1.0;
   all.calibrated_by_firings = study.calibration.firings != nullptr;
-  all.demonstration = all.calibrated_by_firings && study.calibration.firings->demonstration;
+  all.demonstration = study.demonstration;
   return all;
 }
 

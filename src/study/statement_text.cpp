@@ -224,7 +224,7 @@ std::string reason_text(const Evidence& evidence, const Judgement& judgement) {
   add(of_case.input.ring);
   add(models_text(evidence));
   add(extrapolated_text(evidence));
-  if (of_case.input.demonstration) add("a demonstration, whose firings are invented");
+  if (of_case.input.demonstration) add("a demonstration, with an invented shell or invented firings");
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));
   return text;

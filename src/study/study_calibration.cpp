@@ -117,6 +117,8 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   if (!changed) return changed.error();
   study.scene = std::move(*changed);
   study.study.calibration = record->calibration;
+  const auto& firings = study.study.calibration.firings;
+  study.study.demonstration |= firings && firings->demonstration;
   return settle_fit_uncertainty(study, *record);
 }
 

@@ -99,7 +99,7 @@ TEST(Firings, RefuseWhatTheyCannotRestOn) {
   EXPECT_NE(refusal("references = \"table8.toml\"\n" + firing("no ignition", 1, "0.1 mm"))
                 .find("beside [[firing]]"),
             std::string::npos);
-  EXPECT_NE(refusal("references = \"table8.toml\"\ndemonstration = true\n").find("without [[firing]]"),
+  EXPECT_NE(refusal("references = \"table8.toml\"\nnext_gaps = \"0.1 mm\"\n").find("without [[firing]]"),
             std::string::npos);
 }
 

@@ -1,6 +1,8 @@
 // The safety report of the shipped studies, and of copies of them that somebody changed.
 #include "safety_report_files.hpp"
 
+#include <fmt/format.h>
+
 namespace launchsafe::report {
 namespace {
 
@@ -10,6 +12,36 @@ TEST_F(SafetyReport, ACriterionIsNamedWithItsSourceAndWhatItAllows) {
   const std::string page = file_of({shipped("critical_gap_155mm")}, "report.md", *criterion);
   EXPECT_TRUE(has(page, "Recommended largest gap, at 300 K before launch: 0.01 cm"));
   EXPECT_TRUE(has(page, "works standard 12"));
+}
+
+TEST_F(SafetyReport, GreenIsNoSafeThatSomebodyAcceptsOrThatIsOfADemonstration) {
+  const path study = copy_of("critical_gap_155mm");
+  const auto shown = [&](const char* look) {
+    return has(file_of({study}, "report.html"),
+               fmt::format("class=\"{}\" data-heading=\"verdict\">SAFE", look));
+  };
+  EXPECT_TRUE(shown("SAFE"));
+  EXPECT_FALSE(shown("ACCEPTED"));
+  change(study,
+         [](auto& results) { results["verdicts"][0]["accepted"] = "station.width = 7 mm, because ..."; });
+  EXPECT_TRUE(shown("ACCEPTED"));
+  EXPECT_TRUE(shown("SAFE")) << "the other gaps";
+  EXPECT_FALSE(has(file_of({study}, "report.md"), "A demonstration"));
+  change(study, [](auto& results) { results["demonstration"] = true; });
+  EXPECT_FALSE(shown("SAFE"));
+  EXPECT_TRUE(has(file_of({study}, "report.md"), "A demonstration"));
+}
+
+TEST_F(SafetyReport, TheHeadAndTheLinesForSignaturesAreTheUsers) {
+  const auto evidence = read_safety_evidence({shipped("critical_gap_155mm")});
+  ASSERT_TRUE(evidence);
+  const auto report = make_safety_report(*evidence, {}, built_in_templates(),
+                                         {"SR-12 <2>", "A. Author", "2026-11-26", {"B. Boss", "C. Chief"}});
+  ASSERT_TRUE(report);
+  for (const char* part :
+       {"SR-12 &lt;2&gt;", "A. Author", "2026-11-26", "<td>B. Boss</td>", "<td>C. Chief</td>"})
+    EXPECT_TRUE(has(report->files[0].text, part)) << part;
+  EXPECT_FALSE(has(file_of({shipped("critical_gap_155mm")}, "report.html"), "id=\"approvals\""));
 }
 
 TEST_F(SafetyReport, TheJsonNamesTheOriginOfEveryBlock) {
@@ -336,12 +368,12 @@ TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
   EXPECT_TRUE(has(one, "are SAFE (at 300 K before launch)"));
   EXPECT_TRUE(has(one, " cm, at 300 K before launch."));
   EXPECT_TRUE(has(one, "before launch \\[K\\]"));
-  EXPECT_TRUE(has(one, "At 700 K before launch, the hottest of S2, the critical gap is at least 0.1234 cm"));
+  EXPECT_TRUE(has(one, "At 700 K before launch, the hottest of B, the critical gap is at least 0.1234 cm"));
   change(sweep, [](auto& results) { results["cases"].back()["critical_gap_at_least_cm"] = nullptr; });
   EXPECT_TRUE(
       has(page_one({shipped("critical_gap_155mm"), sweep}), "nothing says how small the critical gap"));
   change(sweep, [](auto& results) { results["cases"].back()["critical_gap_kind"] = "all-ignite"; });
-  EXPECT_TRUE(has(page_one({shipped("critical_gap_155mm"), sweep}), "the hottest of S2, no gap is safe."));
+  EXPECT_TRUE(has(page_one({shipped("critical_gap_155mm"), sweep}), "the hottest of B, no gap is safe."));
   EXPECT_TRUE(has(page_one({sweep}), "are SAFE (at 250 to 700 K before launch)"));
 }
 

@@ -19,7 +19,6 @@ struct FiringSettings {
   double exchange_time_factor = 2.0;   ///< likewise
   double ignition_temperature = 30.0;  ///< K, one standard deviation
   double scatter = 0.05;               ///< median of the prior
-  bool demonstration = false;          ///< the firings are invented
   std::vector<double> next_gaps;       ///< m, among which the next one to fire is sought
   study::FiringPrior prior_about(const surface::SurfaceConstants& centre) const;
 };

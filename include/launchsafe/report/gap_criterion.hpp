@@ -17,6 +17,7 @@ struct JudgedGap {
   double uncertainty = 0;                                      ///< K, of the margin
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< cm, to the critical gap; NaN without one
   double distance_uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< cm, of the critical gap
+  double temperature = std::numeric_limits<double>::quiet_NaN();           ///< K, T max
 };
 
 /// Conditions that a gap must meet besides the verdict SAFE.
@@ -24,7 +25,8 @@ struct GapCriterion {
   struct Condition {
     double JudgedGap::*of;
     double JudgedGap::*unit = nullptr;  ///< an uncertainty; null: K, cm
-    double least = 1.0;                 ///< in that unit
+    double limit = 1.0;                 ///< in that unit
+    bool at_most = false;               ///< else at least
   };
   std::string text;    ///< as the user wrote it, on one line
   std::string source;  ///< who asks for it, likewise
@@ -33,10 +35,10 @@ struct GapCriterion {
   bool met_by(const JudgedGap& row) const;
 };
 
-/// Reads "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1 uncertainty", or
-/// several of them with "and" between. Margins are in K, distances are those to the critical gap in cm (or
-/// mm). Numbers must be positive; one uncertainty is part of SAFE already, so fewer are refused. Errors: any
-/// other text, no source.
+/// Reads "T max <= 450 K", "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1
+/// uncertainty", or several of them with "and" between, with blanks or without. Margins are in K, distances
+/// are those to the critical gap in cm (or mm). Numbers must be positive; one uncertainty is part of SAFE
+/// already, so fewer are refused. Errors: any other text, no source.
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
 
 /// The place of the largest computed gap that meets the criterion together with every smaller computed one;

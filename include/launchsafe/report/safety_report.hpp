@@ -23,7 +23,7 @@ enum class Tells { nothing, launch, sweep, models, accuracy, sensitivity, stabil
 
 /// One study.
 struct StudyEvidence {
-  std::string label;  ///< "S1", in the order in which the user named them
+  std::string label;  ///< "A", "B", ... in the order in which the user named them
   std::filesystem::path folder;
   store::StudyRecord record;
   std::string kind, title;
@@ -69,10 +69,17 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesy
 /// The templates of safety reports that are built in.
 PageTemplates built_in_templates();
 
-/// Equal evidence and criterion make equal files. Errors: corrupt (a template that cannot be rendered).
+/// What a works' document says of itself; nothing of it is the program's.
+struct DocumentHead {
+  std::string number, author, date;
+  std::vector<std::string> approvals;  ///< who signs
+};
+
+/// Equal evidence, criterion and head make equal files. Errors: corrupt (a template that cannot be rendered).
 store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const std::optional<GapCriterion>& criterion,
                                                  const PageTemplates& templates,
+                                                 const DocumentHead& document = {},
                                                  const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report

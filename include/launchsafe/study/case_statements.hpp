@@ -51,7 +51,7 @@ struct CaseStatements {
   /// m, up to which a gap lies within it.
   double calibrated_gap = std::numeric_limits<double>::infinity();
   bool calibrated_by_firings = false;  ///< so that nothing is known of a gap beyond
-  bool demonstration = false;          ///< of invented firings
+  bool demonstration = false;          ///< of something that was invented
 
   /// Of the study's record of other models; not known where there is none.
   ModelFormShift model_form{std::nan(""), std::nan(""), {}};

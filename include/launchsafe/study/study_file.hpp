@@ -98,8 +98,9 @@ struct Study {
   KindTraits kind;
   std::shared_ptr<KindSettings> settings;  ///< shared by copies until one is changed; null: the defaults
   std::string title;
-  std::string scene;          ///< path of the scene from the study file's folder, as the user wrote it
-  double early_time = 10e-3;  ///< s; an instant at which temperatures are compared too
+  bool demonstration = false;  ///< its shell, its launch or its firings are invented
+  std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
+  double early_time = 10e-3;   ///< s; an instant at which temperatures are compared too
   std::vector<Reference> references;
   ReferenceLine reference_line;
   std::vector<CitedLimit> cited_limits;
