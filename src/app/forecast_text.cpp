@@ -70,7 +70,8 @@ std::string runs_text(const Forecast& forecast) {
 /// How those runs go, and how much of the time is theirs.
 std::string confirmation_text(const scene::Scene& scene, const Forecast& forecast) {
   std::string text;
-  if (scene.surface.air_model == scene::AirModel::reservoir)
+  if (scene.surface.air_model == scene::AirModel::reservoir &&
+      scene.surface.model == scene::GapModel::reservoir)
     text += fmt::format(": from checkpoints of the launch and, after ignition, {} through combustion",
                         scene::time_text(scene.combustion.duration));
   if (forecast.confirmation_time > 0.0)
@@ -101,10 +102,12 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   text += forecast_line("scene", file.study.scene);
   for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
   text += forecast_line("mechanical runs", runs_text(forecast));
+  const bool closes = file.scene.scene.surface.model == scene::GapModel::closing;
   if (forecast.confirmations > 0)
-    text += forecast_line(
-        "coupled runs", fmt::format("at most {} more, to confirm the critical gap{}", forecast.confirmations,
-                                    confirmation_text(file.scene.scene, forecast)));
+    text += forecast_line("coupled runs", fmt::format("at most {} more, {}{}", forecast.confirmations,
+                                                      closes ? "a launch for every gap that closes"
+                                                             : "to confirm the critical gap",
+                                                      confirmation_text(file.scene.scene, forecast)));
   if (file.study.kind.judges_gaps)
     text += forecast_line(
         "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));

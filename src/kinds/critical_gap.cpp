@@ -155,20 +155,22 @@ class FollowingRuns {
   std::vector<Taker> takers_;
 };
 
-/// The launches of gaps that close, for the cases that ask for them.
-void run_closing_gaps(CriticalGapResult& result, const StudyOptions& options, ProgressTracker& tracker) {
-  const study::RunBatch run = [&](std::vector<CaseRun> runs) {
-    std::vector<FinishedRun> all(runs.size());
+/// The launches of gaps that close, for those of the cases (or answers) that ask for them; `take` has what
+/// they say of each.
+template <class Cases, class Take>
+void run_closing_gaps(const std::vector<Cases>& cases, CriticalGapResult& result, const StudyOptions& options,
+                      ProgressTracker& tracker, Take take) {
+  const study::RunBatch run = [&](std::vector<PlannedRun> runs, const auto& done) {
     std::vector<CaseRuns> tasks;
-    for (CaseRun& each : runs) tasks.push_back({{}, {planned_run(std::move(each))}, options.shard.index});
-    run_cases(tasks, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
-      all[i] = std::move(finished.front());
-    });
-    return all;
+    for (PlannedRun& each : runs) tasks.push_back({{}, {std::move(each)}, options.shard.index});
+    run_cases(tasks, options, tracker, result.timing,
+              [&](std::size_t i, std::vector<FinishedRun>& finished) { done(i, finished.front()); });
   };
-  for (CaseOutcome& outcome : result.details)
-    if (outcome.input.closing && outcome.completed())
-      outcome.closing = find_closing_gaps(result.study.study, outcome.input, run);
+  std::vector<std::size_t> closing;
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (cases[i].completed() && result.study.cases[i].closing) closing.push_back(i);
+  auto answers = find_closing_gaps(result.study, closing, run);
+  for (std::size_t i = 0; i < closing.size(); ++i) take(closing[i], std::move(answers[i]));
 }
 
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
@@ -196,12 +198,26 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
     std::ranges::for_each(result.details, [&](CaseOutcome& each) { following.add_confirmations(each); });
   following.run(tracker);
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  run_closing_gaps(result, options, tracker);
+  run_closing_gaps(result.details, result, options, tracker,
+                   [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
+                     result.details[i].closing = std::move(closing);
+                   });
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);
     result.answers.push_back(answer_of(outcome));
   }
+}
+
+/// Of many cases the answers, and where gaps close their bounds without the worst corner.
+void run_many(CriticalGapResult& result, const StudyOptions& options) {
+  result.answers = answer_cases(result.study, options, result.timing);
+  if (result.study.scene.scene.surface.model != scene::GapModel::closing) return;
+  ProgressTracker tracker(options.progress);
+  run_closing_gaps(result.answers, result, options, tracker,
+                   [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
+                     take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
+                   });
 }
 
 }  // namespace
@@ -213,7 +229,7 @@ CriticalGapResult run_critical_gap(const study::StudyFile& study, const StudyOpt
         if (study.study.in_detail)
           run_in_detail(result, options);
         else
-          result.answers = answer_cases(study, options, result.timing);
+          run_many(result, options);
       },
       [](CriticalGapResult&) {});
 }

@@ -44,9 +44,6 @@ Fault make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
   if (!study.places.contains("confirm")) confirm = few;
   study.study.in_detail = few || confirm;
   study.confirmations_per_case = confirm ? 2 : 0;
-  if (study.scene.scene.surface.model == scene::GapModel::closing && !study.study.in_detail)
-    return fault_at(study, "vary", fmt::format("{} cases of a gap that closes", study.cases.size()),
-                    fmt::format("at most {}, or gap.model = \"reservoir\"", most_cases_in_detail));
   return std::nullopt;
 }
 

@@ -37,13 +37,17 @@ auto temperature_of(std::size_t bound) {
   };
 }
 
-constexpr std::size_t corner = 2;
+constexpr std::size_t nominal_bounds = 2, corner = 2;
+
+std::string bound_name(const ClosingAnswer& answer) {
+  return said("critical_gap.closing_bound", {{answer.name, true}}).front();
+}
 
 /// Why a temperature of a row is not known; empty where all are.
 std::string why_unknown(const ClosingRow& row) {
   for (const ClosingAnswer& answer : row.outcome->closing)
     if (const ClosingPoint* point = answer.at(row.gap); point != nullptr && !point->unknown_for.empty())
-      return said("critical_gap.closing_bound", {{answer.name, true}}).front() + ": " + point->unknown_for;
+      return bound_name(answer) + ": " + point->unknown_for;
   return {};
 }
 
@@ -76,17 +80,26 @@ report::Quantities<ClosingRow> closing_quantities() {
 
 /// What one bound says of the critical gap.
 struct BoundRow {
-  const CaseOutcome* outcome;
+  const std::string* label;
   const ClosingAnswer* answer;
 };
 
+/// What a bound of an answer says, for people; empty without such bounds.
+auto text_of_bound(std::size_t bound) {
+  return [bound](const study::CaseAnswer& answer) -> std::string {
+    if (bound >= answer.closing.size()) return {};
+    const ClosingAnswer& found = answer.closing[bound];
+    if (!std::isnan(found.upper)) return report::reads_as(critical_gap_of(found));
+    return std::isnan(found.lower) ? "not known"
+                                   : "> " + report::centimetres(found.lower) + ", then not known";
+  };
+}
+
 report::Quantities<BoundRow> closing_bound_quantities() {
   return {
-      {quantity::case_name(), &BoundRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+      {quantity::case_name(), [](const BoundRow& row) { return *row.label; }},
       {{"bound", "where the gap closes", text(), "Terms on which it closes."},
-       [](const BoundRow& row) {
-         return said("critical_gap.closing_bound", {{row.answer->name, true}}).front();
-       }},
+       [](const BoundRow& row) { return bound_name(*row.answer); }},
       {{"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
         "Largest gap below the first that ignites."},
        &BoundRow::answer,
@@ -99,6 +112,40 @@ report::Quantities<BoundRow> closing_bound_quantities() {
 }
 
 }  // namespace
+
+report::Quantities<study::CaseAnswer> closing_gap_quantities() {
+  return {{{"closing_conducting", "closing, base conducts", text(),
+            "Smallest gap that ignites where it closes and its base takes heat."},
+           text_of_bound(0)},
+          {{"closing_insulated", "base insulated", text(),
+            "Smallest gap that ignites where it closes and its base takes no heat."},
+           text_of_bound(1)}};
+}
+
+std::vector<std::string> closing_answer(const CriticalGapResult& result) {
+  report::Row facts{{"bounds", report::Row::array()}};
+  for (std::size_t bound = 0; bound < nominal_bounds; ++bound) {
+    std::size_t ignite = 0, unknown = 0;
+    double smallest = not_a_number;
+    std::string name;
+    for (const study::CaseAnswer& answer : result.answers) {
+      if (answer.closing.empty()) continue;
+      const ClosingAnswer& of_bound = answer.closing[bound];
+      name = bound_name(of_bound);
+      if (std::isnan(of_bound.upper)) ++unknown;
+      if (!std::isfinite(of_bound.upper)) continue;
+      ++ignite;
+      if (!(smallest <= of_bound.upper)) smallest = of_bound.upper;
+    }
+    if (!name.empty())
+      facts["bounds"].push_back({{"name", name},
+                                 {"ignite", ignite},
+                                 {"unknown", unknown},
+                                 {"smallest_cm", report::number(report::shown_gap(smallest))}});
+  }
+  facts["closes"] = !facts["bounds"].empty();
+  return said("critical_gap.closing_answer", facts);
+}
 
 Table closing_table(const CriticalGapResult& result) {
   std::vector<ClosingRow> rows;
@@ -114,8 +161,9 @@ Table closing_table(const CriticalGapResult& result) {
 
 Table closing_bound_table(const CriticalGapResult& result) {
   std::vector<BoundRow> rows;
-  for (const CaseOutcome& outcome : result.details)
-    for (const ClosingAnswer& answer : outcome.closing) rows.push_back({&outcome, &answer});
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    for (const ClosingAnswer& answer : result.answers[i].closing)
+      rows.push_back({&result.study.cases.label(i), &answer});
   return report::table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
 }
 
@@ -135,7 +183,7 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
     reservoir.add(report::shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
   plot.series.push_back(std::move(reservoir));
   for (const ClosingAnswer& answer : outcome.closing) {
-    report::Series series{said("critical_gap.closing_bound", {{answer.name, true}}).front()};
+    report::Series series{bound_name(answer)};
     for (const ClosingPoint& point : answer.points)
       if (point.ignited || std::isfinite(point.maximum_temperature))
         series.add(report::shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);

@@ -380,9 +380,8 @@ std::string limiter_remark(const CriticalGapResult& result) {
 }
 
 void add_details(const CriticalGapResult& result, report::Report& report) {
-  for (ReportTable table : {ReportTable{closing_bound_table(result), "closing_bounds.csv", "closing_bounds"},
-                            ReportTable{closing_table(result), "closing.csv", "closing"}})
-    if (!table.table.rows.empty()) report.items.push_back(std::move(table));
+  if (ReportTable table{closing_table(result), "closing.csv", "closing"}; !table.table.rows.empty())
+    report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
     report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
   for (ReportTable table : {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},

@@ -139,6 +139,7 @@ std::string answer(const CriticalGapResult& result) {
   if (!result.details.empty()) return answer_in_detail(result);
   const SweepCounts counts = counts_of(result.answers);
   std::vector<std::string> lines = said("critical_gap.answer", facts_of(result, counts));
+  for (std::string& line : closing_answer(result)) lines.push_back(std::move(line));
   lines.push_back(limited_text(counts, "case"));
   return answer_of(std::move(lines), result.study);
 }
@@ -170,6 +171,9 @@ report::Report report_of(const CriticalGapResult& result) {
       report.files.push_back(std::move(file));
   }
   report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
+  if (Table bounds = closing_bound_table(result); !bounds.rows.empty())
+    report.items.push_back(ReportTable{std::move(bounds), "closing_bounds.csv", "closing_bounds",
+                                       in_detail ? Shown::page_and_terminal : Shown::file});
   if (in_detail)
     add_details(result, report);
   else

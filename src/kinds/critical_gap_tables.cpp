@@ -112,7 +112,8 @@ Column largest_safe_gap() {
                              "Largest computed gap that, with all smaller ones, is SAFE."});
 }
 
-Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail) {
+/// `closes`: with what its gap does where it closes. A study in detail has that in a table of its own.
+Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail, bool closes) {
   Column assumed{"assumed_shares", "assumed", text(),
                  "What the bounds rest on and nothing says of the case."};
   Quantities<JudgedCase> confirmed{
@@ -126,6 +127,9 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
        {{largest_safe_gap(), &JudgedCase::answered, &AnsweredCase::answer, &CaseAnswer::verdicts,
          study::largest_safe_gap}},
        in_detail ? confirmed : Quantities<JudgedCase>{},
+       closes && !in_detail
+           ? of_part<JudgedCase>(closing_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer)
+           : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
          [study](const JudgedCase& row) {
            return assumed_shares(study, row.answered.input(), row.answered.answer->critical.value);
@@ -240,14 +244,16 @@ Table verdict_table(const CriticalGapResult& result) {
 
 Table critical_gap_table(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
+  const bool closes = result.study.scene.scene.surface.model == scene::GapModel::closing;
   std::vector<JudgedCase> rows;
   for (const AnsweredCase& each : answered(result.study, result.answers))
     rows.push_back({each, in_detail ? &result.details[each.index] : nullptr});
   Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
-                         judged_case_quantities(result.study.study, in_detail), rows);
+                         judged_case_quantities(result.study.study, in_detail, closes), rows);
   if (!in_detail)
-    table.notes = said("critical_gap.note.cases",
-                       {{"air", air_energy_note(result, report::shown_axes(result.study.study))}});
+    table.notes =
+        said("critical_gap.note.cases",
+             {{"air", air_energy_note(result, report::shown_axes(result.study.study))}, {"closes", closes}});
   return table;
 }
 
@@ -292,8 +298,10 @@ Table comparison_table(const CriticalGapResult& result) {
 std::vector<ResultTable> critical_gap_results() {
   StudyFile file;
   file.study.gaps = {0.0, 0.4e-3};
-  std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true));
-  for (const Column& column : keys::described(run_quantities(file.study.gaps))) cases.push_back(column);
+  std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true, false));
+  for (const auto& columns :
+       {keys::described(closing_gap_quantities()), keys::described(run_quantities(file.study.gaps))})
+    cases.insert(cases.end(), columns.begin(), columns.end());
   std::vector<ResultTable> tables{
       {"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(file))},
       {"comparison", "", keys::described(comparison_quantities(file.study.early_time))},

@@ -25,9 +25,14 @@ report::Table comparison_table(const CriticalGapResult& result);
 report::Table coupled_run_table(const CriticalGapResult& result);
 std::vector<report::Column> axis_effect_columns();
 
-/// T max and the critical gap where the gap closes, and a picture of one case; nothing where no gap does.
+/// T max (of cases in detail) and the critical gap where the gap closes, and a picture of one case in detail;
+/// nothing where no gap does.
 report::Table closing_table(const CriticalGapResult& result);
 report::Table closing_bound_table(const CriticalGapResult& result);
+/// Both nominal bounds of a case, in words.
+report::Quantities<study::CaseAnswer> closing_gap_quantities();
+/// In how many cases each bound ignites; nothing where no gap closes.
+std::vector<std::string> closing_answer(const CriticalGapResult& result);
 std::optional<report::Plot> closing_plot(const CriticalGapResult& result);
 std::vector<ResultTable> closing_results();
 

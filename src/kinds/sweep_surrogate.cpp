@@ -43,6 +43,13 @@ bool is_cliff(const scene::KeyDescription& key) {
          key.name == "charge.face_friction" || key.name == "charge.crack_friction";
 }
 
+/// A fit over what the reservoir says would answer for gaps of which it is not the model.
+Fault check_gap_model(const StudyFile& study) {
+  if (study.scene.scene.surface.model == scene::GapModel::reservoir) return std::nullopt;
+  return fault_at(study, "surrogate", "true for a gap that closes",
+                  "surrogate = false, or gap.model = \"reservoir\"");
+}
+
 Fault check_axis(const StudyFile& study, const Axis& axis) {
   if (axis.key.dimension == scene::Dimension::count)
     return fault_at(study, axis.study_key,
@@ -90,6 +97,7 @@ report::Quantities<FitRow> surrogate_quantities() {
 
 Fault check_sweep_surrogate(const StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
+  if (Fault fault = check_gap_model(study)) return fault;
   if (axes.empty())
     return fault_at(study, "surrogate", "nothing that varies", "a [[vary]] for every input of the fit");
   for (const Axis& axis : axes)

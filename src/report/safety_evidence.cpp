@@ -98,6 +98,9 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
   const double margin = number_of(row, "margin_K"), gap = number_of(row, "gap_cm"),
                at_least = number_of(critical, "critical_gap_at_least_cm");
   if (!(margin > 0.0)) return false;
+  // Of many cases whose gaps close the worst corner was not computed.
+  if (study.tells == Tells::sweep && study.scene.scene.surface.model == scene::GapModel::closing)
+    return false;
   for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
     if (!text_of(row, fault).empty()) return false;
   // Another ignition temperature than the scene's may be what a sweep is over.

@@ -1,6 +1,7 @@
 #include "launchsafe/study/case_answer.hpp"
 
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -105,12 +106,22 @@ CaseAnswer answer_of(const CaseOutcome& outcome) {
   answer.friction_rise = outcome.evidence->friction_rise;
   answer.critical = outcome.critical;
   answer.verdicts = outcome.verdicts;
+  answer.closing = outcome.closing;
   for (const GapVerdict& row : answer.verdicts)
     answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
   const run::MechanicsResult& mechanics = outcome.result.mechanics;
   answer.run = {mechanics.status, mechanics.steps, mechanics.particles, run::largest_energy_drift(mechanics),
                 mechanics.limiters};
   return answer;
+}
+
+void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, CaseAnswer& answer) {
+  answer.closing = std::move(closing);
+  const double ignition = input.scene.scene.charge().kinetics.ignition_temperature;
+  for (GapVerdict& row : answer.verdicts) {
+    row.evidence.closing = closing_evidence(answer.closing, row.gap, ignition);
+    row.judgement = judge(row.evidence, answer.critical);
+  }
 }
 
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome of_run, std::string failure) {

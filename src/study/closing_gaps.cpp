@@ -52,42 +52,59 @@ std::string fault_of(const scene::Scene& scene, const FinishedRun& run) {
   return warnings.empty() ? std::string{} : warnings.front();
 }
 
-/// Takes one more run into a point: the hotter one counts, and one without a temperature leaves none.
-void take(const scene::Scene& scene, const FinishedRun& run, double release, ClosingPoint& point) {
-  const bool first = point.hashes.empty();
-  point.hashes.push_back(run.hash);
-  if (!point.unknown_for.empty()) return;
-  point.unknown_for = fault_of(scene, run);
-  if (!point.unknown_for.empty()) {
-    point.maximum_temperature = not_a_number;
-    point.place.clear();
-    point.release = release;
-    return;
-  }
+/// A gap as one launch has it.
+ClosingPoint point_of(const CaseRun& asked, const FinishedRun& run) {
+  ClosingPoint point;
+  point.gap = *asked.skin_gap;
+  point.release = asked.scene.surface.release;
+  point.hashes = {run.hash};
+  point.unknown_for = fault_of(asked.scene, run);
+  if (!point.unknown_for.empty()) return point;
   const run::GapResult& gap = run.result.gaps.front();
-  if (gap.skin.ignition) point.ignited = true;
-  if (!first && gap.at_stations.temperature <= point.maximum_temperature) return;
+  point.ignited = gap.skin.ignition.has_value();
   point.maximum_temperature = gap.at_stations.temperature;
-  point.release = release;
+  if (!point.ignited && !std::isfinite(point.maximum_temperature))
+    point.unknown_for = "its temperature is not a number";
   const trace::BottomTrace& trace = run.result.mechanics.trace;
   if (gap.at_stations.station < trace.stations.size())
     point.place = trace.stations[gap.at_stations.station].name;
+  return point;
+}
+
+/// Takes one more launch into a point: the hotter one counts, and one without a temperature leaves none.
+void join(const ClosingPoint& launch, ClosingPoint& point) {
+  point.ignited = point.ignited || launch.ignited;
+  point.hashes.insert(point.hashes.end(), launch.hashes.begin(), launch.hashes.end());
+  if (!point.unknown_for.empty()) return;
+  if (launch.unknown_for.empty() && launch.maximum_temperature <= point.maximum_temperature) return;
+  point.unknown_for = launch.unknown_for;
+  point.maximum_temperature = launch.maximum_temperature;
+  point.place = launch.place;
+  point.release = launch.release;
 }
 
 bool is_known(const ClosingPoint& point) { return point.ignited || std::isfinite(point.maximum_temperature); }
 
+/// The gaps of the study and those of the scan, ascending.
+std::vector<double> scanned_gaps(const Study& study) {
+  std::vector<double> gaps = study.gaps;
+  for (int i = 0; i <= scan_gaps; ++i) gaps.push_back(largest_gap(study) * i / scan_gaps);
+  std::sort(gaps.begin(), gaps.end());
+  gaps.erase(std::unique(gaps.begin(), gaps.end(), [](double a, double b) { return b - a < same_gap; }),
+             gaps.end());
+  return gaps;
+}
+
 /// The gaps to compute next, for a bound that has these points; none once its bracket is narrow enough.
 std::vector<double> wanted(const Study& study, const ClosingAnswer& answer) {
-  std::vector<double> gaps;
-  if (answer.points.empty()) {
-    gaps = study.gaps;
-    for (int i = 0; i <= scan_gaps; ++i) gaps.push_back(largest_gap(study) * i / scan_gaps);
-    std::sort(gaps.begin(), gaps.end());
-    gaps.erase(std::unique(gaps.begin(), gaps.end(), [](double a, double b) { return b - a < same_gap; }),
-               gaps.end());
-  } else if (std::isfinite(answer.upper) && answer.upper - answer.lower > study.tolerance) {
-    gaps.push_back(0.5 * (answer.lower + answer.upper));
-  }
+  if (std::isfinite(answer.upper))
+    return answer.upper - answer.lower > study.tolerance
+               ? std::vector<double>{0.5 * (answer.lower + answer.upper)}
+               : std::vector<double>{};
+  if (!answer.points.empty() && std::isnan(answer.upper)) return {};
+  std::vector<double> gaps = scanned_gaps(study);
+  std::erase_if(gaps, [&](double gap) { return answer.at(gap) != nullptr; });
+  if (!study.in_detail && gaps.size() > 1) gaps.resize(1);
   return gaps;
 }
 
@@ -96,12 +113,8 @@ void narrow(ClosingAnswer& answer) {
   answer.lower = not_a_number;
   answer.upper = std::numeric_limits<double>::infinity();
   for (const ClosingPoint& point : answer.points) {
-    if (!is_known(point)) {
-      answer.lower = answer.upper = not_a_number;
-      return;
-    }
-    if (point.ignited) {
-      answer.upper = point.gap;
+    if (!is_known(point) || point.ignited) {
+      answer.upper = point.ignited ? point.gap : not_a_number;
       return;
     }
     answer.lower = point.gap;
@@ -118,45 +131,72 @@ std::string bond_of(const scene::Scene& scene) {
   return {};
 }
 
-void add_points(const StudyCase& input, const ClosingBound& bound, const std::vector<double>& gaps,
-                const RunBatch& run, ClosingAnswer& answer) {
-  if (!bound.unknown_for.empty()) {
-    for (const double gap : gaps) {
-      ClosingPoint& point = answer.points.emplace_back();
-      point.gap = gap;
-      point.unknown_for = bound.unknown_for;
-    }
-    return;
+/// A bound of a case whose gaps are sought.
+struct Search {
+  std::size_t index = 0;  ///< of the case
+  ClosingBound bound;
+  ClosingAnswer* answer = nullptr;
+};
+
+/// A launch that a search waits for.
+struct Asked {
+  const Search* search;
+  const ClosingTerms* terms;
+  double gap;
+};
+
+std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& searches) {
+  std::vector<Asked> launches;
+  for (const Search& search : searches)
+    for (const double gap : wanted(study, *search.answer))
+      for (const ClosingTerms& terms : search.bound.terms) launches.push_back({&search, &terms, gap});
+  return launches;
+}
+
+/// Computes launches and takes them in; those of one gap on one bound follow each other.
+void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run) {
+  std::vector<PlannedRun> runs;
+  for (const Asked& each : launches) {
+    const auto make = [&study, each] {
+      return run_on(study.cases[each.search->index], *each.terms, each.gap);
+    };
+    runs.push_back({make, cost_of(make())});
   }
-  std::vector<CaseRun> runs;
-  for (const double gap : gaps)
-    for (const ClosingTerms& terms : bound.terms) runs.push_back(run_on(input, terms, gap));
-  std::vector<scene::Scene> scenes;
-  for (const CaseRun& each : runs) scenes.push_back(each.scene);
-  const std::vector<FinishedRun> finished = run(std::move(runs));
-  std::size_t next = 0;
-  for (const double gap : gaps) {
-    ClosingPoint point;
+  std::vector<ClosingPoint> points(launches.size());
+  const auto makers = runs;
+  run(std::move(runs),
+      [&](std::size_t i, const FinishedRun& finished) { points[i] = point_of(makers[i].make(), finished); });
+  for (std::size_t i = 0; i < launches.size(); ++i) {
+    std::vector<ClosingPoint>& known = launches[i].search->answer->points;
+    const bool first =
+        i == 0 || launches[i].search != launches[i - 1].search || launches[i].gap != launches[i - 1].gap;
+    if (first)
+      known.push_back(std::move(points[i]));
+    else
+      join(points[i], known.back());
+  }
+}
+
+/// One of which nothing can be said at any gap.
+void leave_unknown(const Study& study, const Search& search) {
+  for (const double gap : scanned_gaps(study)) {
+    ClosingPoint& point = search.answer->points.emplace_back();
     point.gap = gap;
-    for (const ClosingTerms& terms : bound.terms) {
-      take(scenes[next], finished[next], terms.release, point);
-      ++next;
-    }
-    answer.points.push_back(std::move(point));
+    point.unknown_for = search.bound.unknown_for;
   }
-  std::ranges::sort(answer.points, {}, &ClosingPoint::gap);
-  narrow(answer);
+  narrow(*search.answer);
 }
 
 }  // namespace
 
-std::vector<ClosingBound> closing_bounds(const StudyCase& input) {
+std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner) {
   using scene::GapBase;
   const scene::Surface& own = *input.closing;
   const std::optional<double> duration = own.release_duration;
   std::vector<ClosingBound> bounds{
       {"conducting", {{GapBase::conducting, own.roughness, own.release, duration}}},
       {"insulated", {{GapBase::insulated, own.roughness, own.release, duration}}}};
+  if (!with_corner) return bounds;
   ClosingBound corner{"corner", {}, bond_of(input.scene.scene)};
   const double roughness = std::min(smoothest, own.roughness);
   std::vector<double> releases{0.0, own.release};
@@ -177,17 +217,39 @@ const ClosingPoint* ClosingAnswer::at(double gap) const {
   return found == points.end() ? nullptr : &*found;
 }
 
-std::vector<ClosingAnswer> find_closing_gaps(const Study& study, const StudyCase& input,
-                                             const RunBatch& run) {
-  std::vector<ClosingAnswer> answers;
-  for (const ClosingBound& bound : closing_bounds(input)) {
-    ClosingAnswer answer;
-    answer.name = bound.name;
-    for (std::vector<double> gaps = wanted(study, answer); !gaps.empty(); gaps = wanted(study, answer))
-      add_points(input, bound, gaps, run, answer);
-    answers.push_back(std::move(answer));
+std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
+                                                          const std::vector<std::size_t>& cases,
+                                                          const RunBatch& run) {
+  std::vector<std::vector<ClosingAnswer>> answers(cases.size());
+  std::vector<Search> searches;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::vector<ClosingBound> bounds = closing_bounds(study.cases[cases[i]], study.study.in_detail);
+    answers[i].resize(bounds.size());
+    for (std::size_t j = 0; j < bounds.size(); ++j) {
+      answers[i][j].name = bounds[j].name;
+      searches.push_back({cases[i], std::move(bounds[j]), &answers[i][j]});
+      if (!searches.back().bound.unknown_for.empty()) leave_unknown(study.study, searches.back());
+    }
+  }
+  for (auto launches = launches_of(study.study, searches); !launches.empty();
+       launches = launches_of(study.study, searches)) {
+    add_points(study, launches, run);
+    for (const Search& search : searches) {
+      std::ranges::sort(search.answer->points, {}, &ClosingPoint::gap);
+      narrow(*search.answer);
+    }
   }
   return answers;
+}
+
+std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
+  const double widest = largest_gap(study) / scan_gaps;
+  const double halvings = std::max(0.0, std::ceil(std::log2(widest / study.tolerance)));
+  const std::size_t gaps = scanned_gaps(study).size() + static_cast<std::size_t>(halvings);
+  std::size_t launches = 0;
+  for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
+    if (bound.unknown_for.empty()) launches += gaps * bound.terms.size();
+  return launches;
 }
 
 /// A thinner gap that ignites says that this one does too: T max need not rise with the gap.
@@ -201,18 +263,32 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
   };
   for (const ClosingAnswer& answer : answers) {
     const ClosingPoint* point = answer.at(gap);
-    if (std::ranges::any_of(answer.points, hides_a_thinner)) evidence.known = false;
-    if (point == nullptr || !is_known(*point)) {
-      evidence.known = false;
-      continue;
-    }
-    const bool ignites = point->ignited || answer.upper <= gap;
-    if (&answer != &answers.back())
+    const bool is_computed = point != nullptr && is_known(*point);
+    if (!is_computed || std::ranges::any_of(answer.points, hides_a_thinner)) evidence.known = false;
+    const bool ignites = (is_computed && point->ignited) || answer.upper <= gap;
+    if (!answer.is_worst_corner())
       evidence.ignited = evidence.ignited || ignites;
-    else
+    else if (ignites || is_computed)
       evidence.corner_margin = ignites ? -infinite : ignition_temperature - point->maximum_temperature;
   }
   return evidence;
+}
+
+CriticalGap critical_gap_of(const ClosingAnswer& answer) {
+  CriticalGap gap;
+  gap.lower = answer.lower;
+  gap.upper = answer.upper;
+  if (std::isnan(answer.upper)) {
+    gap.reason.code = GapReason::Code::undefined;
+  } else if (std::isinf(answer.upper)) {
+    gap.kind = CriticalGapKind::all_safe;
+  } else if (std::isnan(answer.lower)) {
+    gap.kind = CriticalGapKind::all_ignite;
+  } else {
+    gap.kind = CriticalGapKind::value;
+    gap.value = 0.5 * (answer.lower + answer.upper);
+  }
+  return gap;
 }
 
 }  // namespace launchsafe::study

@@ -1,6 +1,7 @@
 #include "launchsafe/study/forecast.hpp"
 
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
@@ -148,11 +149,19 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   return run;
 }
 
-/// s on a core, at most, of the coupled runs that follow the launch of a case which is to run. What follows a
-/// stored launch is as a rule stored too.
+/// Runs that may follow that of a case, at most.
+std::size_t following_runs(const StudyFile& study) {
+  if (study.study.kind.goes_through_ignition || study.cases.empty()) return 0;
+  const StudyCase first = study.cases.front();
+  return study.confirmations_per_case + (first.closing ? most_closing_launches(study.study, first) : 0);
+}
+
+/// s on a core, at most, of each run that follows that of a case which is to run. What follows a stored
+/// launch is as a rule stored too.
 double confirmation_time(const StudyFile& study, const CaseRuns& runs, double update_rate) {
   const StudyCase input = study.cases[runs.members.front()];
-  return continued_cost(skin_run(input.scene.scene, study.study.largest_gap, {})) / update_rate;
+  const CaseRun following = skin_run(closing_scene(input), study.study.largest_gap, {});
+  return (input.closing ? cost_of(following) : continued_cost(following)) / update_rate;
 }
 
 /// What a study takes beside its runs, measured: the program on one core and on four, shards of 2 000 and
@@ -209,7 +218,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
     forecast.cases += each.members.size();
     forecast.run_count += each.runs.size();
   }
-  forecast.confirmations = study.confirmations_per_case * all.size();
+  const std::size_t following = following_runs(study);
+  forecast.confirmations = following * all.size();
   const std::vector<CaseRuns> cases = some_of(std::move(all), most_cases);
   std::vector<std::vector<ForecastRun>> runs(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
@@ -221,8 +231,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   });
   std::vector<double> times, confirmation_times, memories;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (study.confirmations_per_case > 0 && !runs[i].front().stored && !runs[i].front().given_up)
-      confirmation_times.insert(confirmation_times.end(), study.confirmations_per_case,
+    if (following > 0 && !runs[i].front().stored && !runs[i].front().given_up)
+      confirmation_times.insert(confirmation_times.end(), following,
                                 confirmation_time(study, cases[i], forecast.update_rate));
     for (ForecastRun& run : runs[i]) {
       if (!run.stored && !run.given_up) {

@@ -84,6 +84,9 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
       return "the critical gap may be as small as " + bound_text(judgement.at_least);
     case ReasonCode::closing_unknown:
       return "what a gap that closes does is not known here";
+    case ReasonCode::closing_without_corner:
+      return "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) "
+             "were not computed, as in no study of many cases";
     case ReasonCode::closing_corner:
       return "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) " +
              (std::isfinite(evidence.closing.corner_margin)

@@ -34,6 +34,7 @@ std::string to_string(ReasonCode code) {
                              "may-ignite-without-gap",
                              "not-below-bound",
                              "closing-unknown",
+                             "closing-without-corner",
                              "closing-corner",
                              "below-bound"};
   return words.at(static_cast<std::size_t>(code));
@@ -83,6 +84,8 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
 Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, Judgement by_reservoir) {
   if (by_reservoir.verdict != Verdict::safe) return by_reservoir;
   if (!evidence.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
+  if (std::isnan(evidence.closing.corner_margin))
+    return indeterminate(ReasonCode::closing_without_corner, critical);
   // Written so that NaN is never safe.
   if (!(evidence.closing.corner_margin > std::max(evidence.uncertainty, assumed_numerical_uncertainty)))
     return indeterminate(ReasonCode::closing_corner, critical);

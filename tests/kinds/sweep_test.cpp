@@ -47,8 +47,8 @@ StudyFile sweep_of(const std::string& gaps, const Varied& varied, const std::str
       "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
       "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
       "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
-      "are "
-      "sought\" }]\ngaps = \"" +
+      "are sought\" }, { key = \"calibration.interfaces\", value = \"base sliding, friction 0; nose sliding, "
+      "friction 0; wall sliding, friction 0\", because = \"a synthetic launch\" }]\ngaps = \"" +
       gaps + "\"\n" + vary(varied) + constants_beside(varied) + more);
 }
 
@@ -222,6 +222,89 @@ TEST_F(StoredSweep, JudgesNewThermalValuesOnStoredRuns) {
   EXPECT_EQ(second.runs(), 0);
   Counting unstored;
   EXPECT_EQ(lines_of(result), lines_of(run_critical_gap(other, unstored.options())));
+}
+
+/// A sweep of two pressures whose charge may part from its base.
+StudyFile parting_sweep_of(const std::string& keys) {
+  return sweep_of("0, 0.01, 0.02 cm", {{"peak_pressure", "400, 496 MPa"}}, "0.08 cm",
+                  "interface.base.condition = \"sliding\"\ninterface.base.friction = 0\n"
+                  "numerics.selective_inertia = 2\n" +
+                      keys);
+}
+const std::string closes = "gap.model = \"closing\"\n";
+
+/// The synthetic launch, in which gaps that `ignites` says do so where they close, and others stay at 420 K.
+StudyOptions closing_options(Counting& counting,
+                             std::function<bool(const scene::Scene& scene, double gap)> ignites) {
+  StudyOptions options = counting.options();
+  options.runners.with_skin = [ignites](const scene::Scene& scene, double gap, const run::RunOptions&) {
+    run::CaseResult result;
+    result.mechanics = synthetic_mechanics(scene);
+    run::GapResult& closed = result.gaps.emplace_back();
+    closed.gap = gap;
+    closed.at_stations.temperature = 420.0;
+    if (ignites(scene, gap)) closed.skin.ignition = surface::Ignition{};
+    return result;
+  };
+  return options;
+}
+
+std::size_t count_of(const CriticalGapResult& result, Verdict verdict) {
+  std::size_t count = 0;
+  for (const CaseAnswer& answer : result.answers)
+    count += static_cast<std::size_t>(std::ranges::count_if(
+        answer.verdicts, [verdict](const GapVerdict& row) { return row.judgement.verdict == verdict; }));
+  return count;
+}
+
+// The worst corner of how a gap closes is not computed in a sweep, whatever is stored of the reservoir.
+TEST_F(StoredSweep, IsSafeNowhereWhereItsGapsClose) {
+  Counting counting;
+  EXPECT_GT(count_of(run(parting_sweep_of(""), counting), Verdict::safe), 0u);
+  auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+  ASSERT_TRUE(store);
+  StudyOptions options = closing_options(counting, [](const auto&, double) { return false; });
+  options.store = store->get();
+  const CriticalGapResult result = run_critical_gap(parting_sweep_of(closes), options);
+  EXPECT_EQ(counting.runs(), 2);
+  EXPECT_EQ(count_of(result, Verdict::safe), 0u);
+  EXPECT_EQ(result.answers[0].verdicts[0].judgement.code, ReasonCode::closing_without_corner);
+  EXPECT_NE(answer(result).find("0 SAFE"), std::string::npos) << answer(result);
+  const std::string page = to_markdown(critical_gap_table(result));
+  EXPECT_NE(page.find("closing, base conducts"), std::string::npos) << page;
+  EXPECT_NE(page.find("> 0.08 cm"), std::string::npos) << page;
+}
+
+TEST(Sweep, IsUnsafeWhereAGapIgnitesThatCloses) {
+  Counting counting;
+  // Only a base that takes no heat, at the higher pressure.
+  const CriticalGapResult result = run_critical_gap(
+      parting_sweep_of(closes), closing_options(counting, [](const auto& scene, double gap) {
+        return gap > 1.5e-4 && scene.load.peak > 450e6 && scene.surface.base == scene::GapBase::insulated;
+      }));
+  EXPECT_EQ(count_of(result, Verdict::unsafe), 1u);
+  EXPECT_EQ(result.answers[1].verdicts[2].judgement.code, ReasonCode::closing_ignition);
+  EXPECT_NEAR(result.answers[1].closing[1].upper, 1.5e-4, 2e-5);
+  EXPECT_NE(answer(result).find("the base takes none: ignition in 1 case, from 0.015"), std::string::npos)
+      << answer(result);
+}
+
+TEST(Sweep, HasNoSurrogateWhereItsGapsClose) {
+  const auto study =
+      parse_here(critical_text + "surrogate = true\n" + vary({{"peak_pressure", "400, 496 MPa"}}) +
+                 "[set]\ninterface.base.condition = \"sliding\"\ninterface.base.friction = 0\n" + closes);
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.error().key, "surrogate") << study.error().message();
+}
+
+TEST(Sweep, ForeseesTheLaunchesOfGapsThatClose) {
+  const StudyFile study = parting_sweep_of(closes);
+  StudyOptions options;
+  options.jobs = 1;
+  const Forecast forecast = forecast_study(study, options, 1e6);
+  // Of two cases on two bounds: nine gaps, and seven halvings of 0.01 cm down to the default of 0.0001 cm.
+  EXPECT_EQ(forecast.confirmations, 2u * 2u * (9u + 7u));
+  EXPECT_GT(forecast.confirmation_time, 10.0 * (forecast.time - forecast.confirmation_time));
 }
 
 // A row that the constants were calibrated on and that is missed costs 60 K of uncertainty; whether it counts

@@ -24,7 +24,7 @@ struct Launch {
 using Temperature = std::function<double(const Launch&)>;
 constexpr double ignition = 525.0;
 
-StudyFile closing_study() {
+StudyFile closing_study(bool in_detail = true) {
   StudyFile study = lean_study_of(critical_text +
                                   "gaps = \"0, 0.02 cm\"\nlargest_gap = \"0.08 cm\"\n"
                                   "tolerance = \"0.001 cm\"\n[set]\ngap.model = \"closing\"\n"
@@ -32,28 +32,37 @@ StudyFile closing_study() {
                                   "interface.base.condition = \"sliding\"\n"
                                   "interface.base.friction = 0\n");
   EXPECT_TRUE(study.cases.front().closing.has_value());
+  study.study.in_detail = in_detail;
   return study;
 }
 
-std::vector<ClosingAnswer> answers_of(const Temperature& temperature) {
-  const StudyFile study = closing_study();
-  const RunBatch run = [&](std::vector<CaseRun> runs) {
-    std::vector<FinishedRun> finished;
-    for (const CaseRun& each : runs) {
-      FinishedRun& one = finished.emplace_back();
-      one.outcome = RunOutcome::ran;
-      one.hash = each.hash;
-      one.result.mechanics = synthetic_mechanics(each.scene);
-      const double kelvin = temperature({*each.skin_gap, each.scene.surface});
-      run::GapResult& gap = one.result.gaps.emplace_back();
-      gap.gap = *each.skin_gap;
-      gap.at_stations.temperature = kelvin;
-      if (kelvin >= ignition) gap.skin.ignition = surface::Ignition{};
-      if (std::isnan(kelvin)) one.failure = "energy drift";
-    }
-    return finished;
-  };
-  return find_closing_gaps(study.study, study.cases.front(), run);
+FinishedRun launch_of(const CaseRun& asked, double kelvin) {
+  FinishedRun run{.outcome = RunOutcome::ran, .failure = {}, .result = {}, .hash = asked.hash};
+  run.result.mechanics = synthetic_mechanics(asked.scene);
+  run::GapResult& gap = run.result.gaps.emplace_back();
+  gap.gap = *asked.skin_gap;
+  gap.at_stations.temperature = kelvin;
+  if (kelvin >= ignition) gap.skin.ignition = surface::Ignition{};
+  return run;
+}
+
+/// What the launches that `finish` makes say of the only case.
+template <class Finish>
+std::vector<ClosingAnswer> answers_of(const StudyFile& study, Finish finish) {
+  return find_closing_gaps(study, {0},
+                           [&](const std::vector<PlannedRun>& runs, const auto& take) {
+                             for (std::size_t i = 0; i < runs.size(); ++i) take(i, finish(runs[i].make()));
+                           })
+      .front();
+}
+
+std::vector<ClosingAnswer> answers_of(const Temperature& temperature, bool in_detail = true) {
+  return answers_of(closing_study(in_detail), [&](const CaseRun& asked) {
+    const double kelvin = temperature({*asked.skin_gap, asked.scene.surface});
+    FinishedRun run = launch_of(asked, kelvin);
+    if (std::isnan(kelvin)) run.failure = "energy drift";
+    return run;
+  });
 }
 
 TEST(ClosingGaps, TheCaseHasTheReservoirBesideThem) {
@@ -130,16 +139,11 @@ TEST(ClosingGaps, OneReleaseThatIsNotKnownLeavesTheCornerUnknown) {
 }
 
 TEST(ClosingGaps, ALaunchThatSomethingWarnsOfLeavesItsGapUnknown) {
-  const StudyFile study = closing_study();
-  const RunBatch run = [](const std::vector<CaseRun>& runs) {
-    std::vector<FinishedRun> finished(runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      finished[i].outcome = RunOutcome::ran;  // of a launch without a history
-      finished[i].result.gaps.emplace_back().at_stations.temperature = 400.0;
-    }
-    return finished;
-  };
-  const auto answers = find_closing_gaps(study.study, study.cases.front(), run);
+  const auto answers = answers_of(closing_study(), [](const CaseRun& asked) {
+    FinishedRun run = launch_of(asked, 400.0);
+    run.result.mechanics = {};  // of a launch without a history
+    return run;
+  });
   EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
 }
 
@@ -152,7 +156,7 @@ TEST(ClosingGaps, AThinnerGapThatIsNotKnownLeavesAThickerOneUnknown) {
 }
 
 TEST(ClosingGaps, OfAChargeThatABondHoldsTheCornerIsNotKnown) {
-  const StudyFile study = closing_study();
+  StudyFile study = closing_study();
   StudyCase held = study.cases.front();
   for (scene::Interface& faces : held.scene.scene.interfaces)
     if (faces.body == "wall")
@@ -163,17 +167,50 @@ TEST(ClosingGaps, OfAChargeThatABondHoldsTheCornerIsNotKnown) {
                .shear_strength = 1e12};
   EXPECT_TRUE(closing_bounds(study.cases.front()).back().unknown_for.empty());
   EXPECT_NE(closing_bounds(held).back().unknown_for.find("bonded to \"wall\""), std::string::npos);
-  const auto answers = find_closing_gaps(study.study, held, [](const std::vector<CaseRun>& runs) {
-    std::vector<FinishedRun> finished(runs.size());
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      finished[i].outcome = RunOutcome::ran;
-      finished[i].result.mechanics = synthetic_mechanics(runs[i].scene);
-      finished[i].result.gaps.emplace_back().at_stations.temperature = 400.0;
-    }
-    return finished;
-  });
+  study.cases.replace(0, held);
+  const auto answers = answers_of(study, [](const CaseRun& asked) { return launch_of(asked, 400.0); });
   EXPECT_TRUE(answers.back().at(2e-4) != nullptr);
   EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
+}
+
+TEST(ClosingGaps, OfManyCasesEndTheScanAtTheFirstThatIgnitesAndHaveNoCorner) {
+  const auto answers =
+      answers_of([](const Launch& launch) { return launch.gap > 2.5e-4 ? 600.0 : 400.0; }, false);
+  ASSERT_EQ(answers.size(), 2u);
+  EXPECT_NEAR(answers[0].upper, 2.5e-4, 1e-5);
+  // 0, 0.1 and 0.2 mm do not ignite, 0.3 mm does, and four halvings come to less than 0.01 mm.
+  EXPECT_EQ(answers[0].points.size(), 8u);
+  EXPECT_EQ(answers[0].at(8e-4), nullptr);
+  const ClosingEvidence below = closing_evidence(answers, 2e-4, ignition),
+                        above = closing_evidence(answers, 8e-4, ignition);
+  EXPECT_TRUE(below.known);
+  EXPECT_FALSE(below.ignited);
+  EXPECT_TRUE(std::isnan(below.corner_margin));
+  EXPECT_TRUE(above.ignited);
+}
+
+TEST(ClosingGaps, OfManyCasesTellUpToWhichGapTheyAreKnown) {
+  const auto answers = answers_of(
+      [](const Launch& launch) {
+        return launch.gap > 4.5e-4 ? std::numeric_limits<double>::quiet_NaN() : 400.0;
+      },
+      false);
+  EXPECT_DOUBLE_EQ(answers[1].lower, 4e-4);
+  EXPECT_TRUE(std::isnan(answers[1].upper));
+  EXPECT_TRUE(closing_evidence(answers, 4e-4, ignition).known);
+  EXPECT_FALSE(closing_evidence(answers, 8e-4, ignition).known);
+}
+
+TEST(ClosingGaps, NoMoreLaunchesAreAskedForThanIsSaidBefore) {
+  for (const bool in_detail : {true, false}) {
+    const StudyFile study = closing_study(in_detail);
+    std::size_t launches = 0;
+    answers_of(study, [&](const CaseRun& asked) {
+      ++launches;
+      return launch_of(asked, *asked.skin_gap > 7.9e-4 ? 600.0 : 400.0);
+    });
+    EXPECT_EQ(launches, most_closing_launches(study.study, study.cases.front())) << in_detail;
+  }
 }
 
 TEST(ClosingGaps, WithoutAnswersNothingIsKnown) { EXPECT_FALSE(closing_evidence({}, 0.0, ignition).known); }

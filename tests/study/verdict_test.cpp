@@ -219,6 +219,13 @@ TEST(Verdict, IsNeverSafeWhereAClosingGapIsNotKnown) {
     EXPECT_EQ(judge(closing(evidence), critical).verdict, Verdict::indeterminate);
 }
 
+TEST(Verdict, IsNotSafeWhereTheCornerOfAClosingGapWasNotComputed) {
+  const Evidence evidence = closing({true, false, nan_value});
+  const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
+  EXPECT_EQ(judged.code, ReasonCode::closing_without_corner);
+  EXPECT_NE(reason_text(evidence, judged).find("were not computed"), std::string::npos);
+}
+
 TEST(Verdict, IsUnsafeWhereAClosingGapIgnitesOnItsOwnTerms) {
   const Evidence evidence = closing({true, true, -1.0});
   const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));

@@ -27,6 +27,7 @@ struct CaseAnswer {
   double friction_rise = not_a_number;         ///< K, likewise
   CriticalGap critical;                        ///< at the observation points
   std::vector<GapVerdict> verdicts;            ///< in the order of the study's gaps
+  std::vector<ClosingAnswer> closing;          ///< as CaseOutcome has them; not stored
   std::vector<double>
       heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that
                            ///< air and friction heat and that neither reacts nor is triggered
@@ -40,6 +41,8 @@ CaseAnswer answer_of(const CaseOutcome& outcome);
 /// states no uncertainty of the inputs.
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
                      const std::optional<run::MechanicsResult>& raised = std::nullopt);
+/// Takes in what gaps that close say of the case, and judges its gaps anew.
+void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, CaseAnswer& answer);
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 

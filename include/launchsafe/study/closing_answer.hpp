@@ -23,10 +23,11 @@ struct ClosingPoint {
 struct ClosingAnswer {
   std::string name;
   std::vector<ClosingPoint> points;
-  /// m, between what does not ignite (NaN: it ignites without a gap) and the smallest that does (infinite:
-  /// none up to the end of the search); both NaN where a temperature below is not known.
+  /// m, between the largest below which nothing ignites (NaN: there is none) and the smallest that does
+  /// (infinite: none up to the end of the search; NaN: a temperature beyond `lower` is not known).
   double lower = not_a_number, upper = not_a_number;
   const ClosingPoint* at(double gap) const;
+  bool is_worst_corner() const { return name == "corner"; }
 };
 
 }  // namespace launchsafe::study

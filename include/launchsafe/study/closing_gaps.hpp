@@ -27,20 +27,32 @@ struct ClosingBound {
   std::string unknown_for = {};  ///< why nothing can be said on them; empty where it can
 };
 
-/// "conducting" and "insulated": a case's own terms with either base. "corner": an insulated base, the
-/// smoothest faces of the plausible ones or the case's own, and a charge that is free from the start, or as
-/// the case has it, or held until the load has a quarter, a half, three quarters, and all of its peak, and
-/// let go over the time that sound takes through it or over the case's own where that is shorter. Of a charge
-/// that anything holds by a bond the corner is not known: when bonds let go is not looked at.
-std::vector<ClosingBound> closing_bounds(const StudyCase& input);
+/// "conducting" and "insulated": a case's own terms with either base. "corner", where it is asked for: an
+/// insulated base, the smoothest faces of the plausible ones or the case's own, and a charge that is free
+/// from the start, or as the case has it, or held until the load has a quarter, a half, three quarters, and
+/// all of its peak, and let go over the time that sound takes through it or over the case's own where that is
+/// shorter. Of a charge that anything holds by a bond the corner is not known: when bonds let go is not
+/// looked at.
+std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner = true);
 
-/// All bounds of a case: the gaps of the study and a scan up to the largest one are computed, then the first
-/// that ignites is narrowed down to the study's tolerance. `run` performs a batch of runs.
-using RunBatch = std::function<std::vector<FinishedRun>(std::vector<CaseRun> runs)>;
-std::vector<ClosingAnswer> find_closing_gaps(const Study& study, const StudyCase& input, const RunBatch& run);
+/// Performs runs and hands over what became of each, from any thread.
+using RunBatch = std::function<void(std::vector<PlannedRun> runs,
+                                    const std::function<void(std::size_t run, const FinishedRun&)>& take)>;
+
+/// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study and a scan up to
+/// the largest one are computed, then the first that ignites is narrowed down to the study's tolerance. In
+/// detail all of them, with the corner; of many cases from the thinnest up to the first that ignites or is
+/// not known, without the corner.
+std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
+                                                          const std::vector<std::size_t>& cases,
+                                                          const RunBatch& run);
+/// Launches of a case that may be asked for, at most.
+std::size_t most_closing_launches(const Study& study, const StudyCase& input);
 
 /// What they say of one gap, for its verdict: nothing where a thinner gap is not known.
 ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
                                  double ignition_temperature);
+/// A bound as a critical gap, for people.
+CriticalGap critical_gap_of(const ClosingAnswer& answer);
 
 }  // namespace launchsafe::study

@@ -34,14 +34,15 @@ struct Forecast {
   std::vector<ForecastRun> runs;  ///< of them; of many some, evenly spread, from which all else is estimated
   /// Of all runs, what is the case for so many of `runs`.
   std::size_t of_all(std::size_t runs_like_that) const;
-  std::size_t confirmations = 0;  ///< coupled runs that may follow, at most
-  double update_rate = 0;         ///< particle updates per second on a core that the prediction rests on
-  std::size_t learned_from = 0;   ///< recorded runs that the rate was learned from; 0: measured now
-  double time = 0;                ///< s of wall time, of all that is to run
-  double confirmation_time = 0;   ///< s of it, at most, of the confirmations of launches that are to run
-  double plan_memory = 0;         ///< bytes of the program with its plan of the whole study
-  double kept_memory = 0;         ///< bytes that are kept till the end of the cases asked for
-  double report_memory = 0;       ///< bytes of the report of all cases, besides
+  /// Coupled runs, and launches of gaps that close, that may follow, at most.
+  std::size_t confirmations = 0;
+  double update_rate = 0;        ///< particle updates per second on a core that the prediction rests on
+  std::size_t learned_from = 0;  ///< recorded runs that the rate was learned from; 0: measured now
+  double time = 0;               ///< s of wall time, of all that is to run
+  double confirmation_time = 0;  ///< s of it, at most, of what follows launches that are to run
+  double plan_memory = 0;        ///< bytes of the program with its plan of the whole study
+  double kept_memory = 0;        ///< bytes that are kept till the end of the cases asked for
+  double report_memory = 0;      ///< bytes of the report of all cases, besides
   double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
   int jobs = 1;
 };

@@ -51,9 +51,10 @@ struct CaseEvidence {
 
 /// What gaps that close say of one gap (closing_gaps.hpp).
 struct ClosingEvidence {
-  bool known = false;    ///< every bound has a temperature
+  bool known = false;    ///< every bound that was computed has a temperature
   bool ignited = false;  ///< with a base that conducts, or with an insulated one
-  /// K, in the worst corner; minus infinity where it ignites there, or a thinner gap does.
+  /// K, in the worst corner; minus infinity where it ignites there, or a thinner gap does; NaN where the
+  /// corner was not computed.
   double corner_margin = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -96,6 +97,7 @@ enum class ReasonCode {
   may_ignite_without_gap,
   not_below_bound,
   closing_unknown,
+  closing_without_corner,
   closing_corner,
   below_bound
 };
