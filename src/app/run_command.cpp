@@ -300,10 +300,15 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
 ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
                              const scene::Scene& scene, Console& console) {
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
-  console.error(fmt::format(
-      "interrupted at {} of {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
-      scene::time_text(mechanics.end_time), scene::time_text(scene::end_time(scene.load)),
-      arguments.scene.string(), output));
+  const double end = scene::end_time(scene.load);
+  // What follows the launch was interrupted where the launch itself is over.
+  const std::string where =
+      mechanics.end_time < end
+          ? fmt::format("at {} of {}", scene::time_text(mechanics.end_time), scene::time_text(end))
+          : mechanics.reason;
+  console.error(
+      fmt::format("interrupted {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
+                  where, arguments.scene.string(), output));
   return ExitCode::interrupted;
 }
 

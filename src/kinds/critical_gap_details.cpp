@@ -105,11 +105,12 @@ Quantities<OtherRow> other_quantities(Column usual, Column other,
 }
 
 Quantities<OtherRow> film_quantities() {
-  return other_quantities({"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
-                           "Highest temperature under the reservoir of air."},
-                          {"temperature_max_film", "T max, film", fixed(1, kelvin),
-                           "Highest temperature under the film of air: an optimistic bound."},
-                          &CaseOutcome::film);
+  return other_quantities(
+      {"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
+       "Highest temperature under the reservoir of air."},
+      {"temperature_max_film", "T max, film", fixed(1, kelvin),
+       "Highest temperature under the film of air, which gives what compression supplies alone."},
+      &CaseOutcome::film);
 }
 
 Quantities<OtherRow> longer_launch_quantities() {

@@ -171,7 +171,10 @@ Quantities<const run::GapResult*> closing_quantities() {
                 &ClosingHistory::contacts},
                {{"smallest_opening", "smallest opening", significant(3, micrometre), "Anywhere."},
                 &ClosingHistory::smallest_opening},
-               {{"air_pressure_max", "p air", significant(4, megapascal), "Highest pressure of the air."},
+               {{"air_pressure_max", "p air", significant(4, megapascal),
+                 "Highest pressure of the air at the opening that a step ends with; floors under 1 um make "
+                 "it a "
+                 "matter of the step."},
                 &ClosingHistory::largest_gas_pressure},
                {{"air_temperature_max", "T air", significant(4, kelvin),
                  "Highest temperature of the air, mean over its mass at one place."},

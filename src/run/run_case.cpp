@@ -93,6 +93,7 @@ CaseResult continue_with_skin(const scene::Scene& scene, double gap, const Mecha
 
 /// What is missing of a case says nothing of its launch.
 void note_broken_off(CaseResult& result, double gap, const MechanicsResult& broken, const char* when) {
+  if (result.mechanics.status != RunStatus::completed) return;  // of the first
   result.mechanics.status = broken.status;
   result.mechanics.reason = fmt::format("{} {:.6g} cm: {}", when, 100.0 * gap, broken.reason);
 }

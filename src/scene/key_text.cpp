@@ -40,12 +40,23 @@ const std::string& stored_word(const KeyDescription& key, const std::string& wor
   return word;
 }
 
-/// That of the dimension; of a number without a unit that may not be this, the end of its range.
+/// That of the dimension; of a number that may not be this, the end of its range.
 std::string example_of_number(const KeyDescription& key) {
   const std::string usual(example_of(key.dimension));
+  const bool has_unit = !units_of(key.dimension).empty();
+  const auto value = parse_quantity(has_unit ? usual.substr(1, usual.size() - 2) : usual, key.dimension);
+  if (!value || key.limits.contain(*value)) return usual;
+  const double end = key.limits.contain(key.limits.lowest) && key.limits.lowest != 0.0 ? key.limits.lowest
+                                                                                       : key.limits.highest;
+  return has_unit ? fmt::format("\"{}\"", format_quantity(end, key.dimension)) : fmt::format("{:g}", end);
+}
+
+/// Its upper end within the range that is allowed.
+std::string example_of_range(const KeyDescription& key) {
+  const std::string usual = "2.5" + first_unit(key.dimension);
   const auto value = parse_quantity(usual, key.dimension);
-  if (!units_of(key.dimension).empty() || !value || key.limits.contain(*value)) return usual;
-  return fmt::format("{:g}", key.limits.contain(key.limits.lowest) ? key.limits.lowest : key.limits.highest);
+  const bool is_allowed = !value || !std::isfinite(key.limits.highest) || *value <= key.limits.highest;
+  return fmt::format("\"0 to {}\"", is_allowed ? usual : format_quantity(key.limits.highest, key.dimension));
 }
 
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
@@ -82,7 +93,7 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::list:
       return fmt::format("\"0, 1.5, 2{}\"", first_unit(key.dimension));
     case KeyKind::range:
-      return fmt::format("\"0 to 2.5{}\"", first_unit(key.dimension));
+      return example_of_range(key);
     case KeyKind::number:
       return example_of_number(key);
   }

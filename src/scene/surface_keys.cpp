@@ -64,8 +64,8 @@ std::vector<Key<Surface>> gap_keys() {
       always_plausible(
           word_key(
               "air", Standing::paper,
-              "Air that stays on its adiabat, or a film that conducts into charge and base, the optimistic "
-              "bound; in the film no exchange, skin or air density counts.",
+              "Air that stays on its adiabat, or a film that conducts into charge and base and gives what "
+              "compression supplies alone; in the film no exchange, skin or air density counts.",
               {{"reservoir", AirModel::reservoir}, {"film", AirModel::film}}, &Surface::air_model),
           "both are models of the air; constants are calibrated for one of them", of_skin_model),
       plausibly(

@@ -46,6 +46,11 @@ Fault check_keys_of_model(const SceneFile& file) {
       if (file.given.contains(key)) return beside(key, "closing", "reservoir");
     return std::nullopt;
   }
+  // Stored scenes have both written out.
+  if (file.given.contains("gap.release_duration") && !file.given.contains("gap.release"))
+    return fault_at(file, "gap.release_duration",
+                    "it without gap.release: a charge that is free has nothing to let go",
+                    "gap.release, until when the charge is held, beside it");
   if (surface.air_model != AirModel::reservoir) return beside("gap.air", "reservoir", "closing");
   if (surface.exchange != Exchange::rate) return beside("gap.exchange", "reservoir", "closing");
   if (surface.air_pressure != AirPressure::charge_bottom)

@@ -130,7 +130,8 @@ std::string to_string(const Optimistic& optimistic) {
     case Optimistic::Why::nothing:
       return {};
     case Optimistic::Why::film:
-      return "no ignition under gap.air = \"film\", an optimistic bound, shows nothing";
+      return "no ignition under gap.air = \"film\", which gives what compression supplies alone, shows "
+             "nothing";
     case Optimistic::Why::cooling:
       return fmt::format(
           "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",

@@ -74,6 +74,17 @@ TEST(ClosingGap, IsRefusedWhereAnyPartOfTheBaseIsBonded) {
                "[interface.ring]");
 }
 
+TEST(ClosingGap, ARoughnessOfNothingIsRefusedWithOneThatIsAllowed) {
+  const std::string text = closing("model = \"closing\"\nroughness = \"0 um\"\n");
+  expect_error(error_of(text), line_of(text, "roughness ="), "gap.roughness", "0 um", "such as \"0.1 cm\"");
+}
+
+TEST(ClosingGap, LettingGoTakesNoTimeWhereNothingHoldsTheCharge) {
+  const std::string text = closing("model = \"closing\"\nrelease_duration = \"1 ms\"\n");
+  expect_error(error_of(text), line_of(text, "release_duration ="), "gap.release_duration",
+               "without gap.release", "until when the charge is held");
+}
+
 TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   const std::string film = closing("model = \"closing\"\nair = \"film\"\n");
   expect_error(error_of(film), line_of(film, "air ="), "gap.air", "\"reservoir\" beside \"closing\"",
