@@ -85,10 +85,11 @@ void join(const ClosingPoint& launch, ClosingPoint& point) {
 
 bool is_known(const ClosingPoint& point) { return point.ignited || std::isfinite(point.maximum_temperature); }
 
-/// The gaps of the study and those of the scan, ascending.
+/// The gaps of the study and the largest one, ascending; in detail with those of a scan between them.
 std::vector<double> scanned_gaps(const Study& study) {
   std::vector<double> gaps = study.gaps;
-  for (int i = 0; i <= scan_gaps; ++i) gaps.push_back(largest_gap(study) * i / scan_gaps);
+  const int parts = study.in_detail ? scan_gaps : 1;
+  for (int i = 0; i <= parts; ++i) gaps.push_back(largest_gap(study) * i / parts);
   std::sort(gaps.begin(), gaps.end());
   gaps.erase(std::unique(gaps.begin(), gaps.end(), [](double a, double b) { return b - a < same_gap; }),
              gaps.end());
@@ -243,9 +244,12 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
 }
 
 std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
-  const double widest = largest_gap(study) / scan_gaps;
-  const double halvings = std::max(0.0, std::ceil(std::log2(widest / study.tolerance)));
-  const std::size_t gaps = scanned_gaps(study).size() + static_cast<std::size_t>(halvings);
+  const std::vector<double> scanned = scanned_gaps(study);
+  double widest = study.tolerance;
+  for (std::size_t i = 1; i < scanned.size(); ++i) widest = std::max(widest, scanned[i] - scanned[i - 1]);
+  // An odd bit of round-off is no halving.
+  const double halvings = std::ceil(std::log2(widest / study.tolerance) - 1e-9);
+  const std::size_t gaps = scanned.size() + static_cast<std::size_t>(halvings);
   std::size_t launches = 0;
   for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
     if (bound.unknown_for.empty()) launches += gaps * bound.terms.size();

@@ -302,8 +302,8 @@ TEST(Sweep, ForeseesTheLaunchesOfGapsThatClose) {
   StudyOptions options;
   options.jobs = 1;
   const Forecast forecast = forecast_study(study, options, 1e6);
-  // Of two cases on two bounds: nine gaps, and seven halvings of 0.01 cm down to the default of 0.0001 cm.
-  EXPECT_EQ(forecast.confirmations, 2u * 2u * (9u + 7u));
+  // Of two cases on two bounds: four gaps, and ten halvings of 0.06 cm down to the default of 0.0001 cm.
+  EXPECT_EQ(forecast.confirmations, 2u * 2u * (4u + 10u));
   EXPECT_GT(forecast.confirmation_time, 10.0 * (forecast.time - forecast.confirmation_time));
 }
 

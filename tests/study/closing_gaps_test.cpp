@@ -178,9 +178,9 @@ TEST(ClosingGaps, OfManyCasesEndTheScanAtTheFirstThatIgnitesAndHaveNoCorner) {
       answers_of([](const Launch& launch) { return launch.gap > 2.5e-4 ? 600.0 : 400.0; }, false);
   ASSERT_EQ(answers.size(), 2u);
   EXPECT_NEAR(answers[0].upper, 2.5e-4, 1e-5);
-  // 0, 0.1 and 0.2 mm do not ignite, 0.3 mm does, and four halvings come to less than 0.01 mm.
-  EXPECT_EQ(answers[0].points.size(), 8u);
-  EXPECT_EQ(answers[0].at(8e-4), nullptr);
+  // 0 and 0.2 mm do not ignite, 0.8 mm does, and six halvings of 0.6 mm come to less than 0.01 mm.
+  EXPECT_EQ(answers[0].points.size(), 9u);
+  EXPECT_EQ(answers[0].at(1e-4), nullptr);
   const ClosingEvidence below = closing_evidence(answers, 2e-4, ignition),
                         above = closing_evidence(answers, 8e-4, ignition);
   EXPECT_TRUE(below.known);
@@ -192,12 +192,12 @@ TEST(ClosingGaps, OfManyCasesEndTheScanAtTheFirstThatIgnitesAndHaveNoCorner) {
 TEST(ClosingGaps, OfManyCasesTellUpToWhichGapTheyAreKnown) {
   const auto answers = answers_of(
       [](const Launch& launch) {
-        return launch.gap > 4.5e-4 ? std::numeric_limits<double>::quiet_NaN() : 400.0;
+        return launch.gap > 2.5e-4 ? std::numeric_limits<double>::quiet_NaN() : 400.0;
       },
       false);
-  EXPECT_DOUBLE_EQ(answers[1].lower, 4e-4);
+  EXPECT_DOUBLE_EQ(answers[1].lower, 2e-4);
   EXPECT_TRUE(std::isnan(answers[1].upper));
-  EXPECT_TRUE(closing_evidence(answers, 4e-4, ignition).known);
+  EXPECT_TRUE(closing_evidence(answers, 2e-4, ignition).known);
   EXPECT_FALSE(closing_evidence(answers, 8e-4, ignition).known);
 }
 
@@ -207,7 +207,7 @@ TEST(ClosingGaps, NoMoreLaunchesAreAskedForThanIsSaidBefore) {
     std::size_t launches = 0;
     answers_of(study, [&](const CaseRun& asked) {
       ++launches;
-      return launch_of(asked, *asked.skin_gap > 7.9e-4 ? 600.0 : 400.0);
+      return launch_of(asked, *asked.skin_gap > 7.99e-4 ? 600.0 : 400.0);
     });
     EXPECT_EQ(launches, most_closing_launches(study.study, study.cases.front())) << in_detail;
   }

@@ -39,10 +39,10 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
 using RunBatch = std::function<void(std::vector<PlannedRun> runs,
                                     const std::function<void(std::size_t run, const FinishedRun&)>& take)>;
 
-/// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study and a scan up to
-/// the largest one are computed, then the first that ignites is narrowed down to the study's tolerance. In
-/// detail all of them, with the corner; of many cases from the thinnest up to the first that ignites or is
-/// not known, without the corner.
+/// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study up to the largest
+/// one of its search are computed, then the first that ignites is narrowed down to the study's tolerance. In
+/// detail all of them and a scan between them, with the corner; of many cases from the thinnest up to the
+/// first that ignites or is not known, without the corner.
 std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
                                                           const std::vector<std::size_t>& cases,
                                                           const RunBatch& run);
