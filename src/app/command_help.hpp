@@ -11,6 +11,7 @@ inline constexpr const char* footer = R"(
 Examples:
   launchsafe run studies/scene_155mm.toml -o results
   launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2
+  launchsafe status results
   launchsafe merge sweep.toml -o results shard-1 shard-2
   launchsafe emit slurm sweep.toml -o results --shards 20
   launchsafe ask results --set load.peak="510 MPa"
@@ -40,6 +41,7 @@ Examples:
   launchsafe study studies/critical_gap_155mm.toml -o results --jobs 2 --json > study.json
   launchsafe study sweep.toml -o results --dry-run           the runs it needs, why, and their cost
   launchsafe study sweep.toml -o results --memory 8GB --time-limit 30min
+  launchsafe study sweep.toml -o results --until 06:00       stop then; the same command goes on
   launchsafe study sweep.toml -o results --update            after a change of the study
   launchsafe study studies/critical_gap_155mm.toml -o results --tolerance 5K
                                                              the cheapest numerics that know T max to 5 K
@@ -47,6 +49,17 @@ Examples:
 
 Every mechanical run is kept in DIR as soon as it ends: after an interruption, a kill or a full disk the same
 command goes on where it was. What did not change is not computed again.)";
+
+inline constexpr const char* status_footer = R"(
+Examples:
+  launchsafe status results                      one study, or all shards that use its folder, as in Slurm
+  launchsafe status shard-1 shard-2              shards with folders of their own
+  launchsafe status results --watch
+
+It reads what the study tells in DIR every second, and never its results: it may be asked on another machine that
+sees DIR, also while the study runs. DIR/index.html says the same in a browser. When a study will end is an estimate
+from the runs so far. Critical gaps are preliminary, of ignition alone. The exit code is that of a study that has
+ended (75 where it was killed), and 0 while it runs.)";
 
 inline constexpr const char* merge_footer = R"(
 Examples:

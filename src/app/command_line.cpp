@@ -64,6 +64,7 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_jobs(command, study.jobs, "Cases at a time; as many as there are processors unless given");
   add_limits(command, study.memory, study.time_limit);
   add_longest_run(command, study.longest_run);
+  add_until(command, study.until);
   add_shard(command, study.shard);
   add_tolerance(command, study.tolerance);
   command.add_flag("--dry-run", study.dry_run,
@@ -81,6 +82,14 @@ void add_merge(CLI::App& app, CommandLine& line) {
   add_update(command, merge.update);
   add_tolerance(command, merge.tolerance);
   add_jobs(command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
+}
+
+void add_status(CLI::App& app, CommandLine& line) {
+  auto [command, status] = add_command<StatusArguments>(
+      app, line, "status", "Say how far a study is: done, failed, left, when it will end", status_footer);
+  add_required(command, "folder", status.folders, "DIR...",
+               "Folder of a study or of its shards, or those of shards that have one each");
+  command.add_flag("--watch", status.watch, "Look again every few seconds until it has ended");
 }
 
 void add_emit(CLI::App& app, CommandLine& line) {
@@ -307,8 +316,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer);
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  for (const auto add : {add_run, add_study, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
-                         add_init, add_import_curve, add_report})
+  for (const auto add : {add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify,
+                         add_explain, add_plot, add_init, add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");

@@ -18,9 +18,9 @@ struct UsageError {
   std::string message;
 };
 
-using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, MergeArguments,
-                             EmitArguments, VerifyArguments, ExplainArguments, PlotArguments, InitArguments,
-                             ImportCurveArguments, ReportArguments, AskArguments>;
+using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, StatusArguments,
+                             MergeArguments, EmitArguments, VerifyArguments, ExplainArguments, PlotArguments,
+                             InitArguments, ImportCurveArguments, ReportArguments, AskArguments>;
 
 struct CommandLine {
   Request request;

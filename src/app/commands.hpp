@@ -5,6 +5,7 @@
 #include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/study/shard.hpp"
 
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct StudyArguments {
   std::optional<double> longest_run;  ///< s, predicted, of one case; a longer one is refused
   study::Shard shard;                 ///< the part that is ours
   std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
+  std::optional<std::time_t> until;   ///< when it stops, with what it has
   bool dry_run = false;               ///< say what would be run, and run nothing
   bool update = false;                ///< the folder may hold the results of an earlier study
   std::string command;                ///< the whole command, to be repeated in a shell
@@ -44,6 +46,12 @@ struct MergeArguments {
   std::string command;  ///< the whole command, to be repeated in a shell
 };
 ExitCode perform(const MergeArguments& arguments, Console& console);
+
+struct StatusArguments {
+  std::vector<std::filesystem::path> folders;  ///< of one study: its own, or those of its shards
+  bool watch = false;                          ///< look again until it has ended
+};
+ExitCode perform(const StatusArguments& arguments, Console& console);
 
 struct EmitArguments {
   std::string engine;  ///< what the script is for: "slurm"

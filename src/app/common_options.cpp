@@ -1,5 +1,7 @@
 #include "common_options.hpp"
 
+#include "launchsafe/report/study_status.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -113,6 +115,21 @@ void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<
              "Memory of all running cases together, such as 8GB; most of what is free unless given");
   add_amount(command, "--time-limit", time_limit, parse_duration, allowed_durations, "DURATION",
              "Wall time after which a case is given up, such as 10min");
+}
+
+void add_until(CLI::App& command, std::optional<std::time_t>& until) {
+  const auto read = [&until](const std::string& text) {
+    until = report::next_clock_time(text, std::time(nullptr));
+    if (!until)
+      throw CLI::ValidationError(
+          "--until",
+          fmt::format("found \"{}\"; allowed: a time of the day such as 06:00, of the next 24 h", text));
+  };
+  command
+      .add_option_function<std::string>(
+          "--until", read,
+          "Stop at this local time, as on Ctrl-C: what was run is kept, the same command goes on")
+      ->type_name("HH:MM");
 }
 
 void add_shard(CLI::App& command, study::Shard& shard) {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <ctime>
 #include <functional>
 #include <optional>
 #include <string>
@@ -54,6 +55,8 @@ void add_longest_run(CLI::App& command, std::optional<double>& longest_run);
 void add_jobs(CLI::App& command, int& jobs, const char* meaning);
 /// --memory, bytes, and --time-limit, s.
 void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit);
+/// --until, seconds since the epoch.
+void add_until(CLI::App& command, std::optional<std::time_t>& until);
 /// --shard.
 void add_shard(CLI::App& command, study::Shard& shard);
 /// --tolerance, K.

@@ -84,9 +84,9 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   if (const auto missing = missing_runs(forecast); !missing.empty())
     return refuse_without(
         missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
-  const kinds::StudyOutcome result = kinds::run_study(*file, options);
+  const kinds::StudyOutcome result = session.run(*file, options);
   if (const auto missing = missing_runs(result); !missing.empty())
-    return refuse_without(missing, fmt::format("{} runs", missing.size()), console);
+    return session.end(refuse_without(missing, fmt::format("{} runs", missing.size()), console));
   return session.conclude(result, options.shard);
 }
 

@@ -2,6 +2,7 @@
 
 #include "descriptors.hpp"
 #include "launchsafe/report/number.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -15,10 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A line that wraps cannot be rewritten.
-constexpr std::size_t widest_line = 79;
-
 std::string fitted(const std::string& line) {
-  return line.size() <= widest_line ? line : line.substr(0, widest_line);
+  return line.substr(0, terminal_width(STDERR_FILENO).value_or(80) - 1);
 }
 
 }  // namespace

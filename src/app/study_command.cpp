@@ -3,10 +3,8 @@
 #include "commands.hpp"
 #include "forecast_text.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/forecast.hpp"
-#include "progress.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
 #include "study_session.hpp"
@@ -16,17 +14,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace launchsafe::app {
 namespace {
-
-std::string progress_line(const study::Progress& progress) {
-  const std::string left =
-      progress.seconds_left < 0 ? "" : fmt::format(", {} left", report::duration(progress.seconds_left));
-  return fmt::format("{} of {} cases done, {} running, {:.0f} %{}", progress.done, progress.total,
-                     progress.running, 100.0 * progress.fraction, left);
-}
 
 study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store::CaseStore* store) {
   study::StudyOptions options;
@@ -38,16 +28,6 @@ study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store:
   options.stop = &stop_requested();
   options.store = store;
   return options;
-}
-
-kinds::StudyOutcome run_with_progress(const study::StudyFile& file, study::StudyOptions options,
-                                      const Console& console) {
-  Progress progress(progress_style(console.quiet()));
-  options.progress = [&progress, store = options.store](const study::Progress& state) {
-    progress.show(progress_line(state));
-    store->tell_progress(state.done, state.running, state.total);
-  };
-  return kinds::run_study(file, options);
 }
 
 /// Where not one case may run, unless an earlier study left results here.
@@ -114,12 +94,12 @@ ExitCode perform(const StudyArguments& arguments, Console& console) {
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   study::StudyOptions options = options_of(arguments, jobs, nullptr);
   if (const auto error = refusal_of(*file, arguments, options)) return console.refuse(*error);
-  StudySession session({arguments.study, arguments.output, kinds::kind_of(file->study), arguments.update,
-                        arguments.shard.part(), arguments.command, study_manifest(*file, options.jobs)},
-                       console);
+  StudySession session(
+      {arguments.study, arguments.output, kinds::kind_of(file->study), arguments.update,
+       arguments.shard.part(), arguments.command, study_manifest(*file, options.jobs), arguments.until},
+      console);
   if (const ExitCode code = session.open(); code != ExitCode::done) return code;
-  options.store = &session.store();
-  return session.conclude(run_with_progress(*file, options, console), options.shard);
+  return session.conclude(session.run(*file, options), options.shard);
 }
 
 }  // namespace launchsafe::app

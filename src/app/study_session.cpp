@@ -98,7 +98,26 @@ ExitCode StudySession::report_interruption() {
   return ExitCode::interrupted;
 }
 
+kinds::StudyOutcome StudySession::run(const study::StudyFile& file, study::StudyOptions options) {
+  watch_ = std::make_unique<StudyWatch>(*store_, request_.command, progress_style(console_.quiet()),
+                                        request_.until);
+  options.store = store_.get();
+  options.progress = watch_->callback();
+  kinds::StudyOutcome result = kinds::run_study(file, options);
+  watch_->end_line();
+  return result;
+}
+
 ExitCode StudySession::conclude(const kinds::StudyOutcome& result, const study::Shard& shard) {
+  return end(deliver(result, shard));
+}
+
+ExitCode StudySession::end(ExitCode code) {
+  watch_->tell_end(static_cast<int>(code));
+  return code;
+}
+
+ExitCode StudySession::deliver(const kinds::StudyOutcome& result, const study::Shard& shard) {
   if (result.interrupted) return report_interruption();
   if (!kept()) return ExitCode::failed;
   return shard.whole() ? deliver_whole(result) : deliver_shard(result, shard);

@@ -6,9 +6,12 @@
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/study_record.hpp"
+#include "study_watch.hpp"
 
+#include <ctime>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace launchsafe::app {
@@ -22,6 +25,7 @@ struct SessionRequest {
   std::string part;     ///< of a shard
   std::string command;  ///< to be repeated after an interruption
   store::Manifest manifest;
+  std::optional<std::time_t> until = {};  ///< when the study is to stop
 };
 
 /// A study's folder while it is ours, from before the runs to the report.
@@ -35,14 +39,20 @@ class StudySession {
   /// Where results are kept; only once open.
   store::CaseStore& store() { return *store_; }
 
+  /// Runs the study, and shows how far it is.
+  kinds::StudyOutcome run(const study::StudyFile& file, study::StudyOptions options);
+
   /// What the store has to say since the last call.
   void print_remarks();
 
   /// Keeps what is to be kept and reports the outcome of the study: what an interruption left, what a shard
   /// did, or report, tables and answer of the whole.
   ExitCode conclude(const kinds::StudyOutcome& result, const study::Shard& shard);
+  /// Tells whoever watches how a study ended that was run.
+  ExitCode end(ExitCode code);
 
  private:
+  ExitCode deliver(const kinds::StudyOutcome& result, const study::Shard& shard);
   /// Whether all that was to be kept is on disk; prints why not.
   bool kept();
   ExitCode report_interruption();
@@ -55,6 +65,7 @@ class StudySession {
   SessionRequest request_;
   Console& console_;
   std::unique_ptr<store::CaseStore> store_;
+  std::unique_ptr<StudyWatch> watch_;  ///< once it runs
   std::size_t remarks_printed_ = 0;
 };
 

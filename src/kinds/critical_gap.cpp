@@ -89,6 +89,13 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
     confirmation.difference = confirmation.maximum_temperature - traced.at_stations.temperature;
 }
 
+/// Particle updates of a longer launch from the last checkpoint before the reading of the launch `own` ends.
+double cost_from(const scene::Scene& own, const scene::Scene& longer) {
+  const double left =
+      1.0 + 1.0 / scene::parts_of_launch - scene::read_time(own.load) / scene::end_time(longer.load);
+  return left * study::cost_of(longer);
+}
+
 /// Lets a longer launch go on from a checkpoint of the case's own, where they are one launch up to its exit.
 void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
   const scene::Scene own = scene::mechanical_part(outcome.input.scene.scene);
@@ -97,9 +104,18 @@ void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
   if (!outcome.result.mechanics.checkpoints || scene::to_toml(same) != scene::to_toml(own)) return;
   longer.launch = &outcome.result.mechanics;
   longer.same_until = scene::read_time(own.load);
-  const double left =
-      1.0 + 1.0 / scene::parts_of_launch - longer.same_until / scene::end_time(longer.scene.load);
-  longer.cost = left * study::cost_of(longer.scene);
+  longer.cost = cost_from(own, longer.scene);
+}
+
+/// Particle updates of the runs that follow those of some cases, as a rule: two that confirm the critical gap
+/// of each, and their longer launch.
+double following_cost(const study::StudyFile& study, const CaseRuns& runs, const PlannedRun& longer) {
+  const scene::Scene scene = study.cases[runs.members.front()].scene.scene;
+  double cost = longer.make ? cost_from(scene, longer.make().scene) : 0.0;
+  if (study.confirmations_per_case > 0)
+    cost += static_cast<double>(study.confirmations_per_case * runs.members.size()) *
+            continued_cost(study::skin_run(scene, study.study.largest_gap, {}));
+  return cost;
 }
 
 /// Runs that go on from a launch which was computed, and what takes each.
@@ -185,10 +201,16 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
       longer[i] = std::move(runs[i].runs.back());
       runs[i].runs.pop_back();
     }
+  double foreseen = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) foreseen += following_cost(study, runs[i], longer[i]);
+  tracker.expect(0, foreseen);
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
     for (const std::size_t member : runs[i].members) {
       result.details[member] = judged(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
+      const study::CriticalGap& gap = result.details[member].critical;
+      if (gap.kind == study::CriticalGapKind::value)
+        tracker.found({result.details[member].input.label, gap.lower, gap.upper});
     }
   });
   FollowingRuns following(result, options);
@@ -196,8 +218,11 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
     if (longer[i].make) following.add_longer_launch(longer[i], runs[i].members);
   if (confirm)
     std::ranges::for_each(result.details, [&](CaseOutcome& each) { following.add_confirmations(each); });
+  tracker.begin(study::Phase::following_runs);
+  tracker.expect(0, -foreseen);
   following.run(tracker);
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
+  tracker.begin(study::Phase::closing_gaps);
   run_closing_gaps(result.details, result, options, tracker,
                    [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
                      result.details[i].closing = std::move(closing);
@@ -214,6 +239,7 @@ void run_many(CriticalGapResult& result, const StudyOptions& options) {
   result.answers = answer_cases(result.study, options, result.timing);
   if (result.study.scene.scene.surface.model != scene::GapModel::closing) return;
   ProgressTracker tracker(options.progress);
+  tracker.begin(study::Phase::closing_gaps);
   run_closing_gaps(result.answers, result, options, tracker,
                    [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
                      take_closing(result.study.cases[i], std::move(closing), result.answers[i]);

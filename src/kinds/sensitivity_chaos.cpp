@@ -132,7 +132,14 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
         return fmt::format("added {}", known - designed + row + 1);
       });
   if (fault) return false;
-  const std::vector<study::CaseAnswer> answers = answer_cases(round, options, result.timing);
+  study::StudyOptions of_round = options;
+  if (options.progress)
+    of_round.progress = [&](study::Progress progress) {
+      progress.cases += known;
+      progress.cases_done += known;
+      options.progress(progress);
+    };
+  const std::vector<study::CaseAnswer> answers = answer_cases(round, of_round, result.timing);
   const bool missing = std::ranges::any_of(answers, [](const study::CaseAnswer& answer) {
     return answer.outcome == study::RunOutcome::not_stored;
   });

@@ -96,9 +96,6 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
   std::unique_ptr<CaseStore> store(new CaseStore(std::move(names), options, std::move(*database), true));
   if (const MaybeError error = store->take_over(others)) return *error;
   remove_leftovers_of(store->names_);
-  store->status_.host = store->host_;
-  store->status_.process = ::getpid();
-  store->status_.since = utc_now();
   store->write_status();
   return store;
 }
@@ -128,13 +125,12 @@ CaseStore::CaseStore(StoreNames names, StoreOptions options, Database database, 
       manifest_(common_manifest()),
       host_(host_name()),
       writes_(writes),
-      database_(std::move(database)) {}
+      database_(std::move(database)),
+      since_(utc_now()) {}
 
 CaseStore::~CaseStore() {
   flush();
-  if (!writes_) return;
-  status_.ended = true;
-  write_status();
+  if (writes_) write_status(true);
 }
 
 std::vector<RunRecord> CaseStore::records() const {

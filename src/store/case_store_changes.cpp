@@ -1,5 +1,6 @@
 #include "case_store_files.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/store_status.hpp"
 
 #include <algorithm>
 #include <array>
@@ -224,23 +225,32 @@ void CaseStore::remark(const std::string& text) {
   remarks_.push_back(text);
 }
 
-void CaseStore::tell_progress(std::size_t done, std::size_t running, std::size_t total) {
+void CaseStore::tell_progress(nlohmann::ordered_json progress, bool at_once) {
   const std::lock_guard lock(using_);
-  status_.done = done;
-  status_.running = running;
-  status_.total = total;
-  if (Clock::now() - status_written_ < batch_time) return;
+  progress_ = std::make_shared<const nlohmann::ordered_json>(std::move(progress));
+  if (!at_once && Clock::now() - status_written_ < batch_time) return;
   status_written_ = Clock::now();
   write_status();
 }
 
-void CaseStore::write_status() {
-  const std::string done = "SELECT count(*) FROM stored_runs WHERE state = 'done'";
-  if (const auto count = database_.rows(done))
-    status_.stored = static_cast<std::size_t>(std::get<std::int64_t>(count->front().front()));
-  status_.time = utc_now();
+void CaseStore::write_status(bool ended) {
+  nlohmann::ordered_json members{{"host", host_},     {"process", ::getpid()}, {"since", since_},
+                                 {"time", utc_now()}, {"ended", ended},        {"runs_done", 0},
+                                 {"runs_running", 0}, {"runs_total", 0}};
+  const auto sums =
+      database_.rows("SELECT count(*), coalesce(sum(file_bytes), 0) FROM stored_runs WHERE state = 'done'");
+  if (sums) {
+    members["runs_stored"] = std::get<std::int64_t>(sums->front()[0]);
+    members["case_files_bytes"] = std::get<std::int64_t>(sums->front()[1]);
+  }
+  if (progress_) members.update(*progress_);
   // It helps people alone, so a failure to write it is none of the store.
-  write_file_atomically(names_.status(), to_text(status_), IfExists::replace);
+  write_file_atomically(names_.status(), to_text(members), IfExists::replace);
+}
+
+void CaseStore::write_page(const std::string& page) {
+  if (!obstacle_in_place(names_.page(), is_page))
+    write_file_atomically(names_.page(), page, IfExists::replace);
 }
 
 }  // namespace launchsafe::store

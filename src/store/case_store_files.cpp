@@ -3,6 +3,7 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/store_status.hpp"
 
 #include <fmt/format.h>
 
@@ -62,8 +63,15 @@ MaybeError obstacle_in_results(const StoreNames& names) {
 }  // namespace
 
 bool is_store_name(std::string_view name) {
-  return name == "cases" || is_of_any_part(name, stem, ending) || is_of_any_part(name, stem, ".db-journal") ||
-         is_of_any_part(name, "status", ".json");
+  return name == "cases" || name == StoreNames{}.page() || is_of_any_part(name, stem, ending) ||
+         is_of_any_part(name, stem, ".db-journal") || part_of_status(name).has_value();
+}
+
+std::optional<std::string> part_of_status(std::string_view name) {
+  constexpr std::string_view begin = "status", end = ".json";
+  if (!is_of_any_part(name, begin, end)) return std::nullopt;
+  const std::string_view part = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return std::string(part.substr(part.empty() ? 0 : 1));
 }
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
@@ -97,6 +105,8 @@ MaybeError obstacle_of_older(const std::filesystem::path& folder) {
   return {};
 }
 
+bool is_page(std::string_view content) { return content.starts_with(page_begin); }
+
 MaybeError obstacle_in(const StoreNames& names) {
   struct stat status {};
   if (::lstat(names.cases().c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
@@ -104,7 +114,9 @@ MaybeError obstacle_in(const StoreNames& names) {
   if (MaybeError error = obstacle_of_older(names.folder)) return error;
   if (MaybeError error = obstacle_among_cases(names)) return error;
   if (MaybeError error = obstacle_before_first(names)) return error;
+  const auto is_status = [](std::string_view content) { return status_in(content).has_value(); };
   if (MaybeError error = obstacle_in_place(names.status(), is_status)) return error;
+  if (MaybeError error = obstacle_in_place(names.page(), is_page)) return error;
   return obstacle_in_results(names);
 }
 

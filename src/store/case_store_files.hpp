@@ -5,6 +5,7 @@
 #include "posix_file.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,13 +38,10 @@ bool began_as_case(const std::filesystem::path& path);
 Error of_file(const std::filesystem::path& path, const Error& error);
 Error of_another_case(const std::filesystem::path& path);
 
-// --- status.json: how far a study is, for whoever watches, since nobody else may read a results file that is
-// being written ---
-
-/// The file's text.
-std::string to_text(const StoreStatus& status);
-/// Whether the content of a file is that of a status.
-bool is_status(std::string_view content);
+/// Whether the content of a file is that of a page of status.
+bool is_page(std::string_view content);
+/// The part whose status file has that name, empty for a whole study; nothing for any other name.
+std::optional<std::string> part_of_status(std::string_view name);
 /// "HOST process PID since TIME, 3 of 12 runs done", from a status file; "another process" where it names
 /// none.
 std::string writer_in(const std::filesystem::path& status_file);

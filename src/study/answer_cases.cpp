@@ -83,14 +83,22 @@ class AnswerRunner {
   std::vector<CaseAnswer> answer_all() {
     fetch_stored();
     ProgressTracker tracker(options_.progress);
-    run_cases(without_answered(), options_, tracker, timing_,
-              [this](std::size_t i, std::vector<FinishedRun>& runs) { answer_members(open_[i], runs); });
+    const std::vector<CaseRuns> open = without_answered(tracker);
+    run_cases(open, options_, tracker, timing_, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+      answer_members(open_[i], runs);
+      for (const std::size_t member : open_[i]) tell(tracker, member);
+    });
     std::vector<CaseAnswer> result;
     for (auto& answer : answers_) result.push_back(std::move(*answer));
     return result;
   }
 
  private:
+  void tell(ProgressTracker& tracker, std::size_t i) const {
+    if (answers_[i]->critical.kind == CriticalGapKind::value)
+      tracker.found({study_.cases.label(i), answers_[i]->critical.lower, answers_[i]->critical.upper});
+  }
+
   void fetch_stored() {
     if (options_.store == nullptr || options_.store->records().empty()) return;
     tbb::parallel_for(std::size_t{0}, cases_.size(), [this](std::size_t i) {
@@ -107,13 +115,18 @@ class AnswerRunner {
   }
 
   /// The runs behind which some case still needs an answer.
-  std::vector<CaseRuns> without_answered() {
+  std::vector<CaseRuns> without_answered(ProgressTracker& tracker) {
     std::vector<CaseRuns> open;
     for (CaseRuns& each : cases_) {
       const bool answered = std::all_of(each.members.begin(), each.members.end(),
                                         [this](std::size_t member) { return answers_[member].has_value(); });
       if (answered) {
         timing_.reused += each.runs.size();
+        tracker.expect_cases(each.members.size());
+        for (const std::size_t member : each.members) {
+          tell(tracker, member);
+          tracker.cases_ended(1, answers_[member]->failure);
+        }
       } else {
         open_.push_back(each.members);
         open.push_back(std::move(each));

@@ -61,6 +61,8 @@ class CaseLoop {
   void run() {
     std::vector<WaitingTask> tasks;
     std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (const CaseRuns& each : cases_)
+      if (each.shard == options_.shard.index) tracker_.expect_cases(each.members.size());
     for (std::size_t i = 0; i < cases_.size(); ++i) {
       if (cases_[i].shard != options_.shard.index) {
         give_up(i, RunOutcome::other_shard, "not run: it belongs to another shard");
@@ -197,14 +199,19 @@ class CaseLoop {
     if (j == 0 && !run.failure.empty()) open.spoilt = true;
     open.runs[j] = std::move(run);
     if (--open.left > 0) return;
+    const FinishedRun* lacking = run_without_result(open.runs);
+    const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
+    const bool ended = decisive.outcome != RunOutcome::interrupted;
+    std::string reason = decisive.failure;
     std::optional<std::string> failure;
     try {
       on_done_(i, open.runs);
     } catch (const std::exception& error) {
       failure = error.what();
     }
-    if (failure) give_up(i, RunOutcome::failed, "the run failed: " + *failure);
+    if (failure) give_up(i, RunOutcome::failed, reason = "the run failed: " + *failure);
     open.runs.clear();
+    if (ended) tracker_.cases_ended(cases_[i].members.size(), reason);
   }
 
   void give_up(std::size_t i, RunOutcome outcome, const std::string& failure) {

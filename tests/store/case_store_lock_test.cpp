@@ -3,6 +3,8 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "store_fixture.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <csignal>
 
@@ -92,7 +94,7 @@ TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
   fill(2);
   {
     const auto store = opened();
-    store->tell_progress(3, 1, 12);
+    store->tell_progress({{"runs_done", 3}, {"runs_running", 1}, {"runs_total", 12}});
     const auto reader = CaseStore::open_to_read(where(), model_version);
     ASSERT_FALSE(reader);
     EXPECT_EQ(reader.error().kind, Error::Kind::conflict);

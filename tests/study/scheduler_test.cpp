@@ -97,13 +97,81 @@ TEST(Scheduler, ReportsProgressThatEndsAtOne) {
   }
   run_tasks(waiting(tasks), {1}, tracker);
   ASSERT_FALSE(reports.empty());
-  EXPECT_TRUE(std::is_sorted(reports.begin() + 3, reports.end(),
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end(),
                              [](const Progress& a, const Progress& b) { return a.fraction < b.fraction; }));
   EXPECT_EQ(reports.back().done, 3u);
   EXPECT_EQ(reports.back().total, 3u);
   EXPECT_EQ(reports.back().running, 0u);
   EXPECT_NEAR(reports.back().fraction, 1.0, 1e-12);
   EXPECT_NEAR(reports.back().seconds_left, 0.0, 1e-9);
+}
+
+/// A tracker of two tasks at a time, and what it told last, on a clock of its own.
+struct Tracked {
+  double now = 100.0;
+  Progress told;
+  ProgressTracker tracker{[this](const Progress& progress) { told = progress; }, [this] { return now; }};
+};
+
+TEST(ProgressTracker, LearnsTheTimeLeftFromTheRunsSoFar) {
+  Tracked of;
+  of.tracker.expect(6, 600.0);
+  of.now += 50.0;  // planning does not count
+  of.tracker.started();
+  of.tracker.started();
+  EXPECT_LT(of.told.seconds_left, 0.0);
+  of.now += 0.5;
+  of.tracker.advanced(1.0);
+  EXPECT_LT(of.told.seconds_left, 0.0) << "half a second of two runs says nothing yet";
+  of.now += 9.5;
+  of.tracker.advanced(99.0);
+  of.tracker.finished();
+  // 20 s of runs for 100 of 600: 100 s for the rest, on two threads.
+  EXPECT_NEAR(of.told.seconds_left, 50.0, 1e-9);
+  of.tracker.expect(0, 200.0);
+  of.tracker.advanced(0.0);
+  EXPECT_NEAR(of.told.seconds_left, 70.0, 1e-9);
+}
+
+TEST(ProgressTracker, TellsTimeForTheLastRunOnOneThread) {
+  Tracked of;
+  of.tracker.expect(3, 300.0);
+  for (int i = 0; i < 2; ++i) of.tracker.started();
+  of.now += 10.0;
+  of.tracker.advanced(200.0);
+  for (int i = 0; i < 2; ++i) of.tracker.finished();
+  of.tracker.started();
+  EXPECT_NEAR(of.told.seconds_left, 10.0, 1e-9);
+}
+
+TEST(ProgressTracker, CountsCasesFailuresByReasonAndTheSmallestGaps) {
+  Tracked of;
+  of.tracker.expect_cases(70);
+  of.tracker.cases_ended(5, "");  // stored before
+  of.tracker.expect(1, 1.0);
+  of.tracker.started();
+  of.now += 10.0;
+  of.tracker.cases_ended(2, "timed out");
+  of.tracker.cases_ended(1, "timed out");
+  of.tracker.cases_ended(1, "");
+  for (int i = 50; i > 0; --i) of.tracker.found({std::to_string(i), 1e-4 * i, 1.1e-4 * i});
+  of.tracker.finished();
+  EXPECT_EQ(of.told.cases, 70u);
+  EXPECT_EQ(of.told.cases_done, 9u);
+  EXPECT_EQ(of.told.cases_failed, 3u);
+  EXPECT_EQ(of.told.failures, (std::map<std::string, std::size_t>{{"timed out", 3}}));
+  EXPECT_NEAR(of.told.cases_per_second, 0.4, 1e-12);
+  EXPECT_EQ(of.told.gaps_found, 50u);
+  EXPECT_NEAR(of.told.largest_gap, 5.5e-3, 1e-12);
+  EXPECT_EQ(of.told.smallest_gaps.front().label, "1");
+  EXPECT_EQ(of.told.smallest_gaps.size(), 40u);
+}
+
+TEST(ProgressTracker, TellsFewReasonsApart) {
+  Tracked of;
+  for (int i = 0; i < 100; ++i) of.tracker.cases_ended(1, "needs " + std::to_string(i) + " GB");
+  EXPECT_LE(of.told.failures.size(), 21u);
+  EXPECT_EQ(of.told.failures["other reasons"], 80u);
 }
 
 TEST(Scheduler, RunsNothingForNoTasks) {

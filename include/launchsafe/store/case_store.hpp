@@ -3,7 +3,8 @@
 //
 //   DIR/study[.PART].db     SQLite: runs, answers drawn from them, events, and the tables of the report
 //   DIR/cases/HASH.h5       the result of one case, named by what determines it, whole or not there
-//   DIR/status[.PART].json  who writes and how far it is; for whoever watches
+//   DIR/status[.PART].json  who writes and how far it is; for whoever watches (store_status.hpp)
+//   DIR/index.html          the same of all parts, as a page
 //
 // PART is "1-of-4" for a shard and absent for a whole study, which takes over what the parts stored. A result
 // is on disk under its name before its row is committed. A results file is held by the process that writes
@@ -15,6 +16,8 @@
 #include "launchsafe/store/database.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -88,24 +91,12 @@ struct StoreNames {
   std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
   std::filesystem::path results() const { return folder / ("study" + suffix() + ".db"); }
   std::filesystem::path status() const { return folder / ("status" + suffix() + ".json"); }
+  std::filesystem::path page() const { return folder / "index.html"; }
   /// Ends the names of files that this part is writing.
   std::string mark() const { return part.empty() ? "whole" : part; }
 
  private:
   std::string suffix() const { return part.empty() ? "" : "." + part; }
-};
-
-/// Where a writer is and how far.
-struct StoreStatus {
-  std::string host;
-  long process = 0;
-  std::string since;        ///< ISO 8601, UTC
-  std::string time;         ///< of this snapshot
-  bool ended = false;       ///< the writer closed the store
-  std::size_t stored = 0;   ///< runs whose result is in this file
-  std::size_t done = 0;     ///< of the runs that the process was asked for
-  std::size_t running = 0;  ///< of these
-  std::size_t total = 0;
 };
 
 /// A table for other programs: every row has a value for every column, perhaps nothing.
@@ -173,8 +164,11 @@ class CaseStore {
   /// Commits what is pending. The first thing that could not be written, if any.
   MaybeError flush();
 
-  /// For status.json, at most once a second: how many runs are done, are running, are asked for.
-  void tell_progress(std::size_t done, std::size_t running, std::size_t total);
+  /// Members for status.json besides those of the store: how far the runs are that the process was asked for.
+  /// Written once a second at most, unless `at_once`.
+  void tell_progress(nlohmann::ordered_json progress, bool at_once = false);
+  /// Puts a page (which begins with `page_begin`) in the place of index.html, unless that is somebody else's.
+  void write_page(const std::string& page);
   /// What a person should know of what was found, such as damaged files.
   std::vector<std::string> remarks() const;
   const std::filesystem::path& folder() const { return names_.folder; }
@@ -216,7 +210,7 @@ class CaseStore {
   /// Where and when an attempt ended, and of which model it was.
   void fill_in(RunRecord& record) const;
   void remark(const std::string& text);
-  void write_status();
+  void write_status(bool ended = false);
 
   const StoreNames names_;
   const StoreOptions options_;
@@ -226,7 +220,8 @@ class CaseStore {
   mutable std::mutex naming_;  ///< held while files get their names; locked before `using_`
   mutable std::mutex using_;   ///< of all below
   mutable Database database_;
-  StoreStatus status_;
+  const std::string since_;  ///< ISO 8601, UTC
+  std::shared_ptr<const nlohmann::ordered_json> progress_;
   std::vector<std::string> remarks_;
   MaybeError failure_;
   std::set<std::string> damaged_;  ///< hashes

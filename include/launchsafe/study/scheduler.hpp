@@ -6,18 +6,37 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
 namespace launchsafe::study {
 
+/// What the runs of a study are for at the moment.
+enum class Phase { launches, following_runs, closing_gaps, report };
+std::string to_string(Phase phase);
+
+/// A critical gap, of ignition alone, that a case came to: without its uncertainty, and so no answer yet.
+struct FoundGap {
+  std::string label;  ///< of the case
+  double lower = 0;   ///< m, does not ignite
+  double upper = 0;   ///< m, ignites
+};
+
 /// How far a study is.
 struct Progress {
-  std::size_t done = 0, running = 0, total = 0;  ///< tasks
-  double fraction = 0;                           ///< of all work, 0..1, with the shares of running tasks
-  double seconds_elapsed = 0;
-  double seconds_left = 0;  ///< estimate; negative while nothing is known
+  Phase phase = Phase::launches;
+  std::size_t done = 0, running = 0, total = 0;  ///< runs
+  std::size_t cases = 0, cases_done = 0;         ///< of the study; done with those that failed
+  std::size_t cases_failed = 0;
+  double cases_per_second = 0;                  ///< since the first run began; 0 while nothing is known
+  double fraction = 0;                          ///< of all work, 0..1, with the shares of running tasks
+  double seconds_left = -1;                     ///< estimate; negative while nothing is known
+  std::map<std::string, std::size_t> failures;  ///< cases by the reason why they failed; few reasons
+  std::size_t gaps_found = 0;
+  std::vector<FoundGap> smallest_gaps;  ///< of those found some of the smallest, in order
+  double largest_gap = 0;               ///< m, the largest upper end found
 };
 /// Called from any running thread, one call at a time, a few times a second and at every change.
 using ProgressCallback = std::function<void(const Progress&)>;
@@ -35,12 +54,21 @@ int useful_threads(std::int64_t particles, int threads);
 /// Both for a run on this machine now. Results do not depend on it.
 int threads_for_one_run(std::int64_t particles);
 
-/// Adds up what tasks of several batches report.
+/// Adds up what tasks of several batches, and the cases that they are run for, report. How long the rest
+/// takes is learned from the time that the runs so far took for their work.
 class ProgressTracker {
  public:
-  explicit ProgressTracker(ProgressCallback callback);
+  using Clock = std::function<double()>;  ///< s, from any zero on
+
+  explicit ProgressTracker(ProgressCallback callback, Clock clock = {});
+  void begin(Phase phase);
   /// Work that is known to come; may be taken back with negative numbers when it turns out not to be needed.
   void expect(std::ptrdiff_t tasks, double cost);
+  /// Cases of the study.
+  void expect_cases(std::size_t cases);
+  /// So many cases came to an end, which failed where a reason is given.
+  void cases_ended(std::size_t cases, const std::string& failure);
+  void found(FoundGap gap);
   void started();
   /// A running task has done `share` (0..1) of its work since its last report.
   void advanced(double cost);
@@ -48,9 +76,15 @@ class ProgressTracker {
 
  private:
   void report();
+  double seconds_left(double now) const;
   ProgressCallback callback_;
+  Clock clock_;
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point start_;
+  double first_start_ = -1;  ///< s, when the first task began
+  double busy_since_ = 0;    ///< s, when the number of running tasks last changed
+  double busy_ = 0;          ///< s, of all tasks together until then
+  std::size_t most_running_ = 0;
+  std::size_t cases_before_ = 0;  ///< done before the first task began
   Progress progress_;
   double cost_ = 0, cost_done_ = 0;
 };

@@ -17,4 +17,4 @@ merge=$(sbatch --parsable --dependency="afterany:$shards" "$folder/merge.sbatch"
   fail "Slurm took the shards (job $shards) but not the merge; when they have ended: sbatch '$folder/merge.sbatch'"
 merge=${merge%%;*}
 echo "submitted: {{shards_text}} as job $shards, the merge as job $merge"
-echo "to watch: squeue --jobs=$shards,$merge; logs in $folder"
+echo "to watch: launchsafe status "{{output}}"; squeue --jobs=$shards,$merge; logs in $folder"

@@ -1,0 +1,15 @@
+#include "terminal_width.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace launchsafe::app {
+
+std::optional<std::size_t> terminal_width(int descriptor) {
+  struct winsize size {};
+  if (::isatty(descriptor) != 1 || ::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+    return std::nullopt;
+  return size.ws_col;
+}
+
+}  // namespace launchsafe::app

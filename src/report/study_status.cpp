@@ -1,0 +1,268 @@
+#include "launchsafe/report/study_status.hpp"
+
+#include "launchsafe/report/number.hpp"
+#include "status_templates.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <kainjow/mustache.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace launchsafe::report {
+namespace {
+
+constexpr double longest_silence = 120.0;  ///< s; a writer that lives tells something every second
+constexpr std::size_t most_gaps = 40;      ///< that are listed
+constexpr int interrupted_code = 75, failed_code = 70;
+
+enum class State { finished, waiting, interrupted, silent, failed, running };
+
+const char* word_for(State state) {
+  switch (state) {
+    case State::finished:
+      return "finished";
+    case State::waiting:
+      return "waiting";
+    case State::interrupted:
+      return "interrupted";
+    case State::silent:
+      return "silent";
+    case State::failed:
+      return "failed";
+    case State::running:
+      return "running";
+  }
+  return "";
+}
+
+/// Seconds since the epoch of "2026-03-01T09:30:00Z"; 0 for any other text.
+std::time_t time_in(const std::string& text) {
+  std::tm parts{};
+  const char* end = ::strptime(text.c_str(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return end != nullptr && *end == '\0' ? ::timegm(&parts) : 0;
+}
+
+/// A number of a snapshot, 0 where there is none.
+double amount_in(const Row& row, const std::string& key) {
+  const double value = number_of(row, key);
+  return std::isfinite(value) ? value : 0.0;
+}
+
+/// One writer.
+struct Writer {
+  const store::StoreStatus* snapshot = nullptr;
+  State state = State::running;
+  int exit_code = 0;
+  std::time_t since = 0, time = 0;
+  std::optional<double> left;  ///< s from now on, of one that runs
+
+  double amount(const std::string& key) const { return amount_in(snapshot->members, key); }
+};
+
+Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
+  const Row& members = snapshot.members;
+  Writer writer;
+  writer.snapshot = &snapshot;
+  writer.since = time_in(text_of(members, "since"));
+  writer.time = time_in(text_of(members, "time"));
+  const double code = number_of(members, "exit_code");
+  const auto silence = static_cast<double>(now - writer.time);
+  if (std::isfinite(code)) {
+    writer.exit_code = static_cast<int>(std::clamp(code, 0.0, 255.0));
+    writer.state = writer.exit_code == interrupted_code ? State::interrupted
+                   : writer.exit_code < failed_code     ? State::finished
+                                                        : State::failed;
+  } else if (found_in(members, "ended") == true) {
+    writer.exit_code = failed_code;
+    writer.state = State::failed;
+  } else if (silence > longest_silence) {
+    writer.exit_code = interrupted_code;
+    writer.state = State::silent;
+  } else if (const double left = number_of(members, "time_left_s"); left >= 0) {
+    writer.left = std::max(0.0, left - silence);
+  }
+  return writer;
+}
+
+std::string part_text(const std::string& part) {
+  const std::size_t of = part.find("-of-");
+  return of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4);
+}
+
+/// Shards that nobody has seen at work, by the number that the others tell.
+std::size_t shards_not_seen(const std::vector<store::StoreStatus>& snapshots) {
+  std::set<std::string> seen;
+  std::size_t count = 0;
+  for (const store::StoreStatus& each : snapshots) {
+    const std::size_t of = each.part.find("-of-");
+    if (of == std::string::npos) return 0;
+    seen.insert(each.part);
+    count = std::max<std::size_t>(count, std::strtoul(each.part.c_str() + of + 4, nullptr, 10));
+  }
+  return count - std::min(count, seen.size());
+}
+
+Row failures_of(const std::vector<Writer>& writers) {
+  std::map<std::string, double> cases;
+  for (const Writer& writer : writers)
+    if (const Row& told = found_in(writer.snapshot->members, "failures"); told.is_array())
+      for (const Row& each : told) cases[text_of(each, "reason")] += amount_in(each, "cases");
+  std::vector<std::pair<std::string, double>> sorted(cases.begin(), cases.end());
+  std::ranges::stable_sort(sorted, std::greater{}, [](const auto& each) { return each.second; });
+  Row rows = Row::array();
+  for (const auto& [reason, count] : sorted)
+    rows.push_back({{"reason", reason}, {"cases", static_cast<std::int64_t>(count)}});
+  return rows;
+}
+
+/// The smallest critical gaps of all writers, in order.
+Row gaps_of(const std::vector<Writer>& writers) {
+  std::vector<Row> gaps;
+  for (const Writer& writer : writers)
+    if (const Row& told = found_in(writer.snapshot->members, "critical_gaps"); told.is_array())
+      for (const Row& each : told)
+        if (number_of(each, "lower_cm") <= number_of(each, "upper_cm")) gaps.push_back(each);
+  std::ranges::stable_sort(gaps, {}, [](const Row& row) { return number_of(row, "lower_cm"); });
+  if (gaps.size() > most_gaps) gaps.resize(most_gaps);
+  return gaps;
+}
+
+Row row_of(const Writer& writer, std::time_t now) {
+  Row row = writer.snapshot->members;
+  row["shard"] = part_text(writer.snapshot->part);
+  row["state"] = word_for(writer.state);
+  row["silence"] = duration(static_cast<double>(now - writer.time));
+  row["left"] = writer.left ? duration(*writer.left) : "";
+  return row;
+}
+
+/// Of all writers: what makes up the state of the study.
+State state_of(const std::vector<Writer>& writers, std::size_t not_seen) {
+  State state = not_seen > 0 ? State::waiting : State::finished;
+  for (const Writer& each : writers) state = std::max(state, each.state);
+  return state;
+}
+
+/// When all that runs will have ended; nothing where somebody cannot tell, or has not begun.
+void add_estimate(Row& facts, const std::vector<Writer>& writers, std::size_t not_seen, std::time_t now) {
+  double left = 0;
+  for (const Writer& each : writers) {
+    if (each.state != State::running) continue;
+    if (!each.left || not_seen > 0) return;
+    left = std::max(left, *each.left);
+  }
+  facts["time_left_s"] = left;
+  facts["left"] = left < 1.0 ? "a moment" : "about " + duration(left);
+  facts["end"] = clock_time(now + static_cast<std::time_t>(std::llround(left)), now);
+}
+
+}  // namespace
+
+Row progress_row(const study::Progress& progress) {
+  Row failures = Row::array(), gaps = Row::array();
+  for (const auto& [reason, cases] : progress.failures)
+    failures.push_back({{"reason", reason}, {"cases", cases}});
+  constexpr double length = 1e-2;  // m, of a centimetre
+  for (const study::FoundGap& gap : progress.smallest_gaps)
+    gaps.push_back({{"case", gap.label}, {"lower_cm", gap.lower / length}, {"upper_cm", gap.upper / length}});
+  return {{"phase", to_string(progress.phase)},
+          {"runs_done", progress.done},
+          {"runs_running", progress.running},
+          {"runs_total", progress.total},
+          {"cases", progress.cases},
+          {"cases_done", progress.cases_done},
+          {"cases_failed", progress.cases_failed},
+          {"time_left_s", progress.seconds_left < 0 ? Row() : Row(progress.seconds_left)},
+          {"failures", failures},
+          {"critical_gaps_found", progress.gaps_found},
+          {"largest_critical_gap_cm", progress.largest_gap / length},
+          {"critical_gaps", gaps}};
+}
+
+std::string clock_time(std::time_t time, std::time_t now) {
+  constexpr std::time_t week = 6 * 86400;
+  const std::tm then = fmt::localtime(time), today = fmt::localtime(now);
+  if (then.tm_yday == today.tm_yday && then.tm_year == today.tm_year) return fmt::format("{:%H:%M}", then);
+  return time - now < week ? fmt::format("{:%a %H:%M}", then) : fmt::format("{:%Y-%m-%d %H:%M}", then);
+}
+
+std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t now) {
+  std::tm time = fmt::localtime(now);
+  const char* end = ::strptime(text.c_str(), "%H:%M", &time);
+  if (end == nullptr || *end != '\0') return std::nullopt;
+  time.tm_sec = 0;
+  for (const int days : {0, 1}) {
+    std::tm then = time;
+    then.tm_mday += days;
+    then.tm_isdst = -1;
+    if (const std::time_t found = std::mktime(&then); found > now) return found;
+  }
+  return std::nullopt;
+}
+
+Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
+                 std::time_t now) {
+  std::vector<Writer> writers;
+  for (const store::StoreStatus& each : snapshots) writers.push_back(writer_of(each, now));
+  const std::size_t not_seen = shards_not_seen(snapshots);
+  const State state = state_of(writers, not_seen);
+  Row facts{
+      {"folder", folder}, {"state", word_for(state)}, {"is", {{word_for(state), true}}}, {"exit_code", 0}};
+  for (const char* key : {"cases", "cases_done", "cases_failed", "runs_running", "runs_done", "runs_total",
+                          "runs_stored", "case_files_bytes", "critical_gaps_found"}) {
+    double sum = 0;
+    for (const Writer& each : writers) sum += each.amount(key);
+    facts[key] = static_cast<std::int64_t>(sum);
+  }
+  facts["cases_left"] =
+      std::max<std::int64_t>(0, facts["cases"].get<std::int64_t>() - facts["cases_done"].get<std::int64_t>());
+  std::time_t begin = now, end = 0;
+  double largest = 0;
+  for (const Writer& each : writers) {
+    begin = std::min(begin, each.since);
+    end = std::max(end, each.state == State::running ? now : each.time);
+    largest = std::max(largest, each.amount("largest_critical_gap_cm"));
+    facts["exit_code"] = std::max(facts["exit_code"].get<int>(), each.exit_code);
+    facts["writers"].push_back(row_of(each, now));
+    if (each.state == State::interrupted || each.state == State::silent)
+      facts["command"] = text_of(each.snapshot->members, "command");
+  }
+  facts["phase"] = text_of(snapshots.front().members, "phase");
+  facts["time"] = clock_time(end, now);
+  facts["elapsed_s"] = std::max<std::time_t>(0, end - begin);
+  facts["elapsed"] = duration(static_cast<double>(std::max<std::time_t>(0, end - begin)));
+  facts["stored"] = fmt::format("{:.3g} MB", 1e-6 * facts["case_files_bytes"].get<double>());
+  if (not_seen > 0) facts["shards_not_seen"] = not_seen;
+  if (writers.size() > 1 || not_seen > 0) facts["is"]["in_shards"] = true;
+  if (facts["cases"] == 0) facts["is"]["planned"] = true;
+  if (state == State::running) add_estimate(facts, writers, not_seen, now);
+  facts["failures"] = failures_of(writers);
+  facts["largest_critical_gap_cm"] = largest;
+  facts["critical_gaps"] = gaps_of(writers);
+  if (!facts["critical_gaps"].empty()) facts["smallest"] = facts["critical_gaps"].front();
+  return facts;
+}
+
+std::string status_text(const Row& facts) { return filled(status_text_template, {&facts}); }
+
+std::string status_page(Row facts, const std::vector<std::string>& files) {
+  facts["files"] = files;
+  constexpr double width = 300.0, line = 18.0;  // px, of the longest bar and between two
+  double y = 0;
+  for (Row& gap : facts["critical_gaps"]) {
+    gap["x"] = width * number_of(gap, "lower_cm") / number_of(facts, "largest_critical_gap_cm");
+    gap["y"] = y += line;
+  }
+  facts["plot_height"] = y + line;
+  const auto page = filled(status_page_template, {&facts}, kainjow::mustache::html_escape<std::string>);
+  return page ? std::string(store::page_begin) + *page : std::string{};
+}
+
+bool is_running(const Row& facts) { return found_in(facts, "is.running") == true; }
+
+}  // namespace launchsafe::report

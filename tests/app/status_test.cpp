@@ -1,0 +1,129 @@
+// launchsafe status, the page of a folder, and the end of a study at a time of the day.
+#include "launchsafe/store/store_status.hpp"
+#include "stored_study.hpp"
+
+#include <ctime>
+
+namespace launchsafe::app {
+namespace {
+
+class Status : public StoredStudy {
+ protected:
+  nlohmann::json status_of(const std::vector<std::string>& folders, int code) {
+    std::vector<std::string> command{"status", "--json"};
+    command.insert(command.end(), folders.begin(), folders.end());
+    const Outcome outcome = run_beside(command);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  }
+};
+
+TEST_F(Status, SaysWhatAFinishedStudyDidAndItsPageLinksTheReport) {
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  const auto status = status_of({"out"}, 0);
+  EXPECT_EQ(status["state"], "finished");
+  EXPECT_EQ(status["cases"], 24);
+  EXPECT_EQ(status["cases_done"], 24);
+  EXPECT_EQ(status["runs_stored"], 12);
+  const std::string page = read("out/index.html");
+  EXPECT_TRUE(page.starts_with(store::page_begin));
+  EXPECT_NE(page.find("<a href=\"report.md\">"), std::string::npos) << page;
+  EXPECT_EQ(page.find("refresh"), std::string::npos) << page;
+  const std::string record = read("out/manifest.json");
+  EXPECT_EQ(record.find("index.html"), std::string::npos) << "the page is no part of the report";
+}
+
+TEST_F(Status, CountsWhatIsStoredAsDone) {
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  std::filesystem::remove(folder() / "out/report.md");
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  EXPECT_EQ(status_of({"out"}, 0)["cases_done"], 24);
+}
+
+TEST_F(Status, IsReadBesideARunningStudyAndSaysWhatAnInterruptionLeft) {
+  write("shell.toml", long_scene());
+  start({"study", "study.toml", "-o", "out", "--jobs", "1"});
+  wait_until([this] {
+    const auto found = store::statuses_in(folder() / "out");
+    return exists("out/index.html") && !found.empty() && found.front().members.value("runs_running", 0) == 1;
+  });
+  const auto running = status_of({"out"}, 0);
+  EXPECT_EQ(running["state"], "running");
+  EXPECT_EQ(running["cases_done"], 0);
+  EXPECT_NE(read("out/index.html").find("http-equiv=\"refresh\""), std::string::npos);
+  send(SIGINT);
+  EXPECT_EQ(wait().code, 75);
+  const auto status = status_of({"out"}, 75);
+  EXPECT_EQ(status["state"], "interrupted");
+  EXPECT_EQ(status["cases_done"], 0);
+  EXPECT_EQ(status["cases_failed"], 0);
+  EXPECT_TRUE(status["command"].get<std::string>().ends_with("study study.toml -o out --jobs 1"));
+  const std::string page = read("out/index.html");
+  EXPECT_EQ(page.find("refresh"), std::string::npos) << page;
+  EXPECT_NE(page.find("Study interrupted"), std::string::npos) << page;
+}
+
+TEST_F(Status, KnowsShardsInOneFolderAndInSeveralAndTheirMerge) {
+  for (const std::string shard : {"1/2", "2/2"}) {
+    ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", shard}).code, 0);
+    ASSERT_EQ(run({"study", "study.toml", "-o", "own-" + shard.substr(0, 1), "--shard", shard}).code, 0);
+    if (shard == "1/2") {
+      EXPECT_EQ(status_of({"out"}, 0)["shards_not_seen"], 1);
+    }
+  }
+  for (const auto& folders : {std::vector<std::string>{"out"}, {"own-1", "own-2"}}) {
+    const auto status = status_of(folders, 0);
+    EXPECT_EQ(status["state"], "finished");
+    EXPECT_EQ(status["cases_done"], 24);
+    EXPECT_EQ(status["writers"].size(), 2u);
+  }
+  ASSERT_EQ(run({"merge", "study.toml", "-o", "out"}).code, 0);
+  const auto merged = status_of({"out"}, 0);
+  EXPECT_EQ(merged["writers"].size(), 1u);
+  EXPECT_EQ(merged["cases_done"], 24);
+}
+
+TEST_F(Status, GroupsFailuresByTheirReason) {
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--memory", "1kB"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  const auto status = status_of({"out"}, 3);
+  EXPECT_EQ(status["cases_failed"], 24);
+  ASSERT_EQ(status["failures"].size(), 1u) << status;
+  EXPECT_EQ(status["failures"][0]["cases"], 24);
+}
+
+TEST_F(Status, NamesAFolderNearOneThatHasNone) {
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out", "--shard", "1/6"}).code, 0);
+  for (const std::string wrong : {".", "out/cases", "ouut"}) {
+    const Outcome outcome = run({"status", wrong});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+    EXPECT_TRUE(outcome.says("did you mean out?") || outcome.says("did you mean ./out?")) << outcome.err;
+  }
+}
+
+TEST_F(Status, WatchesUntilTheStudyHasEnded) {
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  const Outcome outcome = run({"status", "out", "--watch"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_TRUE(outcome.out.starts_with("out: finished")) << outcome.out;
+}
+
+TEST_F(Status, LeavesSomebodyElsesPageAlone) {
+  std::filesystem::create_directory(folder() / "out");
+  write("out/index.html", "<!DOCTYPE html>\nmine");
+  const Outcome outcome = run({"study", "study.toml", "-o", "out"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.says("index.html")) << outcome.err;
+  EXPECT_EQ(read("out/index.html"), "<!DOCTYPE html>\nmine");
+}
+
+TEST_F(Status, AStudyRefusesATimeThatIsNone) {
+  const Outcome outcome = run({"study", "study.toml", "-o", "out", "--until", "6 pm"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.says("allowed: a time of the day such as 06:00")) << outcome.err;
+  EXPECT_FALSE(exists("out"));
+}
+
+}  // namespace
+}  // namespace launchsafe::app
