@@ -2,10 +2,12 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/study_status.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace launchsafe::app {
@@ -17,7 +19,7 @@ std::string state_of(const ForecastRun& run) {
   return run.stored || run.given_up ? run.why : "to run: " + run.why;
 }
 
-report::Table run_table(const Forecast& forecast) {
+report::Table run_table(const std::vector<ForecastRun>& runs) {
   using keys::fixed;
   const report::Quantities<ForecastRun> quantities{
       {{"mechanical_run", "mechanical run", keys::text(), "The run."}, &ForecastRun::label},
@@ -28,7 +30,18 @@ report::Table run_table(const Forecast& forecast) {
       {{"time", "time", fixed(1, keys::second), "Time that it takes, as estimated."}, &ForecastRun::time},
       {{"shard", "shard", keys::count(), "Shard that runs it."}, &ForecastRun::shard},
       {{"state", "state", keys::text(), "Whether it is stored, or why it runs."}, state_of}};
-  return report::table_of({}, quantities, forecast.runs);
+  return report::table_of({}, quantities, runs);
+}
+
+/// Few of them: those of a large study fill no terminal.
+std::string run_list(const Forecast& forecast) {
+  constexpr std::size_t most = 20;
+  const std::size_t shown = std::min(most, forecast.runs.size());
+  const auto first = forecast.runs.begin();
+  std::string text = report::to_text(run_table({first, first + static_cast<std::ptrdiff_t>(shown)}));
+  if (shown < forecast.run_count)
+    text += fmt::format("and {} more; --json lists {}\n", forecast.run_count - shown, forecast.runs.size());
+  return text;
 }
 
 std::string forecast_line(std::string_view label, const std::string& value) {
@@ -95,7 +108,7 @@ std::string time_text(const Forecast& forecast, const std::filesystem::path& fol
 }  // namespace
 
 std::string forecast_text(const study::StudyFile& file, const Forecast& forecast,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, std::optional<std::time_t> begin) {
   std::string text = file.study.title.empty() ? std::string{} : file.study.title + "\n\n";
   text += "Study\n";
   text += forecast_line("kind", file.study.kind.name);
@@ -113,8 +126,15 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
         "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));
   text += forecast_line("at a time", fmt::format("{}", forecast.jobs));
   text += forecast_line("memory", fmt::format("about {:.3g} MB", forecast.memory / 1e6));
+  if (forecast.disk > 0)
+    text += forecast_line("disk", fmt::format("about {:.3g} MB of cases, rather less as they are compressed",
+                                              forecast.disk / 1e6));
   text += forecast_line("time", time_text(forecast, folder));
-  return text + "\n" + report::to_text(run_table(forecast));
+  if (begin && forecast.time > 0)
+    text += forecast_line(
+        "end", fmt::format("about {} if it began now, an estimate",
+                           report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin)));
+  return text + "\n" + run_list(forecast);
 }
 
 nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
@@ -134,9 +154,10 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
           {"updates_per_second", forecast.update_rate},
           {"rate_learned_from_runs", forecast.learned_from},
           {"memory_bytes", forecast.memory},
+          {"disk_bytes", forecast.disk},
           {"predicted_time_s", forecast.time},
           {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
-          {"runs", report::to_json(run_table(forecast))["rows"]}};
+          {"runs", report::to_json(run_table(forecast.runs))["rows"]}};
 }
 
 }  // namespace launchsafe::app

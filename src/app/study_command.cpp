@@ -75,7 +75,7 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
   if (*store) {
     for (const std::string& remark : (*store)->remarks()) console.remark(remark);
   }
-  console.print_text(forecast_text(file, forecast, arguments.output));
+  console.print_text(forecast_text(file, forecast, arguments.output, std::time(nullptr)));
   console.print_json(forecast_json(file, forecast));
   return ExitCode::done;
 }

@@ -134,6 +134,9 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   const run::Cost cost = run::cost_of(needed.scene);
   run.memory = memory_of(needed);
   run.kept = cost.kept_trace;
+  constexpr double file_of_nothing = 110e3;  // bytes, measured: of a launch with the shortest trace
+  run.disk = file_of_nothing + cost.kept_trace;
+  if (needed.scene.output.asks_for_snapshots()) run.disk += run::snapshot_size(needed.scene).bytes();
   // Each has the trace so far.
   if (needed.checkpoints) run.kept += scene::parts_of_launch * (cost.particles + 0.5 * cost.kept_trace);
   run.stored = options.store != nullptr && options.store->holds(run.hash);
@@ -238,6 +241,9 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
       if (!run.stored && !run.given_up) {
         times.push_back(run.time);
         memories.push_back(run.memory);
+        // What confirms a launch has a trace of its own.
+        forecast.disk +=
+            run.disk * static_cast<double>(&run == &runs[i].front() ? 1 + study.confirmations_per_case : 1);
       }
       forecast.runs.push_back(std::move(run));
     }
@@ -247,6 +253,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
                                              : static_cast<double>(forecast.run_count) /
                                                    static_cast<double>(forecast.runs.size());
   forecast.confirmation_time = share * time_on(confirmation_times, forecast.jobs);
+  forecast.disk *= share;
   forecast.time = share * time_on(times, forecast.jobs) + forecast.confirmation_time;
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));

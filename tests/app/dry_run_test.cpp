@@ -32,6 +32,28 @@ TEST_F(DryRun, CountsTheFewestRunsAndMakesNoFolder) {
   EXPECT_NE(text.find("measured now"), std::string::npos) << text;
 }
 
+TEST_F(DryRun, SaysDiskAndEndAndListsFewRuns) {
+  const std::string few = run({"study", "study.toml", "--dry-run"}).out;
+  EXPECT_NE(few.find("  disk                  about "), std::string::npos) << few;
+  EXPECT_NE(few.find(" if it began now, an estimate\n"), std::string::npos) << few;
+  EXPECT_EQ(few.find("more; --json lists"), std::string::npos) << few;
+  write("many.toml",
+        with(sweep_study, "250, 260, 270, 280 MPa", "250, 255, 260, 265, 270, 275, 280, 285 MPa"));
+  const std::string many = run({"study", "many.toml", "--dry-run"}).out;
+  EXPECT_TRUE(many.ends_with("\nand 4 more; --json lists 24\n")) << many;
+  EXPECT_EQ(std::ranges::count(many, '\n') - std::ranges::count(few, '\n'), 20 - 12 + 1);
+}
+
+TEST_F(DryRun, PredictsAsMuchDiskAsFilesTakeOrMore) {
+  const double predicted = forecast_study()["disk_bytes"];
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  double taken = 0;
+  for (const auto& each : std::filesystem::directory_iterator(folder() / "out/cases"))
+    taken += static_cast<double>(each.file_size());
+  EXPECT_GT(taken, 0);
+  EXPECT_LE(taken, predicted);
+}
+
 TEST_F(DryRun, ExplainShowsTheSame) {
   const auto plan = nlohmann::json::parse(run({"explain", "study.toml", "--json"}).out);
   const auto forecast = forecast_study();

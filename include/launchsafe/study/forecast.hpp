@@ -21,6 +21,7 @@ struct ForecastRun {
   double memory = 0;  ///< bytes
   double kept = 0;  ///< bytes of its trace and checkpoints, of which a study in detail has some till its end
   double time = 0;  ///< s on a core, predicted; 0 for one that does not run
+  double disk = 0;  ///< bytes of its file, before compression
   int shard = 1;
   bool stored = false;    ///< its result is there
   bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
@@ -44,6 +45,8 @@ struct Forecast {
   double kept_memory = 0;        ///< bytes that are kept till the end of the cases asked for
   double report_memory = 0;      ///< bytes of the report of all cases, besides
   double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
+  double disk =
+      0;  ///< bytes, rather too many, of the files of all that is to run, the coupled runs among them
   int jobs = 1;
 };
 
