@@ -8,6 +8,7 @@
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/surrogate.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -294,7 +295,7 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
         fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
                      "values nearer to the middle of their ranges, or a study of the launch itself"));
   const report::Table table = table_of(*record, *inputs, launches);
-  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table));
+  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table, width_of_output()));
   if (console.json()) console.print_json({{"launches", report::to_json(table)["rows"]}});
   if (is_one && !arguments.csv)
     print_gap(*record, *inputs, launches.front(), arguments.gap.value_or(record->gap), console);

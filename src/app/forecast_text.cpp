@@ -3,6 +3,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_status.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,8 @@ std::string run_list(const Forecast& forecast) {
   constexpr std::size_t most = 20;
   const std::size_t shown = std::min(most, forecast.runs.size());
   const auto first = forecast.runs.begin();
-  std::string text = report::to_text(run_table({first, first + static_cast<std::ptrdiff_t>(shown)}));
+  std::string text =
+      report::to_text(run_table({first, first + static_cast<std::ptrdiff_t>(shown)}), width_of_output());
   if (shown < forecast.run_count)
     text += fmt::format("and {} more; --json lists {}\n", forecast.run_count - shown, forecast.runs.size());
   return text;

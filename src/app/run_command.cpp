@@ -19,6 +19,7 @@
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -218,11 +219,12 @@ std::string combustion_text(const scene::Scene& scene, const run::CaseResult& re
   constexpr std::size_t history_rows = 12;
   const report::Table table = report::combustion_table(scene, result);
   if (table.rows.empty()) return {};
-  std::string text = report::to_text(table) + "\n";
+  std::string text = report::to_text(table, width_of_output()) + "\n";
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion)
-      text +=
-          report::to_text(report::combustion_history_table(*gap.combustion, gap.gap, history_rows)) + "\n";
+      text += report::to_text(report::combustion_history_table(*gap.combustion, gap.gap, history_rows),
+                              width_of_output()) +
+              "\n";
   return text;
 }
 
@@ -240,13 +242,15 @@ std::string launch_text(const scene::Scene& scene) {
 std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
   std::string text = launch_text(scene);
   if (!result.gaps.empty()) {
-    text += report::to_text(gap_table(scene, result)) + "\n";
+    text += report::to_text(gap_table(scene, result), width_of_output()) + "\n";
     const bool closes = scene.surface.model == scene::GapModel::closing;
-    text += report::to_text(closes ? report::closing_table(result) : air_table(scene, result)) + "\n";
+    text += report::to_text(closes ? report::closing_table(result) : air_table(scene, result),
+                            width_of_output()) +
+            "\n";
     text += combustion_text(scene, result);
   }
   if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
-    text += report::to_text(faces) + "\n";
+    text += report::to_text(faces, width_of_output()) + "\n";
   const auto& monitor = result.mechanics.monitor;
   if (!monitor.empty()) text += energy_text(monitor.back().energy) + "\n";
   const std::string limiters = limiter_text(result.mechanics.limiters);

@@ -7,6 +7,7 @@
 #include "shell_words.hpp"
 #include "signals.hpp"
 #include "study_folder.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -92,7 +93,9 @@ void StudySession::print_remarks() {
 ExitCode StudySession::report_interruption() {
   if (!kept()) return ExitCode::failed;
   const auto stored = std::ranges::count(store_->records(), store::CaseState::done, &store::RunRecord::state);
-  console_.error(fmt::format("interrupted; {} kept in {}; to go on: {}",
+  const bool was_planned = request_.until && std::time(nullptr) >= *request_.until;
+  console_.error(fmt::format("{}; {} kept in {}; to go on: {}",
+                             was_planned ? "stopped at the time that --until says" : "interrupted",
                              stored == 1 ? "1 run is" : fmt::format("{} runs are", stored),
                              request_.folder.string(), request_.command));
   return ExitCode::interrupted;
@@ -136,7 +139,7 @@ ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const st
 }
 
 ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
-  console_.print_text(report::to_text(result.report, request_.folder));
+  console_.print_text(report::to_text(result.report, request_.folder, width_of_output()));
   if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
   console_.failures(result.failures);
   console_.remark(report::timing_text(result.timing));

@@ -12,4 +12,6 @@ std::optional<std::size_t> terminal_width(int descriptor) {
   return size.ws_col;
 }
 
+std::size_t width_of_output() { return terminal_width(STDOUT_FILENO).value_or(0); }
+
 }  // namespace launchsafe::app

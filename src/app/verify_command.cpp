@@ -3,6 +3,7 @@
 #include "launchsafe/report/table.hpp"
 #include "self_test.hpp"
 #include "signals.hpp"
+#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -87,7 +88,7 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
                     arguments.filter, fmt::join(groups, ", ")));
   const auto failed = static_cast<std::size_t>(
       std::count_if(checks.begin(), checks.end(), [](const Check& check) { return !check.pass(); }));
-  console.print_text(report::to_text(check_table(checks, failed)));
+  console.print_text(report::to_text(check_table(checks, failed), width_of_output()));
   console.print_json(json_of(checks, failed));
   return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
 }

@@ -48,14 +48,14 @@ std::string block_of(const Picture& picture, const std::vector<std::string>& mis
   return fmt::format("![{}]({})\n", picture.alternative, picture.file);
 }
 
-std::string printed(const ReportTable& item, const std::filesystem::path& folder) {
+std::string printed(const ReportTable& item, const std::filesystem::path& folder, std::size_t width) {
   if (!on_terminal(item) || item.table.rows.empty()) return {};
   const std::size_t rows = item.table.rows.size();
-  if (rows <= most_printed_rows) return to_text(item.table) + "\n";
+  if (rows <= most_printed_rows) return to_text(item.table, width) + "\n";
   Table beginning = item.table;
   beginning.rows.resize(most_printed_rows);
-  return to_text(beginning) + fmt::format("\nThese are {} of {} rows; all are in {}\n\n", most_printed_rows,
-                                          rows, (folder / rest_of(item)).string());
+  return to_text(beginning, width) + fmt::format("\nThese are {} of {} rows; all are in {}\n\n",
+                                                 most_printed_rows, rows, (folder / rest_of(item)).string());
 }
 
 /// Draws the pictures, until gnuplot is missing, fails or takes too long at one, which is a remark. The names
@@ -111,10 +111,10 @@ std::string to_markdown(const Report& report, const std::vector<std::string>& mi
   return page;
 }
 
-std::string to_text(const Report& report, const std::filesystem::path& folder) {
+std::string to_text(const Report& report, const std::filesystem::path& folder, std::size_t width) {
   std::string text = report.launch.empty() ? "" : report.launch + "\n\n";
   for (const auto& item : report.items) {
-    if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder);
+    if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder, width);
   }
   return text + report.answer + "\n";
 }

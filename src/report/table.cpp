@@ -124,6 +124,52 @@ std::string text_line(const std::vector<std::string>& cells, const std::vector<s
   return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
 }
 
+std::size_t width_of(const Grid& grid) {
+  std::size_t sum = 0;
+  for (const std::size_t width : widths_of(grid, 1)) sum += width + 2;
+  return sum - std::min<std::size_t>(sum, 2);
+}
+
+std::string text_lines(const Grid& grid) {
+  const auto widths = widths_of(grid, 1);
+  std::string text;
+  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
+    text += text_line(grid.lines[i], widths, grid.columns);
+    if (i > 0) continue;
+    std::vector<std::string> rules;
+    for (const std::size_t width : widths) rules.emplace_back(width, '-');
+    text += text_line(rules, widths, grid.columns);
+  }
+  return text;
+}
+
+/// The columns of these places.
+Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
+  Grid part{{}, std::vector<std::vector<std::string>>(grid.lines.size())};
+  for (const std::size_t place : places) {
+    part.columns.push_back(grid.columns[place]);
+    for (std::size_t i = 0; i < grid.lines.size(); ++i) part.lines[i].push_back(grid.lines[i][place]);
+  }
+  return part;
+}
+
+/// Below each other as many columns as fit, each time behind the first; one that does not fit even so stands
+/// alone.
+std::string text_parts(const Grid& grid, std::size_t width) {
+  std::string text;
+  for (std::size_t next = 1; next < grid.columns.size();) {
+    std::vector<std::size_t> places{0, next++};
+    for (; next < grid.columns.size(); ++next) {
+      places.push_back(next);
+      if (width_of(part_of(grid, places)) <= width) continue;
+      places.pop_back();
+      break;
+    }
+    text += (text.empty() ? "" : "\n") + text_lines(part_of(grid, places));
+  }
+  return text;
+}
+
 std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
                           const std::vector<Column>& columns) {
   std::string line = "|";
@@ -182,17 +228,11 @@ std::vector<std::string> keys_of(const Table& table) {
   return keys;
 }
 
-std::string to_text(const Table& table) {
+std::string to_text(const Table& table, std::size_t width) {
   const Grid grid = grid_of(table, on_one_line);
-  const auto widths = widths_of(grid, 1);
   std::string text = table.title.empty() ? "" : table.title + "\n\n";
-  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
-    text += text_line(grid.lines[i], widths, grid.columns);
-    if (i > 0) continue;
-    std::vector<std::string> rules;
-    for (const std::size_t width : widths) rules.emplace_back(width, '-');
-    text += text_line(rules, widths, grid.columns);
-  }
+  const bool fits = width == 0 || grid.columns.size() < 2 || width_of(grid) <= width;
+  text += fits ? text_lines(grid) : text_parts(grid, width);
   for (std::size_t i = 0; i < table.notes.size(); ++i) text += (i == 0 ? "\n" : "") + table.notes[i] + "\n";
   return text;
 }

@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 namespace launchsafe::study {
@@ -117,6 +118,7 @@ class AnswerRunner {
   /// The runs behind which some case still needs an answer.
   std::vector<CaseRuns> without_answered(ProgressTracker& tracker) {
     std::vector<CaseRuns> open;
+    std::map<std::string, std::size_t> answered_cases;  // by the reason why they failed, empty for none
     for (CaseRuns& each : cases_) {
       const bool answered = std::all_of(each.members.begin(), each.members.end(),
                                         [this](std::size_t member) { return answers_[member].has_value(); });
@@ -125,13 +127,14 @@ class AnswerRunner {
         tracker.expect_cases(each.members.size());
         for (const std::size_t member : each.members) {
           tell(tracker, member);
-          tracker.cases_ended(1, answers_[member]->failure);
+          ++answered_cases[answers_[member]->failure];
         }
       } else {
         open_.push_back(each.members);
         open.push_back(std::move(each));
       }
     }
+    for (const auto& [failure, cases] : answered_cases) tracker.cases_ended(cases, failure);
     return open;
   }
 

@@ -77,6 +77,7 @@ void ProgressTracker::found(FoundGap gap) {
   ++progress_.gaps_found;
   progress_.largest_gap = std::max(progress_.largest_gap, gap.upper);
   std::vector<FoundGap>& gaps = progress_.smallest_gaps;
+  if (gaps.size() == most_gaps && gap.lower >= gaps.back().lower) return;
   gaps.insert(std::ranges::upper_bound(gaps, gap.lower, {}, &FoundGap::lower), std::move(gap));
   if (gaps.size() > most_gaps) gaps.pop_back();
 }

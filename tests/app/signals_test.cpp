@@ -71,6 +71,15 @@ TEST_F(TerminalProgram, ShowsOneLineThatIsRewrittenAndThenRemoved) {
   EXPECT_GT(text.find("launchsafe: interrupted"), erased);
 }
 
+TEST_F(TerminalProgram, CountsTheCasesOfAStudyAndNeverSaysThatAllIsDone) {
+  write("shell.toml", brief_scene());
+  write("study.toml", sweep_study);
+  const std::string text = shown({"study", "study.toml", "-o", "out"}, "never shown");
+  if (text == "no terminal") GTEST_SKIP() << text;
+  EXPECT_NE(text.find(" of 24 cases done"), std::string::npos) << text;
+  EXPECT_EQ(text.find("100 %"), std::string::npos) << text;
+}
+
 TEST_F(TerminalProgram, ShowsNothingWhenQuiet) {
   write("shell.toml", far_scene());
   write("study.toml", sweep_study);

@@ -60,7 +60,7 @@ TEST_F(Status, IsReadBesideARunningStudyAndSaysWhatAnInterruptionLeft) {
   EXPECT_TRUE(status["command"].get<std::string>().ends_with("study study.toml -o out --jobs 1"));
   const std::string page = read("out/index.html");
   EXPECT_EQ(page.find("refresh"), std::string::npos) << page;
-  EXPECT_NE(page.find("Study interrupted"), std::string::npos) << page;
+  EXPECT_NE(page.find("<h1>out: interrupted"), std::string::npos) << page;
 }
 
 TEST_F(Status, KnowsShardsInOneFolderAndInSeveralAndTheirMerge) {

@@ -36,6 +36,25 @@ TEST(Table, TextAlignsEveryColumn) {
             "   0.040        n/a          9  UNSAFE\n");
 }
 
+TEST(Table, IsPrintedInPartsThatFitWhereItIsTooWide) {
+  EXPECT_EQ(to_text(verdicts(), 39), to_text(verdicts()));
+  EXPECT_EQ(to_text(verdicts(), 24),
+            "Verdicts\n"
+            "\n"
+            "gap [cm]  T max [K]  at\n"
+            "--------  ---------  --\n"
+            "   0.000      416.1  G2\n"
+            "   0.040        n/a\n"
+            "\n"
+            "gap [cm]  steps  verdict\n"
+            "--------  -----  -------\n"
+            "   0.000  36000  SAFE\n"
+            "   0.040      9  UNSAFE\n");
+  const std::string narrow = to_text(verdicts(), 1);
+  EXPECT_NE(narrow.find("gap [cm]  verdict\n"), std::string::npos)
+      << "one column beside the first at the least";
+}
+
 TEST(Table, TextAlignsByCharactersNotBytes) {
   Table table;
   table.columns = {{"tau", "\u03c4"}, {"b", "b"}};

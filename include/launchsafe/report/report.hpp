@@ -62,8 +62,9 @@ struct RenderedReport {
 /// The page. `missing`: names of pictures that were not drawn.
 std::string to_markdown(const Report& report, const std::vector<std::string>& missing = {});
 
-/// The launch, the tables and the answer. `folder`: where the whole of a long table is.
-std::string to_text(const Report& report, const std::filesystem::path& folder);
+/// The launch, the tables and the answer. `folder`: where the whole of a long table is; `width`: of each
+/// table.
+std::string to_text(const Report& report, const std::filesystem::path& folder, std::size_t width = 0);
 
 /// The tables of study.json for a results file, by their names there.
 std::vector<store::PlainTable> plain_tables(const Report& report);

@@ -72,8 +72,10 @@ std::string markdown_escaped(const std::string& text);
 /// The keys of all columns, all different.
 std::vector<std::string> keys_of(const Table& table);
 
-/// For a terminal: title, header, rule, rows; numbers rounded as the columns say.
-std::string to_text(const Table& table);
+/// For a terminal: title, header, rule, rows; numbers rounded as the columns say. Of a table that is wider
+/// than so many columns (0: of any width) parts that fit stand below each other, the first column before
+/// each.
+std::string to_text(const Table& table, std::size_t width = 0);
 
 /// GitHub's Markdown. Whatever would be markup in a cell is escaped.
 std::string to_markdown(const Table& table);
