@@ -166,7 +166,7 @@ report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>&
     };
     report::Column error = outputs[i];
     error.name += "_error";
-    error.heading = "+-";
+    error.heading = "±";
     error.form.notation = keys::Notation::significant;
     error.form.digits = 2;
     quantities.emplace_back(outputs[i], of(&study::Prediction::value));
@@ -208,7 +208,7 @@ report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInp
       table.notes.push_back(
           fmt::format("{}: not predicted, {}.", kinds::shown(output).heading, output.reason));
   table.notes.push_back(
-      fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (+-) on each "
+      fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (±) on each "
                   "side. Nothing is said of a launch that is farther out than these. How far computed ones "
                   "are off comes on top, and only a launch that was computed can be SAFE: launchsafe study.",
                   record.fitted(), record.held_out.size()));

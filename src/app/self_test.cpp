@@ -88,7 +88,7 @@ void run_to(mpm::Simulation& simulation, double end, const std::function<void()>
   }
 }
 
-/// Rise (K) 10 um deep in a half space of charge whose face is 1 K hotter for 1 ms.
+/// Rise (K) 10 µm deep in a half space of charge whose face is 1 K hotter for 1 ms.
 double conducted_rise() {
   scene::Scene strip = block("charge", 1e-4, 0.5e-6, 0.5e-6);
   strip.symmetry = scene::Symmetry::plane_strain;
@@ -189,14 +189,14 @@ std::vector<SelfTest> self_tests() {
       {"cracks", "growth speed at K = 5e5", 20.09388, 5.01e-6, "m/s",
        "growth law with K1 = K' (1 + m/2)^(1/m)",
        [] { return crack_growth_speed(ViscoScramParameters{}, 5e5, ViscoScramParameters{}.toughness); }},
-      {"cracks", "toughness under friction at 141 MPa, c = 30 um", 1.827012e6, 0.501, "Pa m^0.5",
+      {"cracks", "toughness under friction at 141 MPa, c = 30 µm", 1.827012e6, 0.501, "Pa m^0.5",
        "K0 sqrt[1 + (pi A/K0)(1 + A/K0)]",
        [] { return frictional_toughness(ViscoScramParameters{}, 141e6, 30e-6); }},
       {"air", "temperature at 496 MPa", 3398.911, 5.01e-4, "K", "T0 ratio^(2/7) from 300 K",
        [] { return adiabatic_temperature(AirParameters{}, 496e6); }},
       {"skin", "induction from 700 K, calls every 10 us", 1.645534e-4, 1.7e-10, "s",
        "quadrature of dT/(Q Z/c exp(-27000 K/T)) to 2000 K", induction_time},
-      {"conduction", "share of the face's rise 10 um deep after 1 ms", 0.430605, 5e-4, "",
+      {"conduction", "share of the face's rise 10 µm deep after 1 ms", 0.430605, 5e-4, "",
        "Carslaw & Jaeger, half space: erfc", conducted_rise},
       {"bar wave", "longitudinal speed", 5905.50, 0.6, "m/s", "sqrt((K + 4/3 G)/rho)", longitudinal_speed},
       {"setback", "axial pressure at the charge bottom", 140.843, 0.14, "MPa", "rho L a at 496 MPa",

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -27,6 +28,15 @@ std::string kelvins(double value) { return report::in_words(value, keys::signifi
 Row facts_of(const RecordedSetting& setting) {
   return {
       {"label", setting.label}, {"bound_K", setting.temperature_bound}, {"time_s", setting.processor_time}};
+}
+
+/// Processor time of the finest reference mesh over that of the next; 0 where there are not two.
+double costs_of_the_finest(const VariantAccuracy& variant) {
+  std::vector<double> times;
+  for (const AccuracyRow& row : variant.rows)
+    if (row.setting.reference && row.computed()) times.push_back(row.setting.processor_time);
+  std::ranges::sort(times, std::greater());
+  return times.size() < 2 ? 0.0 : times[0] / times[1];
 }
 
 /// How wrong T max and the critical gap of the scene as it is may be, and what would halve that.
@@ -48,6 +58,7 @@ Row facts_of(const VariantAccuracy& variant, const AccuracyRow& own) {
                 {"gap_reference_cm", shown_gap(gap.limit.value)},
                 {"gap_larger", own.critical_gap_error > 0},
                 {"gap_distance_cm", shown_gap(std::abs(own.critical_gap_error))}});
+  if (const double times = costs_of_the_finest(variant); times > 1.0) facts["finest_times"] = times;
   if (const auto* half = cheapest_within(record, 0.5 * own.setting.temperature_bound)) {
     facts["half"] = facts_of(*half);
     facts["half"]["times"] = half->processor_time / own.setting.processor_time;
@@ -92,38 +103,29 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"inexactness_K", inexactness}};
 }
 
-constexpr int grey = 7;
-
-/// Marks at the bounds, with bars down to the distances.
-Series bars(std::string label, int colour, Mark mark, const std::vector<const AccuracyRow*>& rows) {
-  Series series{std::move(label), {}, {}, report::Style::vertical_bars};
-  series.colour = colour;
-  series.mark = mark;
-  for (const AccuracyRow* row : rows) {
-    series.x.push_back(row->setting.processor_time);
-    series.y.push_back(row->error_to_go_by());
-    series.lower.push_back(row->largest_temperature_error);
-  }
-  series.upper = series.y;
-  return series;
+/// A setting in the picture.
+void add_mark(const AccuracyRow& row, Series& series) {
+  series.add(row.setting.processor_time, row.largest_temperature_error);
 }
 
-/// The best error for every cost, from cheap to costly.
-Series front_of(std::vector<const AccuracyRow*> rows) {
-  std::ranges::sort(rows, {}, [](const AccuracyRow* row) {
-    return std::pair(row->setting.processor_time, row->error_to_go_by());
-  });
-  const Series marks = bars({}, grey, {}, rows);
-  Series front{"Pareto front", marks.x, marks.y, report::Style::steps};
-  front.colour = grey;
-  return front;
+/// From cheap to costly, each nearer to the limit than all before it, up to one that cannot be told from it.
+std::vector<const AccuracyRow*> steps_to_the_limit(std::vector<const AccuracyRow*> rows, double known_to) {
+  std::ranges::sort(rows, {}, [](const AccuracyRow* row) { return row->setting.processor_time; });
+  std::vector<const AccuracyRow*> steps;
+  for (const AccuracyRow* row : rows) {
+    const double nearest = steps.empty() ? HUGE_VAL : steps.back()->largest_temperature_error;
+    if (nearest <= known_to) break;
+    if (row->largest_temperature_error < nearest) steps.push_back(row);
+  }
+  return steps;
 }
 
 /// A panel for every variant.
 Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
   if (variants.size() == 1) return error_plot(*variants.front());
   Plot plot;
-  plot.title = "Error of T max against processor time";
+  plot.title = "How far T max is from its limit, against processor time, for each model";
+  plot.subtitle = "grey: what the limit is known to; within it no setting can be told to be better";
   for (const VariantAccuracy* each : variants) plot.panels.push_back(error_plot(*each));
   return plot;
 }
@@ -131,42 +133,50 @@ Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
 }  // namespace
 
 Plot error_plot(const VariantAccuracy& variant) {
-  const bool bounded = variant.record.unvaried.empty();
+  constexpr int blue = 0, orange = 1, black = 6, grey = 7;
+  const double known_to = variant.reference_uncertainty();
   Plot plot;
-  plot.title = variant.name.empty() ? "Error of T max against processor time" : variant.name;
   plot.x = {headed("processor time of a run", report::quantity::processor_time()).label(),
             report::Scale::logarithmic};
-  plot.y = {headed(bounded ? "error of T max" : "distance of T max from the reference",
-                   report::quantity::temperature_max())
-                .label(),
+  plot.y = {headed("distance of T max from the limit", report::quantity::temperature_max()).label(),
             report::Scale::logarithmic};
-  plot.width = 1100;
-  plot.height = 640;
-  plot.subtitle = bounded ? "marks: bound of the error; bars: down to the distance from the reference"
-                          : "no bound of the error is known: the reference itself may be off";
-  std::vector<const AccuracyRow*> front, meshes, settings;
-  std::vector<Series> best;
+  plot.width = 760;
+  plot.height = 480;
+  plot.named_in_place = true;
+  Series others{
+      .label = "other settings", .style = report::Style::points, .colour = grey, .mark = Mark::circle};
+  Series meshes{
+      .label = "reference meshes", .style = report::Style::points, .colour = blue, .mark = Mark::open_square};
+  std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
-    if (row.on_front) front.push_back(&row);
-    if (row.on_front || row.baseline) {
-      // A name of its own in the legend, where no label covers others. None of the first 56 looks like
-      // another one.
-      const int n = static_cast<int>(best.size());
-      const auto mark = static_cast<Mark>((n % grey + n / grey) % 8);
-      best.push_back(bars(row.baseline ? "as in the scene" : row.setting.label, n % grey, mark, {&row}));
-    } else if (!row.setting.reference) {
-      settings.push_back(&row);
-    }
-    if (row.setting.reference) meshes.push_back(&row);
+    shown.push_back(&row);
+    if (row.setting.reference) add_mark(row, meshes);
+    if (!row.setting.reference && !row.baseline) add_mark(row, others);
   }
-  plot.series = {front_of(front), bars("other settings", grey, Mark::circle, settings),
-                 bars("reference meshes", grey, Mark::open_square, meshes)};
-  plot.series.insert(plot.series.end(), best.begin(), best.end());
+  plot.series = {std::move(others), std::move(meshes)};
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
-  const double uncertainty = variant.reference_uncertainty();
-  if (std::isfinite(uncertainty) && uncertainty > 0)
-    plot.horizontal_lines = {{uncertainty, "reference uncertain by " + kelvins(uncertainty)}};
+  const auto named = [&](const AccuracyRow& row, std::string label, int colour, Mark mark) {
+    add_mark(row,
+             plot.series.emplace_back(Series{.label = std::move(label), .colour = colour, .mark = mark}));
+  };
+  for (const AccuracyRow* row : steps_to_the_limit(shown, known_to))
+    if (!row->baseline) named(*row, row->setting.label, black, Mark::circle);
+  if (const AccuracyRow* own = variant.baseline()) {
+    named(*own, "as in the scene", orange, Mark::diamond);
+    plot.title =
+        fmt::format("as in the scene T max is {} from its limit", kelvins(own->largest_temperature_error));
+  }
+  plot.title =
+      fmt::format("{}{}{}", variant.name, variant.name.empty() || plot.title.empty() ? "" : ": ", plot.title);
+  if (std::isfinite(known_to) && known_to > 0) {
+    double nearest = known_to;
+    for (const AccuracyRow* row : shown)
+      if (row->largest_temperature_error > 0) nearest = std::min(nearest, row->largest_temperature_error);
+    plot.horizontal_bands = {{nearest, known_to, "limit known to " + kelvins(known_to)}};
+  }
+  if (!variant.record.unvaried.empty())
+    plot.subtitle = "no bound of the error is known: the reference itself may be off";
   return plot;
 }
 

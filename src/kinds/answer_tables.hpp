@@ -34,7 +34,7 @@ std::string status_of(const study::CaseAnswer& answer);
 /// Where a case lies, or its label if it has no coordinates.
 std::string name_of(const std::vector<report::ShownKey>& keys, const study::StudyCase& input);
 
-/// What failed and why, at most three by name: "496 MPa, 30 um (energy drift); ...; and 4 more". By label
+/// What failed and why, at most three by name: "496 MPa, 30 µm (energy drift); ...; and 4 more". By label
 /// where no keys are given.
 std::string failures_list(const std::vector<report::ShownKey>& keys, const study::StudyFile& study,
                           const std::vector<study::CaseAnswer>& answers);

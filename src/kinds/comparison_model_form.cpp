@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -47,8 +48,6 @@ const ModelAlternative* alternative_of(const ModelFormRecord& record, const std:
       std::ranges::find_if(record.alternatives, [&](const auto& each) { return each.name == name; });
   return found == record.alternatives.end() ? nullptr : &*found;
 }
-
-constexpr std::size_t mark_count = static_cast<std::size_t>(report::Mark::cross) + 1;
 
 /// m; critical gaps are bracketed to a tenth of it.
 constexpr double least_shift = 1e-6;
@@ -160,20 +159,47 @@ Table model_constants_table(const ModelForm& form) {
   return table;
 }
 
+/// Where models differ most, and where least.
+std::string apart_text(const ModelForm& form) {
+  std::vector<std::pair<double, double>> apart;  ///< m, at Pa
+  for (std::size_t i = 0; i < form.record.peak_pressures.size(); ++i) {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (const ModelFormEntry& each : form.entries) {
+      if (i >= each.critical_gap.size() || !std::isfinite(each.critical_gap[i])) continue;
+      least = std::min<double>(least, each.critical_gap[i]);
+      most = std::max<double>(most, each.critical_gap[i]);
+    }
+    if (least <= most) apart.emplace_back(most - least, form.record.peak_pressures[i]);
+  }
+  if (apart.empty()) return "Critical gap by model";
+  const auto [least, most] = std::ranges::minmax(apart);
+  const auto text = [](const std::pair<double, double>& each) {
+    return fmt::format("{} at {}", digits_of(each.first, significant(2, centimetre)) + " cm",
+                       report::in_words(each.second, quantity::peak_pressure().form));
+  };
+  return fmt::format("Models differ by {}, by {}", text(most), text(least));
+}
+
 report::Plot model_form_plot(const ModelForm& form) {
+  constexpr int grey = 7;
+  int coloured = 0;
   report::Plot plot;
-  plot.title = "Critical gap by model, each calibrated by the same rule";
+  plot.title = apart_text(form);
+  plot.subtitle = "each calibrated by the same rule; grey and dashed: models without a share in verdicts";
+  plot.named_in_place = true;
   plot.x.label = headed("peak pressure", quantity::peak_pressure()).label();
   plot.y.label = quantity::critical_gap().label();
   plot.y.minimum = 0.0;
   plot.height = 620;
   for (const ModelFormEntry& each : form.entries) {
     report::Series series{each.name, {}, {}, report::Style::line_and_points};
-    // More models than colours: marks repeat at another length, so that no two lines look alike.
-    series.mark = static_cast<report::Mark>(plot.series.size() % mark_count);
     const ModelAlternative* alternative = alternative_of(form.record, each.name);
-    if (alternative != nullptr && !alternative->not_counted.empty())
+    if (alternative != nullptr && towards_ignition(form.record, *alternative).empty()) {
       series.style = report::Style::dashed_line;
+      series.colour = grey;
+    } else {
+      series.colour = coloured++;
+    }
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
       series.add(report::shown_value(form.record.peak_pressures[i], quantity::peak_pressure().form),

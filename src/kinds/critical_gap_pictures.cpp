@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -32,6 +33,7 @@ std::vector<SweptAxis> swept_axes(const study::Study& study) {
   std::vector<SweptAxis> axes;
   for (std::size_t i = 0; i < study.axes.size(); ++i) {
     SweptAxis axis{i, report::shown(study.axes[i]), {}};
+    axis.key.heading = report::plain_words(axis.key.heading);
     for (const double value : study.axes[i].values) axis.values.push_back(axis.key.value(value));
     std::ranges::sort(axis.values);
     axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
@@ -64,17 +66,16 @@ report::PlotAxis picture_axis(const SweptAxis& swept) {
   return axis;
 }
 
-/// "Critical gap at flaw size 1 mm": with the values of the axes that the picture does not show.
+/// ", flaw size 1 mm": with the values of the axes that the picture does not show.
 std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::size_t>& shown_axes,
                      const StudyCase& input) {
   std::string fixed;
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::ranges::find(shown_axes, axis.index) != shown_axes.end();
     if (is_shown || axis.index >= input.coordinates.size()) continue;
-    fixed += fmt::format("{}{} {}", fixed.empty() ? " at " : ", ", axis.key.heading,
-                         axis.key.text(input.coordinates[axis.index]));
+    fixed += fmt::format("{}{} {}", ", ", axis.key.heading, axis.key.text(input.coordinates[axis.index]));
   }
-  return "Critical gap" + fixed;
+  return fixed;
 }
 
 // --- marks ---
@@ -122,10 +123,10 @@ double position_of(const CriticalGap& gap) {
   return 0;
 }
 
-/// One mark and colour for every kind, in the order of CriticalGapKind.
+/// One mark for every kind, in the order of CriticalGapKind, in a colour that no line has.
 constexpr std::array<Mark, 5> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross,
                                          Mark::diamond};
-constexpr std::array<int, 5> kind_colours{0, 2, 1, 7, 3};
+constexpr int kind_colour = 6;
 
 /// Critical gaps that are no values as marks along an axis, one series for every kind.
 class GapMarks {
@@ -134,26 +135,29 @@ class GapMarks {
   explicit GapMarks(const std::vector<CaseAnswer>& answers) {
     const auto labels = kind_labels(answers);
     for (std::size_t kind = 0; kind < labels.size(); ++kind)
-      series_.push_back({.label = labels[kind],
-                         .style = Style::points,
-                         .colour = kind_colours[kind],
-                         .mark = kind_marks[kind]});
+      series_.push_back(
+          {.label = labels[kind], .style = Style::points, .colour = kind_colour, .mark = kind_marks[kind]});
   }
 
   /// `place`: on the axis.
   void add(const CriticalGap& gap, double place) {
-    if (drawn_kind(gap) != CriticalGapKind::value)
+    if (drawn_kind(gap) == CriticalGapKind::indeterminate)
+      ++unknown_;
+    else if (drawn_kind(gap) != CriticalGapKind::value)
       series_[static_cast<std::size_t>(drawn_kind(gap))].add(place, position_of(gap));
   }
 
-  /// The kinds that occur.
+  /// The kinds that occur, and how many there are of which nothing is known.
   void put_into(Plot& plot) {
+    if (unknown_ > 0)
+      plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown_, "case"));
     for (Series& series : series_)
       if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
 
  private:
   std::vector<Series> series_;
+  std::int64_t unknown_ = 0;
 };
 
 // --- lines ---
@@ -212,7 +216,16 @@ class GapLines {
     if (!assumed_shares(result_.study.study, input, answer.critical.value).empty()) assumed_.add(x, lower);
   }
 
+  /// Values on lines of two and more: what a picture is made for.
+  std::size_t joined() const {
+    std::size_t joined = 0;
+    for (const Series& line : values_)
+      if (const std::size_t known = known_of(line); known > 1) joined += known;
+    return joined;
+  }
+
   void put_into(Plot& plot) {
+    plot.title = finding() + plot.title;
     for (auto* lines : {&values_, &lower_bounds_})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
     if (!assumed_.x.empty()) plot.series.push_back(std::move(assumed_));
@@ -223,6 +236,31 @@ class GapLines {
   std::string label_of(double shown) const {
     return fmt::format("{} {}{}{}", across_->key.heading, report::significant(shown, 6),
                        across_->key.form.unit.empty() ? "" : " ", across_->key.form.unit);
+  }
+
+  static std::size_t known_of(const Series& line) {
+    return static_cast<std::size_t>(std::ranges::count_if(line.y, [](double y) { return std::isfinite(y); }));
+  }
+
+  /// "Critical gap at crack radius 30 µm falls from 0.096 cm at 250 MPa to 0.026 cm at 550 MPa", of the line
+  /// that has most values.
+  std::string finding() const {
+    const Series& line = *std::ranges::max_element(values_, {}, known_of);
+    std::vector<std::size_t> known;
+    for (std::size_t i = 0; i < line.y.size(); ++i)
+      if (std::isfinite(line.y[i])) known.push_back(i);
+    if (known.size() < 2) return "Critical gap";
+    const auto gap = [&](std::size_t i) { return report::significant(line.y[i], 2) + " cm"; };
+    const auto at = [&](std::size_t i) {
+      return report::significant(line.x[i], 6) + " " + along_.key.form.unit;
+    };
+    const std::string what = "Critical gap" + (across_ == nullptr ? "" : " at " + line.label);
+    const std::string first = gap(known.front()), last = gap(known.back());
+    if (first == last)
+      return fmt::format("{} stays at {} from {} to {}", what, first, at(known.front()), at(known.back()));
+    return fmt::format("{} {} from {} at {} to {} at {}", what,
+                       line.y[known.back()] < line.y[known.front()] ? "falls" : "rises", first,
+                       at(known.front()), last, at(known.back()));
   }
 
   const CriticalGapResult& result_;
@@ -237,9 +275,16 @@ class GapLines {
   GapMarks marks_;
 };
 
-/// A picture for every combination of the axes that it does not show, in the order of the cases.
-std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
-                           const SweptAxis& along, const SweptAxis* across) {
+/// Pictures, and how many values their lines join.
+struct Drawn {
+  std::vector<Plot> plots;
+  std::size_t joined = 0;
+};
+
+/// A picture for every combination of the axes that it does not show, in the order of the cases, where a line
+/// joins two values and more.
+Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& along,
+               const SweptAxis* across) {
   std::vector<std::size_t> shown{along.index};
   if (across != nullptr) shown.push_back(across->index);
   std::vector<std::vector<double>> combinations;
@@ -257,12 +302,44 @@ std::vector<Plot> plots_of(const CriticalGapResult& result, const std::vector<Sw
       lines.emplace_back(result, along, across);
       plots.push_back({.title = title_of(axes, shown, input),
                        .x = picture_axis(along),
-                       .y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0}});
+                       .y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0},
+                       .named_in_place = true});
     }
     lines[number].add(input, result.answers[i]);
   }
-  for (std::size_t i = 0; i < plots.size(); ++i) lines[i].put_into(plots[i]);
-  return plots;
+  Drawn drawn;
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const std::size_t joined = lines[i].joined();
+    if (joined == 0) continue;
+    drawn.joined += joined;
+    lines[i].put_into(plots[i]);
+    drawn.plots.push_back(std::move(plots[i]));
+  }
+  return drawn;
+}
+
+using AxisPair = std::pair<const SweptAxis*, const SweptAxis*>;
+
+/// Along the longer of the first two axes, a line for each value of the other; where no line joins values, as
+/// one axis has none beyond a point, along the axes that join most.
+AxisPair drawn_axes(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
+                    std::vector<const SweptAxis*> several) {
+  if (several.size() == 1) return {several[0], nullptr};
+  if (several[1]->values.size() > several[0]->values.size()) std::swap(several[0], several[1]);
+  AxisPair best{several[0], several[1]};
+  Drawn most = plots_of(result, axes, *best.first, best.second);
+  if (most.joined > 0) return best;
+  for (const SweptAxis* along : several)
+    for (const SweptAxis* across : several) {
+      if (along == across) continue;
+      Drawn drawn = plots_of(result, axes, *along, across);
+      if (drawn.joined < most.joined ||
+          (drawn.joined == most.joined && drawn.plots.size() >= most.plots.size()))
+        continue;
+      best = {along, across};
+      most = std::move(drawn);
+    }
+  return best;
 }
 
 }  // namespace
@@ -274,19 +351,17 @@ GapPictures gap_pictures(const CriticalGapResult& result) {
     if (axis.values.size() > 1) several.push_back(&axis);
   }
   if (several.empty() || result.answers.empty()) return {};
-  several.resize(2, nullptr);
-  if (several[1] != nullptr && several[1]->values.size() > several[0]->values.size())
-    std::swap(several[0], several[1]);
-  std::vector<Plot> plots = plots_of(result, axes, *several[0], several[1]);
+  const auto [along, across] = drawn_axes(result, axes, several);
+  std::vector<Plot> plots = plots_of(result, axes, *along, across).plots;
   GapPictures made;
   if (plots.size() > most_pictures)
     made.remarks.push_back(fmt::format(
         "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
         most_pictures, plots.size()));
-  if (several[1] != nullptr && several[1]->values.size() > most_lines)
+  if (across != nullptr && across->values.size() > most_lines)
     made.remarks.push_back(
         fmt::format("The pictures have lines for {} of {} values of {}; critical_gaps.csv has all.",
-                    most_lines, several[1]->values.size(), several[1]->key.heading));
+                    most_lines, across->values.size(), across->key.heading));
   for (std::size_t i = 0; i < std::min(plots.size(), most_pictures); ++i) {
     std::string shows = plots[i].title;
     made.pictures.push_back({fmt::format("critical_gap{}.svg", i == 0 ? "" : fmt::format("_{}", i + 1)),

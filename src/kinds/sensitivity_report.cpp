@@ -231,7 +231,8 @@ report::Report report_of(const SensitivityResult& result) {
                                      has_fit(result) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
-    if (output.reason.empty())
+    // That of T max is the margin's, where the ignition temperature is one more input.
+    if (output.reason.empty() && output.output != SensitivityOutput::maximum_temperature)
       report.items.push_back(report::Picture{picture_name(output), sensitivity_plot(result, output),
                                              "sensitivity of " + shown_output(output.output).column.heading});
   }

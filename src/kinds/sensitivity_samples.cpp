@@ -103,7 +103,15 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   const Histogram histogram = histogram_of(sample, shown);
   Plot panel;
   if (histogram.counts.empty()) return panel;
+  const double low = shown.value(sample.quantile(quantile_shares.front())),
+               high = shown.value(sample.quantile(quantile_shares.back()));
+  const std::string unit = " " + shown.column.form.unit;
   panel.title = title_of(result, output);
+  if (std::isfinite(low) && std::isfinite(high)) {
+    panel.title +=
+        fmt::format(": {} to {}{} in 95 %", report::significant(low, 3), report::significant(high, 3), unit);
+    panel.vertical_bands = {{low, high, "95 % of the draws"}};
+  }
   panel.subtitle = fmt::format("{} draws", sample.values.size());
   if (const std::size_t count = sample.ignites_at_zero())
     panel.subtitle += fmt::format("; {} ignite without a gap", count);
@@ -117,9 +125,11 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
     steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
   steps.add(histogram.edge(histogram.counts.size()), 0.0);
   panel.series = {std::move(steps)};
-  for (const double share : quantile_shares)
-    if (const double at = shown.value(sample.quantile(share)); std::isfinite(at))
-      panel.vertical_lines.push_back({at, share == quantile_shares.front() ? "quantiles of the table" : ""});
+  if (const double half = shown.value(sample.quantile(0.5)); std::isfinite(half))
+    panel.vertical_lines.push_back({half, "half: " + report::significant(half, 3) + unit});
+  if (output.output == SensitivityOutput::critical_gap)
+    panel.vertical_lines.push_back({report::shown_gap(result.study.study.gaps.front()),
+                                    "the gap asked for: " + centimetres(result.study.study.gaps.front())});
   panel.width = 620;
   panel.height = 460;
   return panel;

@@ -14,6 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <functional>
+#include <numeric>
 #include <optional>
 
 namespace launchsafe::kinds {
@@ -64,9 +67,9 @@ Quantities<IndexRow> index_quantities() {
   return keys::joined<IndexRow>(
       {{{{"input", "input", text(), "What varies."}, &IndexRow::input, &ShownInput::name},
         {quantity::distribution(), &IndexRow::input, &ShownInput::distribution}},
-       interval_quantities("first_order", "S1", &math::InputIndices::first,
+       interval_quantities("first_order", "first", &math::InputIndices::first,
                            "Share of the variance by the input alone."),
-       interval_quantities("total_order", "ST", &math::InputIndices::total,
+       interval_quantities("total_order", "total", &math::InputIndices::total,
                            "Share of the variance with its interactions."),
        {{{"used", "rows used", count(), "Rows of the design that the indices rest on."},
          of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used; })},
@@ -164,7 +167,7 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
     const auto& [first, total] = output.sobol.inputs[i];
     if (!total_below_first(output.sobol.inputs[i])) continue;
     facts["contradictory"].push_back(
-        fmt::format("{} (ST {}, S1 {})", inputs[i].name, estimate_text(total), estimate_text(first)));
+        fmt::format("{} (total {}, first {})", inputs[i].name, estimate_text(total), estimate_text(first)));
     if (total.upper < first.lower) facts["apart"] = true;
   }
   return said("sensitivity.note", facts);
@@ -213,44 +216,48 @@ std::vector<ResultTable> sensitivity_results() {
           {"evaluations", "evaluations.csv", keys::described(evaluation_quantities({}, outputs))}};
 }
 
-namespace {
-
-void add_interval(Series& series, double x, double y, const math::Estimate& along_x) {
-  series.x.push_back(x);
-  series.y.push_back(y);
-  series.lower.push_back(along_x.lower);
-  series.upper.push_back(along_x.upper);
-}
-
-}  // namespace
-
-// Inputs below each other, the first at the top: first order above total order.
+// Inputs below each other, the one with the largest total order at the top.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
-  constexpr double apart = 0.13;
+  constexpr int blue = 0, orange = 1, black = 6;
   const auto shown = shown_inputs(result.study.study);
-  const std::size_t inputs = shown.size();
   const study::Study& study = result.study.study;
+  std::vector<std::size_t> order(shown.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](std::size_t i) { return output.sobol.inputs[i].total.value; });
   report::Plot plot;
-  plot.title = fmt::format("Sensitivity of {}{}, N = {}", shown_output(output.output).phrase,
-                           at_gap(study, output.output), settings_of<SensitivitySettings>(study).samples);
-  plot.x.label = "share of the variance";
-  Series first{"S1: by the input alone", {}, {}, report::Style::horizontal_bars};
-  Series total{"ST: with its interactions", {}, {}, report::Style::horizontal_bars};
-  for (std::size_t i = 0; i < inputs; ++i) {
-    const double y = static_cast<double>(inputs - i);
-    const math::InputIndices& indices = output.sobol.inputs[i];
+  plot.title =
+      fmt::format("{} makes {} % of the variance of {}", report::plain_words(shown[order.front()].name),
+                  report::fixed(100.0 * output.sobol.inputs[order.front()].total.value, 0),
+                  shown_output(output.output).phrase + at_gap(study, output.output));
+  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
+  plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);
+  plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
+  Series bars{.label = "total: with interactions", .style = report::Style::filled_bars, .colour = blue};
+  Series total{.label = "its interval",
+               .style = report::Style::horizontal_bars,
+               .colour = black,
+               .mark = report::Mark::square};
+  Series first{.label = "first: by the input alone",
+               .style = report::Style::horizontal_bars,
+               .colour = orange,
+               .mark = report::Mark::diamond};
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const double y = static_cast<double>(order.size() - place);
+    const math::InputIndices& indices = output.sobol.inputs[order[place]];
     const bool contradictory = total_below_first(indices);
     if (contradictory)
-      plot.subtitle = "* ST below S1 is sampling error: no true total order is below the first order";
-    plot.y.tics.push_back({y, shown[i].name + (contradictory ? " *" : "")});
-    add_interval(first, indices.first.value, y + apart, indices.first);
-    add_interval(total, indices.total.value, y - apart, indices.total);
+      plot.subtitle +=
+          "; * total below first is sampling error: no true total order is below the first order";
+    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name) + (contradictory ? " *" : "")});
+    bars.add(indices.total.value, y, 0.0, indices.total.value);
+    total.add(indices.total.value, y - 0.1, indices.total.lower, indices.total.upper);
+    first.add(indices.first.value, y + 0.1, indices.first.lower, indices.first.upper);
   }
   plot.y.minimum = 0.4;
-  plot.y.maximum = static_cast<double>(inputs) + 0.6;
-  plot.vertical_lines = {{0.0, ""}, {1.0, ""}};
-  plot.series = {std::move(first), std::move(total)};
-  plot.height = std::min(180 + 56 * static_cast<int>(inputs), 1600);
+  plot.y.maximum = static_cast<double>(order.size()) + 0.6;
+  plot.series = {std::move(bars), std::move(total), std::move(first)};
+  plot.height = std::min(180 + 56 * static_cast<int>(order.size()), 1600);
   return plot;
 }
 

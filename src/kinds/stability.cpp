@@ -103,7 +103,7 @@ Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double
   all.push_back(fmt::format("T max {:.1f} K", closed.at_stations.temperature));
   if (closed.closing)
     all.back() +=
-        fmt::format(", down to {:.3g} um at up to {:.3g} MPa", 1e6 * closed.closing->smallest_opening,
+        fmt::format(", down to {:.3g} µm at up to {:.3g} MPa", 1e6 * closed.closing->smallest_opening,
                     1e-6 * closed.closing->largest_gas_pressure);
   return {outcome, head + joined_text(all)};
 }

@@ -129,32 +129,32 @@ std::size_t count_missing(const StabilityResult& result) {
 
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
-/// How many cases of every group came out how: a bar for every outcome, the first group on top.
+/// How many cases of every group came out how: a bar of parts, the first group on top.
 report::Plot outcome_plot(const StabilityResult& result) {
   constexpr int green = 2, orange = 4, blue = 0, black = 6;
   constexpr int colours[] = {green, orange, blue, black};
   report::Plot plot;
-  plot.title = "Outcomes of the stress cases";
-  plot.x.label = "cases";
+  plot.x = {.label = "cases", .minimum = 0.0};
   std::map<std::string, double> places;
-  std::map<std::pair<Outcome, std::string>, double> cases;
+  std::map<std::pair<std::string, Outcome>, double> cases;
   for (const StressCaseRow& row : result.rows) {
     const double at = -static_cast<double>(places.size());
     if (places.try_emplace(row.asked.group, at).second) plot.y.tics.push_back({at, row.asked.group});
-    if (row.computed()) ++cases[{row.finding.outcome, row.asked.group}];
+    if (row.computed()) ++cases[{row.asked.group, row.finding.outcome}];
   }
+  std::map<std::string, double> ends;
   for (const Outcome outcome : all_outcomes) {
-    const auto i = static_cast<std::size_t>(outcome);
-    plot.series.push_back({to_string(outcome), {}, {}, report::Style::horizontal_bars, {}, {}, colours[i]});
+    const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
+    plot.title += (plot.title.empty() ? "" : ", ") + label;
+    report::Series& series = plot.series.emplace_back(report::Series{.label = label});
+    series.style = report::Style::filled_bars;
+    series.colour = colours[static_cast<std::size_t>(outcome)];
+    for (const auto& [group, place] : places) {
+      const double count = cases[{group, outcome}], end = ends[group] + count;
+      if (count > 0) series.add(end, place, std::exchange(ends[group], end), end);
+    }
   }
-  for (const auto& [which, count] : cases) {
-    const auto i = static_cast<std::size_t>(which.first);
-    report::Series& series = plot.series[i];
-    series.x.push_back(count);
-    series.y.push_back(places[which.second] + 0.3 - 0.2 * static_cast<double>(i));
-    series.lower.push_back(0.0);
-    series.upper.push_back(count);
-  }
+  plot.title = fmt::format("Of {} stress cases {}", result.rows.size(), plot.title);
   return plot;
 }
 

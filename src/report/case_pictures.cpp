@@ -3,6 +3,8 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -95,6 +97,15 @@ Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity
   return time_plot(drawn, std::move(title), quantity.label());
 }
 
+Plot load_plot(const DrawnCase& drawn) {
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  Plot plot = time_plot(drawn, {}, quantity::pressure());
+  plot.named_in_place = true;
+  plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure()),
+                 time_series("charge's bottom", trace.time, trace.bottom_pressure, quantity::pressure())};
+  return plot;
+}
+
 Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
                    const Column& quantity) {
   return {.label = label,
@@ -127,10 +138,12 @@ std::string lacks_pressure(const DrawnCase& drawn) {
 
 std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  Plot plot = time_plot(drawn, "Pressures", quantity::pressure());
-  plot.series = {
-      time_series("chamber, on the base", trace.time, trace.chamber_pressure, quantity::pressure()),
-      time_series("charge's bottom, area mean", trace.time, trace.bottom_pressure, quantity::pressure())};
+  const auto highest = [](const std::vector<double>& pressure) {
+    return in_words(std::ranges::max(pressure), significant(3, megapascal));
+  };
+  Plot plot = load_plot(drawn);
+  plot.title = fmt::format("The chamber reaches {}, the charge's bottom {}", highest(trace.chamber_pressure),
+                           highest(trace.bottom_pressure));
   return {{"pressure.svg", std::move(plot)}};
 }
 

@@ -13,11 +13,6 @@ namespace {
 
 const trace::BottomTrace& trace_of(const DrawnCase& drawn) { return drawn.result.mechanics.trace; }
 
-bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
-  return gap.skin.time.size() > 1 && !rings_of(trace_of(drawn)).empty() &&
-         gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
-}
-
 /// The gaps of a case that hold what a kind of pictures needs.
 std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
                                              const DrawnCase& drawn) {
@@ -25,13 +20,6 @@ std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, cons
   for (const run::GapResult& gap : drawn.result.gaps)
     if (what(drawn, gap)) gaps.push_back(&gap);
   return gaps;
-}
-
-/// Samples before the ignition, all without one.
-std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
-  if (!skin.ignition) return skin.time.size();
-  return static_cast<std::size_t>(std::lower_bound(skin.time.begin(), skin.time.end(), skin.ignition->time) -
-                                  skin.time.begin());
 }
 
 std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& gap) {
@@ -65,14 +53,6 @@ Column distance_from_axis() {
   return {"r", "distance from the axis, r", keys::significant(4, millimetre), "Distance from the axis."};
 }
 
-std::vector<double> profile_times(const DrawnCase& drawn) {
-  if (!drawn.times.empty()) return drawn.times;
-  constexpr int parts = 6;
-  std::vector<double> times;
-  for (int i = 1; i <= parts; ++i) times.push_back(trace_of(drawn).time.back() * i / parts);
-  return times;
-}
-
 std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_t station,
                                     std::size_t stations) {
   std::vector<double> values;
@@ -81,81 +61,42 @@ std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_
   return values;
 }
 
-Plot profile_plot(const DrawnCase& drawn, const run::GapResult& gap) {
+/// The bottom of every gap at one instant, or as it is last without ignition.
+Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   const trace::BottomTrace& trace = trace_of(drawn);
-  Plot plot = titled_plot(drawn, gap_title("Skin temperature along the bottom", gap));
+  Plot plot = titled_plot(drawn, {});
   plot.x = {.label = distance_from_axis().label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature().label();
-  const std::vector<double> times = profile_times(drawn);
-  for (const double time : times)
-    plot.series.push_back({.label = in_words(time, quantity::time_in_titles())});
-  for (const std::size_t ring : rings_of(trace)) {
-    const std::vector<double> history = temperatures_of(gap.skin, ring, trace.stations.size());
-    for (std::size_t i = 0; i < times.size(); ++i)
-      plot.series[i].add(shown_value(trace.stations[ring].r, distance_from_axis().form),
-                         trace::interpolate(gap.skin.time, history, times[i]));
+  plot.named_in_place = true;
+  for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
+    const surface::SkinHistory& skin = gap->skin;
+    const std::size_t samples = samples_before_ignition(skin);
+    if (samples == 0) continue;
+    const double last = skin.time[samples - 1];
+    Series& series = plot.series.emplace_back(Series{.label = centimetres(gap->gap)});
+    if (skin.ignition && time.value_or(last) >= last)
+      series.label += ", igniting at " + in_words(skin.ignition->time, quantity::time_in_titles());
+    for (const std::size_t ring : rings_of(trace))
+      series.add(shown_value(trace.stations[ring].r, distance_from_axis().form),
+                 trace::interpolate(skin.time, temperatures_of(skin, ring, trace.stations.size()),
+                                    std::min(time.value_or(last), last)));
   }
-  return plot;
-}
-
-/// Highest less lowest temperature of the stations, until ignition.
-Series spread_series(const DrawnCase& drawn, const run::GapResult& gap) {
-  const trace::BottomTrace& trace = trace_of(drawn);
-  const std::size_t samples = samples_before_ignition(gap.skin);
-  Series series{.label = centimetres(gap.gap) + (gap.skin.ignition ? ", until ignition" : ""),
-                .style = Style::line};
-  for (std::size_t sample = 0; sample < samples; ++sample) {
-    double lowest = HUGE_VAL, highest = -HUGE_VAL;
-    for (const std::size_t ring : rings_of(trace)) {
-      const double temperature = gap.skin.temperature[sample * trace.stations.size() + ring];
-      lowest = std::min(lowest, temperature);
-      highest = std::max(highest, temperature);
-    }
-    series.add(shown_value(gap.skin.time[sample], drawn_time().form), highest - lowest);
+  double spread = 0.0;
+  for (const Series& series : plot.series) {
+    const auto [lowest, highest] = std::ranges::minmax(series.y);
+    spread = std::max(spread, highest - lowest);
   }
-  return series;
-}
-
-Plot spread_plot(const DrawnCase& drawn) {
-  Plot plot = time_plot(drawn, "Temperature difference along the bottom",
-                        headed("highest less lowest skin temperature", quantity::skin_temperature()));
-  for (const run::GapResult* gap : gaps_with(has_skin, drawn))
-    plot.series.push_back(spread_series(drawn, *gap));
+  plot.title =
+      fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
+                  time ? "at " + in_words(*time, quantity::time_in_titles()) : "at the end");
   return plot;
 }
 
 // --- air ---
 
-/// The air of a gap at the highest pressure before ignition.
-struct AirState {
-  double compression = 1;  ///< density over that at first
-  double temperature = 0;  ///< K
-  double pressure = 0;     ///< Pa
-};
-
-AirState reached_state(const DrawnCase& drawn, const run::GapResult& gap) {
-  const scene::Surface& surface = drawn.scene.surface;
-  const bool chamber = surface.air_pressure == scene::AirPressure::chamber;
-  const auto& pressure = chamber ? trace_of(drawn).chamber_pressure : trace_of(drawn).bottom_pressure;
-  const auto end = pressure.begin() +
-                   static_cast<std::ptrdiff_t>(std::max<std::size_t>(samples_before_ignition(gap.skin), 1));
-  const auto highest = std::max_element(pressure.begin(), end);
-  const double temperature = gap.skin.air_temperature[static_cast<std::size_t>(highest - pressure.begin())];
-  const double ratio =
-      *highest / surface.air.initial_pressure * surface.air.initial_temperature / temperature;
-  return {std::max(ratio, 1.0), temperature, *highest};
-}
-
 bool has_air(const DrawnCase& drawn, const run::GapResult& gap) {
   return gap.gap > 0.0 && has_skin(drawn, gap) && gap.skin.air_temperature.size() == gap.skin.time.size() &&
-         trace_of(drawn).bottom_pressure.size() == gap.skin.time.size() &&
-         trace_of(drawn).chamber_pressure.size() == gap.skin.time.size();
-}
-
-/// "gap 0.02 cm", "gaps 0.01 to 0.04 cm" or "every gap".
-std::string gaps_text(const std::vector<std::string>& gaps, bool all) {
-  if (gaps.size() == 1) return fmt::format("gap {} cm", gaps.front());
-  return all ? "every gap" : fmt::format("gaps {} to {} cm", gaps.front(), gaps.back());
+         samples_before_ignition(gap.skin) > 0;
 }
 
 bool has_closed(const DrawnCase&, const run::GapResult& gap) {
@@ -163,43 +104,34 @@ bool has_closed(const DrawnCase&, const run::GapResult& gap) {
          gap.skin.air_temperature.size() == gap.closing->time.size();
 }
 
-/// One mark for all gaps whose air reached the same state.
-std::vector<Series> reached_series(const DrawnCase& drawn) {
-  struct Reached {
-    AirState state;
-    std::vector<std::string> gaps;
-  };
-  std::vector<Reached> all;
+/// Air temperatures until ignition, one line for gaps that have the same.
+Plot air_plot(const DrawnCase& drawn) {
+  constexpr double same = 0.05;  // K
+  Plot plot = time_plot(drawn, {}, headed("air temperature", quantity::skin_temperature()));
+  plot.named_in_place = true;
+  double highest = 0.0;
   for (const run::GapResult* gap : gaps_with(has_air, drawn)) {
-    const AirState state = reached_state(drawn, *gap);
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Reached& each) {
-      return std::abs(each.state.temperature - state.temperature) < 0.05 &&
-             std::abs(each.state.pressure - state.pressure) < 1e-3 * state.pressure;
+    Series line = time_series("", gap->skin.time, gap->skin.air_temperature, quantity::skin_temperature());
+    line.label = centimetres(gap->gap);
+    line.x.resize(samples_before_ignition(gap->skin));
+    line.y.resize(line.x.size());
+    highest = std::max(highest, std::ranges::max(line.y));
+    const auto like = std::ranges::find_if(plot.series, [&](const Series& other) {
+      return std::ranges::mismatch(line.y, other.y, [](double a, double b) {
+               return std::abs(a - b) < same;
+             }).in1 == line.y.begin() + static_cast<std::ptrdiff_t>(std::min(line.y.size(), other.y.size()));
     });
-    Reached& reached = same != all.end() ? *same : all.emplace_back(Reached{state, {}});
-    reached.gaps.push_back(digits_of(gap->gap, quantity::gap().form));
+    if (like == plot.series.end())
+      plot.series.push_back(std::move(line));
+    else
+      like->label = "every gap";
   }
-  std::vector<Series> series;
-  for (const Reached& each : all)
-    series.push_back({.label = fmt::format("{}: {} at {}", gaps_text(each.gaps, all.size() == 1),
-                                           in_words(each.state.temperature, keys::fixed(0, kelvin)),
-                                           in_words(each.state.pressure, keys::significant(4, megapascal))),
-                      .x = {each.state.compression},
-                      .y = {each.state.temperature},
-                      .style = Style::points});
-  return series;
-}
-
-Series adiabat(const materials::AirParameters& air, double highest_ratio) {
-  constexpr int points = 200;
-  Series series{.label = fmt::format("adiabat, heat ratio {}", significant(air.heat_ratio, 4)),
-                .style = Style::line,
-                .colour = 7};
-  for (int i = 0; i <= points; ++i) {
-    const double ratio = 1.0 + (highest_ratio - 1.0) * i / points;
-    series.add(ratio, air.initial_temperature * std::pow(ratio, air.heat_ratio - 1.0));
-  }
-  return series;
+  if (plot.series.size() > 1)
+    for (Series& line : plot.series)
+      if (line.label == "every gap") line.label = "others";
+  plot.title = fmt::format("The gap's air reaches {}{}", in_words(highest, keys::fixed(0, kelvin)),
+                           plot.series.size() == 1 ? ", whatever the gap" : "");
+  return plot;
 }
 
 // --- combustion ---
@@ -208,18 +140,26 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
   const run::CombustionHistory& history = *gap.combustion;
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
   const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass());
-  Plot mass = gap_plot(drawn, gap, "Burnt mass", burnt.label());
-  mass.series = {time_series("burnt mass", history.time, history.burnt_mass, burnt)};
-  Plot pressure = gap_plot(drawn, gap, "Pressure while it burns", quantity::pressure().label());
-  pressure.series = {
-      time_series("mean over the charge's bottom", history.time, history.pressure, quantity::pressure())};
-  Plot degree = gap_plot(drawn, gap, "Reaction of the skin", "reaction degree of the skin [1]");
+  const auto until_end =
+      in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond));
+  Plot mass = gap_plot(drawn, gap, "", burnt.label());
+  mass.title = fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
+                           in_words(history.burnt_mass.back(), keys::significant(2, gram)), until_end);
+  mass.series = {time_series("", history.time, history.burnt_mass, burnt)};
+  Plot pressure = gap_plot(drawn, gap, "", quantity::pressure().label());
+  pressure.title =
+      fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
+                  in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal)));
+  pressure.series = {time_series("", history.time, history.pressure, quantity::pressure())};
+  Plot degree =
+      gap_plot(drawn, gap, "The skin burns from station to station", "reaction degree of the skin [1]");
   const std::size_t stations = trace_of(drawn).stations.size();
   const auto value = [&](std::size_t sample, std::size_t station) {
     return history.reaction_degree[sample * stations + station];
   };
   degree.series = station_series(trace_of(drawn), shown_values(history.time, drawn_time()), value,
                                  gap.skin.ignition ? gap.skin.ignition->station : stations);
+  for (Plot* plot : {&mass, &pressure, &degree}) plot->named_in_place = true;
   pictures.push_back(picture_of_gap("combustion_mass", gap, std::move(mass)));
   pictures.push_back(picture_of_gap("combustion_pressure", gap, std::move(pressure)));
   pictures.push_back(picture_of_gap("combustion_reaction", gap, std::move(degree)));
@@ -232,6 +172,17 @@ bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
 }
 
 }  // namespace
+
+bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
+  return gap.skin.time.size() > 1 && !rings_of(trace_of(drawn)).empty() &&
+         gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
+}
+
+std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
+  if (!skin.ignition) return skin.time.size();
+  return static_cast<std::size_t>(std::lower_bound(skin.time.begin(), skin.time.end(), skin.ignition->time) -
+                                  skin.time.begin());
+}
 
 std::string gap_in_name(double gap) {
   const Form form = quantity::gap().form;
@@ -275,6 +226,18 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
 
 namespace {
 
+std::string history_title(const DrawnCase& drawn, const run::GapResult& gap) {
+  const auto& stations = trace_of(drawn).stations;
+  if (const auto& ignition = gap.skin.ignition)
+    return fmt::format("Gap {}: {} ignites at {}", centimetres(gap.gap), stations[ignition->station].name,
+                       in_words(ignition->time, quantity::ignition_time().form));
+  const surface::Maximum& hottest = gap.at_stations;
+  const double margin = drawn.scene.charge().kinetics.ignition_temperature - hottest.temperature;
+  return fmt::format("Gap {}: {} reaches {}, {} K {} ignition", centimetres(gap.gap),
+                     stations[hottest.station].name, in_words(hottest.temperature, keys::fixed(1, kelvin)),
+                     fixed(std::abs(margin), 1), margin < 0 ? "above" : "below");
+}
+
 std::string lacks_skins(const DrawnCase& drawn) {
   return gaps_with(has_skin, drawn).empty() ? "it holds no skin temperatures of any gap" : "";
 }
@@ -284,13 +247,30 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   const std::size_t stations = trace_of(drawn).stations.size();
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
-    Plot plot = gap_plot(drawn, *gap, "Skin temperatures", quantity::skin_temperature().label());
-    plot.series = station_series(
-        trace_of(drawn), shown_values(skin.time, drawn_time()),
+    // What burns is far hotter than all before: it would set the axis.
+    std::vector<double> times = shown_values(skin.time, drawn_time());
+    times.resize(samples_before_ignition(skin));
+    Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature().label());
+    for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
+    skins.series = station_series(
+        trace_of(drawn), times,
         [&](std::size_t sample, std::size_t station) {
           return skin.temperature[sample * stations + station];
         },
         gap->at_stations.station);
+    const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
+    skins.horizontal_lines = {{ignition, "ignites at " + in_words(ignition, keys::significant(4, kelvin))}};
+    Plot plot = titled_plot(drawn, history_title(drawn, *gap));
+    plot.panels = {std::move(skins), load_plot(drawn)};
+    for (Plot& panel : plot.panels) {
+      panel.title.clear();
+      panel.subtitle.clear();
+      panel.named_in_place = true;
+      panel.x.minimum = shown_value(skin.time.front(), drawn_time().form);
+      panel.x.maximum = shown_value(skin.time.back(), drawn_time().form);
+    }
+    plot.panels[1].height = 300;
+    plot.columns = 1;
     pictures.push_back(picture_of_gap("histories", *gap, std::move(plot)));
   }
   return pictures;
@@ -318,10 +298,11 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
 }
 
 std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
+  if (drawn.times.empty()) return {{"profile.svg", profile_plot(drawn, {})}};
   std::vector<CasePicture> pictures;
-  for (const run::GapResult* gap : gaps_with(has_skin, drawn))
-    pictures.push_back(picture_of_gap("profile", *gap, profile_plot(drawn, *gap)));
-  pictures.push_back({"profile_spread.svg", spread_plot(drawn)});
+  for (const double time : drawn.times)
+    pictures.push_back({fmt::format("profile_{}ms.svg", digits_of(time, keys::significant(6, millisecond))),
+                        profile_plot(drawn, time)});
   return pictures;
 }
 
@@ -358,20 +339,8 @@ std::string lacks_air(const DrawnCase& drawn) {
 }
 
 std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
-  const scene::Surface& surface = drawn.scene.surface;
-  if (surface.model == scene::GapModel::closing) return closing_pictures(drawn);
-  const std::vector<Series> reached = reached_series(drawn);
-  double highest = 1.0;
-  for (const Series& series : reached) highest = std::max(highest, series.x.front());
-  // The reservoir's state follows from the pressure alone: one mark stands for every gap.
-  Plot plot = titled_plot(drawn, surface.air_model == scene::AirModel::reservoir
-                                     ? "Air at the highest pressure, on its adiabat whatever the gap"
-                                     : "Air at the highest pressure");
-  plot.x.label = "compression, density over initial density [1]";
-  plot.y.label = headed("air temperature", quantity::skin_temperature()).label();
-  plot.series = {adiabat(surface.air, 1.05 * highest)};
-  plot.series.insert(plot.series.end(), reached.begin(), reached.end());
-  return {{"air.svg", std::move(plot)}};
+  if (drawn.scene.surface.model == scene::GapModel::closing) return closing_pictures(drawn);
+  return {{"air.svg", air_plot(drawn)}};
 }
 
 std::string lacks_combustion(const DrawnCase& drawn) {
@@ -390,11 +359,9 @@ std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn) {
 const PictureKind histories_kind{"histories", "skin temperature of the stations against time, for each gap",
                                  lacks_skins, history_pictures, history_tables};
 const PictureKind profile_kind{"profile",
-                               "skin temperature along the bottom at several times, and its spread over time",
+                               "skin temperature along the bottom, of all gaps, at the end or at given times",
                                lacks_skins, profile_pictures};
-const PictureKind air_kind{"air",
-                           "air temperature against compression, with the states reached; opening, pressure "
-                           "and temperature against time where a gap closes",
+const PictureKind air_kind{"air", "air temperature against time; opening and pressure too where a gap closes",
                            lacks_air, air_pictures};
 const PictureKind combustion_kind{"combustion", "burnt mass, pressure and reaction degree after ignition",
                                   lacks_combustion, combustion_pictures};

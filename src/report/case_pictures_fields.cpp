@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace launchsafe::report::detail {
 namespace {
@@ -21,6 +23,8 @@ using Field = run::SnapshotField;
 bool is_charge(const DrawnCase& drawn, int body) {
   return scene::is_charge(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(body)]);
 }
+
+bool is_temperature(const Field& field) { return field.values == &run::Snapshot::temperature; }
 
 /// Six digits of a field, in the unit in which people read it.
 keys::Form form_of(const Field& field) { return keys::significant(6, field.shown); }
@@ -49,22 +53,31 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
+/// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others.
+std::pair<double, double> common_range(std::vector<double> values) {
+  if (values.empty()) return {0.0, 0.0};
+  std::ranges::sort(values);
+  const std::size_t cut = values.size() / 100;
+  const double low = values[cut], high = values[values.size() - 1 - cut];
+  return low < high ? std::pair(low, high) : std::pair(values.front(), values.back());
+}
+
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
 /// either compare: what burns may press harder by far than any launch.
 ColourScale scale_of(const DrawnCase& drawn, const Field& field, const ScaleGroup& group, bool burning) {
   ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.meaning,
-                                field.shown.name.empty() ? "1" : field.shown.name),
-                    HUGE_VAL, -HUGE_VAL};
+                                field.shown.name.empty() ? "1" : field.shown.name)};
+  std::vector<double> values;
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
     if (each.gap.has_value() != burning) continue;
     const run::Snapshot& shot = *each.snapshot;
     for (std::size_t i = 0; i < shot.x.size(); ++i) {
       const double value = value_of(drawn, field, shot, i);
       if (!std::isfinite(value) || is_charge(drawn, shot.body[i]) != group.charges) continue;
-      scale.minimum = std::min(scale.minimum, value);
-      scale.maximum = std::max(scale.maximum, value);
+      values.push_back(value);
     }
   }
+  std::tie(scale.minimum, scale.maximum) = common_range(std::move(values));
   return scale;
 }
 
@@ -185,6 +198,62 @@ std::string name_of(const ShownSnapshot& shown) {
   return name;
 }
 
+/// The largest gap whose skin is known at a time and does not burn yet.
+const run::GapResult* shown_skin(const DrawnCase& drawn, double time) {
+  const run::GapResult* largest = nullptr;
+  for (const run::GapResult& gap : drawn.result.gaps)
+    if (has_skin(drawn, gap) && !(gap.skin.ignition && gap.skin.ignition->time <= time) &&
+        (largest == nullptr || gap.gap > largest->gap))
+      largest = &gap;
+  return largest;
+}
+
+/// Adds the skin under a gap, drawn deeper than it is, in colours from the coldest cell to the hottest
+/// station: the bulk hardly warms.
+void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapResult& gap, CellPlot& plot) {
+  constexpr double share_of_radius = 0.06;
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  const double width = drawn.scene.surface.station_width, thickness = drawn.scene.surface.skin_thickness;
+  double bottom = -HUGE_VAL, radius = 0;
+  ColourScale scale{"temperature [K]", HUGE_VAL, -HUGE_VAL};
+  for (std::size_t i = 0; i < shot.x.size(); ++i) {
+    if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, shot.x[i] + shot.half_length_x[i]);
+    radius = std::max(radius, shot.r[i]);
+    plot.cells[i].scale = 0;
+    scale.minimum = std::min(scale.minimum, plot.cells[i].value);
+    scale.maximum = std::max(scale.maximum, plot.cells[i].value);
+  }
+  const double bulk = scale.maximum, half_depth = 0.5 * share_of_radius * radius;
+  for (const std::size_t ring : rings_of(trace)) {
+    const double temperature = surface::temperature_at_time(gap.skin, trace, ring, shot.time);
+    plot.cells.push_back({millimetres * (bottom - half_depth), millimetres * trace.stations[ring].r,
+                          millimetres * half_depth, millimetres * 0.5 * width, temperature});
+    scale.maximum = std::max(scale.maximum, temperature);
+  }
+  plot.scales = {scale};
+  plot.title =
+      fmt::format("Gap {} at {}: the skin has up to {}, all behind it at most {}", centimetres(gap.gap),
+                  in_words(shot.time, quantity::time_in_titles()),
+                  in_words(scale.maximum, keys::fixed(0, kelvin)), in_words(bulk, keys::fixed(0, kelvin)));
+  plot.subtitle += fmt::format("; the skin, {} deep, is drawn {} times as deep",
+                               in_words(thickness, keys::significant(2, millimetre)),
+                               significant(2.0 * half_depth / thickness, 2));
+}
+
+/// How it is with most of the charge, or of the bodies that have the field.
+std::string range_in(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
+  const ScaleGroup group = scale_groups(drawn, field).front();
+  std::vector<double> values;
+  for (std::size_t i = 0; i < shot.x.size(); ++i) {
+    const double value = value_of(drawn, field, shot, i);
+    if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
+  }
+  const auto [low, high] = common_range(std::move(values));
+  const auto number = [](double value) { return significant(value, std::abs(value) < 100.0 ? 2 : 4); };
+  return fmt::format("{} to {}{} in 98 % of the {}", number(low), number(high),
+                     field.shown.name.empty() ? "" : " " + std::string(field.shown.name), group.name);
+}
+
 CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
                     const std::vector<ColourScale>& scales) {
   const run::Snapshot& shot = *shown.snapshot;
@@ -194,6 +263,7 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
   if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
+  plot.title += ": " + range_in(drawn, field, shot);
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
   plot.cells = cells_of(drawn, field, shot);
@@ -202,8 +272,18 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   const bool grey = std::any_of(plot.cells.begin(), plot.cells.end(),
                                 [](const FieldCell& cell) { return std::isnan(cell.value); });
   const auto groups = scale_groups(drawn, field);
+  const run::GapResult* skin = is_temperature(field) && !shown.gap ? shown_skin(drawn, shot.time) : nullptr;
+  if (skin != nullptr) add_skin(drawn, shot, *skin, plot);
   if (grey) plot.without_value = groups.size() == 1 && groups[0].charges ? "not a charge" : "without it";
   return plot;
+}
+
+/// Whether it is one that a picture tells something of: all colours of what varies by less mean the same.
+bool varies(const std::vector<ColourScale>& scales) {
+  constexpr double least = 0.01;
+  return std::ranges::any_of(scales, [](const ColourScale& scale) {
+    return scale.maximum - scale.minimum > least * std::max(std::abs(scale.minimum), std::abs(scale.maximum));
+  });
 }
 
 /// The snapshots that were asked for, all without times.
@@ -260,7 +340,8 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
       if (!field.drawn || !is_recorded(drawn, field, burning)) continue;
       const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
       for (const ShownSnapshot& each : chosen_snapshots(drawn))
-        if (each.gap.has_value() == burning)
+        if (each.gap.has_value() == burning &&
+            (varies(scales) || (is_temperature(field) && !burning && shown_skin(drawn, each.snapshot->time))))
           pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
                               field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }
@@ -307,8 +388,10 @@ std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
 
 }  // namespace
 
-const PictureKind fields_kind{
-    "fields", "temperature, pressure, von Mises stress, crack radius and burnt share at every snapshot",
-    lacks_fields, field_pictures, field_tables};
+const PictureKind fields_kind{"fields",
+                              "pressure, von Mises stress, crack radius, burnt share and temperature with "
+                              "the skin's at every snapshot, "
+                              "where they vary by 1 % at least",
+                              lacks_fields, field_pictures, field_tables};
 
 }  // namespace launchsafe::report::detail

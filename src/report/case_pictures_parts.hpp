@@ -22,6 +22,8 @@ Plot titled_plot(const DrawnCase& drawn, std::string title);
 /// Likewise, of a quantity against time.
 Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity);
 Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity);
+/// Pressures of chamber and charge's bottom against time.
+Plot load_plot(const DrawnCase& drawn);
 /// Values of a quantity against times, all in SI.
 Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
                    const Column& quantity);
@@ -36,6 +38,10 @@ Column drawn_time();
 std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
                                    const std::function<double(std::size_t, std::size_t)>& value,
                                    std::size_t marked);
+/// Whether the skin of a gap was computed at all of them.
+bool has_skin(const DrawnCase& drawn, const run::GapResult& gap);
+/// Samples before the ignition, all without one.
+std::size_t samples_before_ignition(const surface::SkinHistory& skin);
 /// Indices of these stations, from the axis to the wall.
 std::vector<std::size_t> rings_of(const trace::BottomTrace& trace);
 

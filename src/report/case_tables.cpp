@@ -65,7 +65,7 @@ double largest_degree(const BurningRow& row) {
 
 std::string kilojoules_per_area(double energy) { return in_words(energy, quantity::skin_took().form); }
 
-/// "a gap of 0.04 cm (496 MPa, 30 um, 1 mm)".
+/// "a gap of 0.04 cm (496 MPa, 30 µm, 1 mm)".
 std::string place_of_gap(const AuditedGap& gap) {
   const std::string place = "a gap of " + centimetres(gap.gap);
   return gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label);

@@ -64,6 +64,13 @@ CellPanel enlarged_section(const CellPlot& plot, const CellPanel& whole) {
 
 // --- data ---
 
+/// Whether the last colour would mislead.
+bool is_beyond(const CellPlot& plot, const FieldCell& cell) {
+  const ColourScale& scale = plot.scales[cell.scale];
+  const double slack = 0.1 * (scale.maximum - scale.minimum);
+  return cell.value < scale.minimum - slack || cell.value > scale.maximum + slack;
+}
+
 /// Bounds of a cell in a panel and its value; empty where it lies outside.
 std::string cell_line(const FieldCell& cell, double side, const CellPanel& panel) {
   const double left = std::max(cell.x - cell.half_x, panel.x_begin),
@@ -174,6 +181,13 @@ std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const
     data += data_block(name + "_grey", grey);
     parts.push_back(fmt::format("${}_grey using 1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", name, filled_boxes));
   }
+  const std::string beyond =
+      cell_lines(plot, panel, [&plot](const FieldCell& cell) { return is_beyond(plot, cell); });
+  if (!beyond.empty()) {
+    data += data_block(name + "_beyond", beyond);
+    parts.push_back(fmt::format(
+        "${}_beyond using 1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle", name));
+  }
   for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
     const std::string outline = fmt::format("{}_outline{}", name, i);
     data += data_block(outline, outline_lines(plot.outlines[i], panel.r_begin < 0.0));
@@ -193,13 +207,14 @@ std::string axis_line(const CellPanel& panel) {
 }
 
 std::string page_text(const CellPlot& plot) {
-  const std::string small = plot.without_value.empty()
-                                ? plot.subtitle
-                                : fmt::format("{}; grey: {}", plot.subtitle, plot.without_value);
+  std::string small = plot.subtitle;
+  if (!plot.without_value.empty()) small += "; grey: " + plot.without_value;
+  if (std::ranges::any_of(plot.cells, [&](const FieldCell& cell) { return is_beyond(plot, cell); }))
+    small += "; crosses: beyond the colours";
   return fmt::format(
       "set label 1 {} at screen {}, graph 1 offset 0, character 3.2 font ',17'\n"
       "set label 2 {} at screen {}, graph 1 offset 0, character 1.4 font ',13' textcolor rgb '#444444'\n",
-      quoted(plot.title), exact(page_left / cell_page_width), quoted(small),
+      quoted(plot.title), exact(page_left / cell_page_width), report::quoted(small),
       exact(page_left / cell_page_width));
 }
 

@@ -91,9 +91,7 @@ std::size_t display_width(std::string_view text) {
 
 int decimals_for(double uncertainty) {
   if (!(uncertainty > 0.0) || !std::isfinite(uncertainty)) return 0;
-  const int place = leading_place(uncertainty);
-  const bool begins_with_one = uncertainty < 2.0 * std::pow(10.0, place) * (1.0 - round_off);
-  return std::max(0, (begins_with_one ? 1 : 0) - place);
+  return std::max(0, 1 - leading_place(uncertainty));
 }
 
 double rounded_down(double value, int decimals) { return cut(value, decimals, -1.0); }
@@ -109,11 +107,7 @@ std::string Measured::text(const std::string& unit) const {
 
 Measured measured(double value, double minus, double plus) {
   Measured shown;
-  const double uncertainty = std::max(minus, plus);
-  shown.decimals = decimals_for(uncertainty);
-  const int place = leading_place(uncertainty);
-  if (value != 0 && place >= leading_place(std::abs(value)))
-    shown.decimals = std::max(shown.decimals, 1 - place);
+  shown.decimals = decimals_for(std::max(minus, plus));
   shown.value = rounded_down(value, shown.decimals);
   shown.minus = rounded_up(minus, shown.decimals);
   // The value went down, and its upper end must not.

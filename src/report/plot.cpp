@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 namespace launchsafe::report {
@@ -15,12 +16,23 @@ namespace {
 // --- series ---
 
 bool has_bars(const Series& series) {
-  return series.style == Style::vertical_bars || series.style == Style::horizontal_bars;
+  return series.style == Style::vertical_bars || series.style == Style::horizontal_bars ||
+         series.style == Style::filled_bars;
+}
+
+bool is_line(const Series& series) {
+  return series.style == Style::line || series.style == Style::dashed_line ||
+         series.style == Style::line_and_points;
+}
+
+/// Whether it is named where it is, not in the legend.
+bool named_at_end(const Plot& plot, const Series& series) {
+  return plot.named_in_place && is_line(series) && !series.label.empty();
 }
 
 /// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place.
 std::string series_data(const Plot& plot, const Series& series) {
-  const bool along_x = series.style == Style::horizontal_bars;
+  const bool along_x = series.style != Style::vertical_bars;
   const Scale bar_scale = along_x ? plot.x.scale : plot.y.scale;
   std::string lines;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -47,13 +59,21 @@ std::string points_of(Mark mark) {
   return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
 }
 
-std::string style_of(const Series& series, std::size_t index) {
+std::size_t look_of(const Series& series, std::size_t index) {
+  return series.colour ? static_cast<std::size_t>(*series.colour) : index;
+}
+
+std::string_view colour_of(const Series& series, std::size_t index) {
   // Okabe and Ito's colours, told apart by the colour-blind too; grey for the yellow that white paper
   // swallows.
   constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                     "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
-  const std::size_t look = series.colour ? static_cast<std::size_t>(*series.colour) : index;
-  const std::string colour = fmt::format("linecolor rgb '{}'", palette[look % palette.size()]);
+  return palette[look_of(series, index) % palette.size()];
+}
+
+std::string style_of(const Series& series, std::size_t index) {
+  const std::size_t look = look_of(series, index);
+  const std::string colour = fmt::format("linecolor rgb '{}'", colour_of(series, index));
   const std::string points = points_of(series.mark.value_or(static_cast<Mark>(look % 8)));
   switch (series.style) {
     case Style::line:
@@ -66,6 +86,8 @@ std::string style_of(const Series& series, std::size_t index) {
       return fmt::format("with yerrorbars linewidth 1.5 {} {}", points, colour);
     case Style::horizontal_bars:
       return fmt::format("with xerrorbars linewidth 1.5 {} {}", points, colour);
+    case Style::filled_bars:
+      return "with boxxyerror fillstyle solid 0.8 noborder " + colour;
     case Style::steps:
       return "with steps linewidth 2 " + colour;
     case Style::line_and_points:
@@ -80,9 +102,13 @@ void add_series(const Plot& plot, Commands& commands) {
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
     if (series.x.empty()) continue;
+    constexpr std::string_view box = "1:2:3:4:($2-0.3):($2+0.3)";
+    const std::string_view columns = series.style == Style::filled_bars ? box
+                                     : has_bars(series)                 ? "1:2:3:4"
+                                                                        : "1:2";
     commands.add(fmt::format("series{}", i), series_data(plot, series),
-                 fmt::format("{} {} {}", has_bars(series) ? "1:2:3:4" : "1:2", style_of(series, i),
-                             title_of(series.label)));
+                 fmt::format("{} {} {}", columns, style_of(series, i),
+                             title_of(named_at_end(plot, series) ? "" : series.label)));
   }
 }
 
@@ -94,6 +120,13 @@ void add_bands(const Plot& plot, Commands& commands) {
                  fmt::format("1:2 axes x1y2 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
                              title_of(band.label)));
   }
+  for (std::size_t i = 0; i < plot.horizontal_bands.size(); ++i) {
+    const Band& band = plot.horizontal_bands[i];
+    const std::string from = coordinate(band.from, plot.y.scale), to = coordinate(band.to, plot.y.scale);
+    commands.add(fmt::format("level{}", i), fmt::format("0 {0}\n0 {1}\n1 {1}\n1 {0}\n", from, to),
+                 fmt::format("1:2 axes x2y1 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
+                             title_of(band.label)));
+  }
 }
 
 /// Lines from edge to edge: along the second axes, which go from 0 to 1.
@@ -103,49 +136,189 @@ void add_lines(const Plot& plot, Commands& commands) {
     const Line& line = plot.vertical_lines[i];
     const std::string at = coordinate(line.at, plot.x.scale);
     commands.add(fmt::format("vertical{}", i), fmt::format("{0} 0\n{0} 1\n", at),
-                 fmt::format("1:2 axes x1y2 {} dashtype 2 {}", style, title_of(line.label)));
+                 fmt::format("1:2 axes x1y2 {} dashtype 2 {}", style,
+                             title_of(plot.named_in_place ? "" : line.label)));
   }
   for (std::size_t i = 0; i < plot.horizontal_lines.size(); ++i) {
     const Line& line = plot.horizontal_lines[i];
     const std::string at = coordinate(line.at, plot.y.scale);
     commands.add(fmt::format("horizontal{}", i), fmt::format("0 {0}\n1 {0}\n", at),
-                 fmt::format("1:2 axes x2y1 {} dashtype 4 {}", style, title_of(line.label)));
+                 fmt::format("1:2 axes x2y1 {} dashtype 4 {}", style,
+                             title_of(plot.named_in_place ? "" : line.label)));
   }
 }
 
-/// Where the legend covers nothing: below the label of the x axis, or to the right where its entries are so
-/// long that two columns have no room below.
-std::string legend_command(const Plot& plot) {
-  constexpr double letter = 8.4, sample = 60;  // pixels, as gnuplot reckons
-  std::size_t longest = 0;
-  const auto add = [&](const std::string& label) { longest = std::max(longest, display_width(label)); };
-  for (const Series& series : plot.series) add(series.label);
+// --- names ---
+
+constexpr double letter = 8.4;  // pixels, as gnuplot reckons
+
+/// Entries of the legend in so many columns that the longest has room, below the label of the x axis.
+struct Legend {
+  std::size_t columns = 1, rows = 0;
+};
+
+Legend legend_of(const Plot& plot) {
+  constexpr double sample = 60;  // pixels
+  std::size_t longest = 0, entries = 0;
+  const auto add = [&](const std::string& label) {
+    if (label.empty()) return;
+    longest = std::max(longest, display_width(label));
+    ++entries;
+  };
+  for (const Series& series : plot.series)
+    if (!named_at_end(plot, series) && !series.x.empty()) add(series.label);
   for (const Band& band : plot.vertical_bands) add(band.label);
-  for (const Line& line : plot.vertical_lines) add(line.label);
-  for (const Line& line : plot.horizontal_lines) add(line.label);
-  const bool two_columns = 2.0 * (sample + letter * static_cast<double>(longest)) < 0.85 * plot.width;
-  return fmt::format("set key outside {} Left reverse samplen 2 spacing 1.25\n",
-                     two_columns ? "bottom center horizontal height 1.5" : "right top vertical");
+  for (const Band& band : plot.horizontal_bands) add(band.label);
+  if (!plot.named_in_place) {
+    for (const Line& line : plot.vertical_lines) add(line.label);
+    for (const Line& line : plot.horizontal_lines) add(line.label);
+  }
+  const double room = 0.95 * plot.width / (sample + letter * static_cast<double>(longest));
+  const auto columns =
+      std::clamp<std::size_t>(static_cast<std::size_t>(room), 1, std::max<std::size_t>(entries, 1));
+  return {columns, (entries + columns - 1) / columns};
 }
 
-std::string subtitle_command(const Plot& plot) {
+std::string legend_command(const Plot& plot) {
+  return fmt::format(
+      "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing 1.25\n",
+      legend_of(plot).columns);
+}
+
+/// Pixels of a plot with its legend.
+int whole_height(const Plot& plot) {
+  constexpr int row = 20;
+  return plot.height + row * std::max(0, static_cast<int>(legend_of(plot).rows) - 1);
+}
+
+/// Where a value stands between the lowest and the highest of an axis that its data make.
+class Places {
+ public:
+  explicit Places(const PlotAxis& axis) : axis_(axis) {}
+  void add(double value) {
+    if (!drawable(value, axis_.scale)) return;
+    low_ = std::min(low_, value);
+    high_ = std::max(high_, value);
+  }
+  double of(double value) const { return (scaled(value) - low()) / span(); }
+  double at(double place) const {
+    const double value = low() + place * span();
+    return axis_.scale == Scale::linear ? value : std::pow(10.0, value);
+  }
+
+ private:
+  double scaled(double value) const { return axis_.scale == Scale::linear ? value : std::log10(value); }
+  double low() const { return scaled(axis_.minimum.value_or(low_)); }
+  double span() const {
+    const double span = scaled(axis_.maximum.value_or(high_)) - low();
+    return span > 0 ? span : 1.0;
+  }
+
+  const PlotAxis& axis_;
+  double low_ = HUGE_VAL, high_ = -HUGE_VAL;
+};
+
+Places places_along(const Plot& plot, const PlotAxis& axis, std::vector<double> Series::*values,
+                    const std::vector<Line>& lines) {
+  Places places(axis);
+  for (const Series& series : plot.series)
+    for (const double value : series.*values) places.add(value);
+  for (const Line& line : lines) places.add(line.at);
+  return places;
+}
+
+/// What a line is called, where it ends.
+struct EndName {
+  std::string text;
+  std::string_view colour;
+  double x = 0, place = 0;  ///< place: along y, 0 to 1
+};
+
+/// From the lowest to the highest, no two on each other.
+std::vector<EndName> names_at_ends(const Plot& plot, const Places& along_y) {
+  std::vector<EndName> names;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const Series& series = plot.series[i];
+    if (!named_at_end(plot, series)) continue;
+    for (std::size_t k = series.x.size(); k-- > 0;)
+      if (drawable(series.x[k], plot.x.scale) && drawable(series.y[k], plot.y.scale)) {
+        names.push_back({series.label, colour_of(series, i), series.x[k], along_y.of(series.y[k])});
+        break;
+      }
+  }
+  std::ranges::stable_sort(names, {}, &EndName::place);
+  const double apart = 18.0 / (plot.height - 150.0);
+  // Pushed up from below, then down from above.
+  for (std::size_t i = 1; i < names.size(); ++i)
+    names[i].place = std::max(names[i].place, names[i - 1].place + apart);
+  double highest = 1.05;
+  for (std::size_t i = names.size(); i-- > 0; highest = names[i].place - apart)
+    names[i].place = std::min(names[i].place, highest);
+  return names;
+}
+
+/// Characters beside the plot, where lines are named at their ends.
+std::size_t right_margin(std::size_t longest_name) { return 3 + 17 * longest_name / 20; }
+
+/// By how many letters the names at the ends of lines are longer than the plot goes on behind them.
+std::size_t longest_end_name(const Plot& plot) {
+  const Places along_x = places_along(plot, plot.x, &Series::x, plot.vertical_lines),
+               along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
+  const double letters = (plot.width - 200.0) / letter;
+  double longest = 0;
+  for (const EndName& name : names_at_ends(plot, along_y))
+    longest = std::max(longest,
+                       static_cast<double>(display_width(name.text)) - (1.0 - along_x.of(name.x)) * letters);
+  return static_cast<std::size_t>(longest);
+}
+
+/// `width`: letters of the names at the right.
+std::string names_in_place(const Plot& plot, std::size_t width) {
+  if (!plot.named_in_place) return {};
+  const Places along_x = places_along(plot, plot.x, &Series::x, plot.vertical_lines),
+               along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
+  std::string text;
+  for (const EndName& name : names_at_ends(plot, along_y))
+    text += fmt::format("set label {} at first {}, first {} left offset 1, 0 front textcolor rgb '{}'\n",
+                        quoted(name.text), exact(name.x), exact(along_y.at(name.place)), name.colour);
+  for (const Line& line : plot.horizontal_lines)
+    text +=
+        fmt::format("set label {} at graph 0.01, first {} left offset 0, 0.6 front textcolor rgb '#444444'\n",
+                    quoted(line.label), exact(line.at));
+  for (const Line& line : plot.vertical_lines)
+    text += fmt::format("set label {} at first {}, graph 0.97 {} front textcolor rgb '#444444'\n",
+                        quoted(line.label), exact(line.at),
+                        along_x.of(line.at) < 0.5 ? "left offset 0.8, 0" : "right offset -0.8, 0");
+  return text + fmt::format("set rmargin {}\n", right_margin(width));
+}
+
+std::string subtitle_command(const Plot& plot, double aside) {
   if (plot.subtitle.empty()) return {};
   return fmt::format(
-      "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset 0, 0.9 font ',12' textcolor rgb "
+      "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',12' textcolor "
+      "rgb "
       "'#444444'\n",
-      quoted(plot.subtitle));
+      quoted(plot.subtitle), aside);
 }
 
-std::string frame_commands(const Plot& plot) {
+/// `width`: letters of the names at the right.
+std::string frame_commands(const Plot& plot, std::size_t width) {
+  // So large that it is on the page, in whose middle it stands.
+  const double size =
+      std::clamp(1.7 * plot.width / static_cast<double>(display_width(plot.title) + 1), 9.0, 16.0);
+  std::size_t longest_tic = 0;
+  for (const Tic& tic : plot.y.tics) longest_tic = std::max(longest_tic, display_width(tic.label));
+  const double left = std::max<double>(10.0, 4.0 + 0.85 * static_cast<double>(longest_tic));
+  const double aside = 0.5 * (static_cast<double>(right_margin(width)) - left);
   return fmt::format(
              "set border 3 linewidth 1 linecolor rgb '#444444'\n"
              "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
              "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
              "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
              "set x2range [0:1]\nset y2range [0:1]\n"
-             "set title {} font ',16'{}\n",
-             quoted(plot.title), plot.subtitle.empty() ? "" : " offset 0, 0.4") +
-         subtitle_command(plot) + legend_command(plot);
+             "set title {} font ',{:.0f}' offset {:.1f}, {}\n",
+             quoted(plot.title), size, aside, plot.subtitle.empty() ? 0.0 : 0.4) +
+         subtitle_command(plot, aside) + legend_command(plot);
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -183,29 +356,52 @@ std::string unfit(const Plot& plot) {
   return has_points ? "" : "it has no points";
 }
 
-std::string drawing_commands(const Plot& plot) {
-  std::string text = frame_commands(plot);
+/// `width`: letters beside the plot, for names at the ends of lines.
+std::string drawing_commands(const Plot& plot, std::size_t width) {
+  std::string text = frame_commands(plot, width);
   Commands commands;
   text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
   add_bands(plot, commands);
   add_series(plot, commands);
   add_lines(plot, commands);
+  text += names_in_place(plot, width);
   return text + commands.settings + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
 }
 
-/// Two panels a row, each in a place as large as the largest of them.
+/// Row by row, each in a place as wide as the widest of them and as high as the highest of its row.
 std::string panel_commands(const Plot& plot) {
-  constexpr int columns = 2, title_height = 40;
-  const int rows = (static_cast<int>(plot.panels.size()) + columns - 1) / columns;
-  int width = 0, height = 0;
-  for (const Plot& panel : plot.panels) {
-    width = std::max(width, panel.width);
-    height = std::max(height, panel.height);
+  const int title_height = plot.subtitle.empty() ? 40 : 64;
+  const auto columns = static_cast<std::size_t>(plot.columns);
+  int width = 0, height = title_height;
+  std::vector<int> row_heights;
+  std::size_t longest_name = 0;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    if (i % columns == 0) row_heights.push_back(0);
+    width = std::max(width, plot.panels[i].width);
+    longest_name = std::max(longest_name, longest_end_name(plot.panels[i]));
+    row_heights.back() = std::max(row_heights.back(), whole_height(plot.panels[i]));
   }
-  std::string text =
-      page_commands(columns * width, rows * height + title_height) +
-      fmt::format("set multiplot layout {},{} title {} font ',18'\n", rows, columns, quoted(plot.title));
-  for (const Plot& panel : plot.panels) text += "reset\n" + drawing_commands(panel);
+  for (const int each : row_heights) height += each;
+  const double page_width = plot.columns * width, page_height = height;
+  std::string text = page_commands(page_width, page_height) + "set multiplot\n" +
+                     fmt::format("set label 1 {} at screen 0.5, screen {} center font ',18'\n",
+                                 quoted(plot.title), exact(1 - 24 / page_height)) +
+                     fmt::format(
+                         "set label 2 {} at screen 0.5, screen {} center font ',13' textcolor rgb "
+                         "'#444444'\n",
+                         quoted(plot.subtitle), exact(1 - 50 / page_height)) +
+                     "unset border\nunset tics\nunset key\nplot [0:1] [0:1] NaN notitle\n";
+  int top = title_height;
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    const int row_height = row_heights[i / columns];
+    text += fmt::format(
+        "reset\n{}set size {}, {}\nset origin {}, {}\n", plot.columns == 1 ? "set lmargin 10\n" : "",
+        exact(1.0 / plot.columns), exact(row_height / page_height),
+        exact(static_cast<double>(i % columns) / plot.columns), exact(1 - (top + row_height) / page_height));
+    text +=
+        drawing_commands(plot.panels[i], plot.columns == 1 ? longest_name : longest_end_name(plot.panels[i]));
+    if (i % columns + 1 == columns) top += row_height;
+  }
   return text + "unset multiplot\n";
 }
 
@@ -213,7 +409,7 @@ std::string panel_commands(const Plot& plot) {
 
 std::string to_gnuplot(const Plot& plot) {
   if (!plot.panels.empty()) return panel_commands(plot);
-  return page_commands(plot.width, plot.height) + drawing_commands(plot);
+  return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot, longest_end_name(plot));
 }
 
 store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {

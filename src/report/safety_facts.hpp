@@ -10,7 +10,7 @@ struct CaseEvidence {
   const StudyEvidence* study;
   const Row* critical;  ///< its row of the table of cases
   const Row* run;       ///< its row of the table of runs; that of the case where the study has none
-  std::string label;    ///< "496 MPa, 30 um, 1 mm"; of a sweep its place on the axes
+  std::string label;    ///< "496 MPa, 30 µm, 1 mm"; of a sweep its place on the axes
   std::vector<const Row*> verdicts;
   std::map<std::string, double> values;  ///< SI, by scene key: in what its launch may differ
 

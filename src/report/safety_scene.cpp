@@ -145,9 +145,7 @@ Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFa
       continue;
     }
     for (CasePicture& each : kind.pictures(drawn)) {
-      if (each.file == "profile_spread.svg" ||
-          (word == "fields" && !each.file.starts_with("field_temperature")))
-        continue;
+      if (word == "fields" && !each.file.starts_with("field_temperature")) continue;
       // The last snapshot shows what the launch has done.
       if (word == "fields") facts[word] = Row::array();
       facts[word].push_back({{"file", each.file},

@@ -175,6 +175,37 @@ std::string body_elements(const Section& section, const Panel& panel, bool fille
   return text;
 }
 
+constexpr std::string_view gap_look = "class=\"gap\" stroke=\"#d55e00\" stroke-width=\"4\"";
+constexpr std::string_view load_look = "class=\"load\" stroke=\"#0072b2\" stroke-width=\"2\"";
+
+/// The gap, which has no thickness in the grid: along the charge's bottom.
+std::string gap_elements(const Section& section, const Panel& panel) {
+  std::string text;
+  for (const DrawnBody& each : section.bodies)
+    if (const scene::Body& body = *each.body;
+        scene::is_charge(section.scene, body) && !section.scene.surface.gaps.empty())
+      text += svg_line(panel.x(body.x_end), panel.y(body.r_begin), panel.x(body.x_end), panel.y(body.r_end),
+                       gap_look);
+  return text;
+}
+
+std::string arrow(double tip, double y) {
+  constexpr double length = 30, head = 5;
+  return svg_line(tip, y, tip + length, y, load_look) + svg_line(tip, y, tip + head, y - head, load_look) +
+         svg_line(tip, y, tip + head, y + head, load_look);
+}
+
+/// The chamber's pressure, on the base from behind.
+std::string load_elements(const Section& section, const Panel& panel) {
+  constexpr int arrows = 4;
+  const scene::Extent bodies = scene::extent_of(section.scene);
+  std::string text;
+  if (!panel.shows(bodies.x_end)) return text;
+  for (int i = 0; i < arrows; ++i)
+    text += arrow(panel.x(bodies.x_end) + 6, panel.y((i + 0.5) / arrows * bodies.r_end));
+  return text;
+}
+
 /// On white, so that the edges of bodies do not fill its gaps.
 std::string symmetry_elements(const Panel& panel) {
   constexpr double overhang = 16;
@@ -280,7 +311,8 @@ std::string panel_elements(const Section& section, const Panel& panel) {
   return fmt::format("<clipPath id=\"{0}\">{1}</clipPath>\n<g clip-path=\"url(#{0})\">\n{2}{3}{4}</g>\n",
                      panel.id, window, body_elements(section, panel, true), grid_elements(section, panel),
                      body_elements(section, panel, false)) +
-         symmetry_elements(panel) + axis_elements(panel);
+         gap_elements(section, panel) + load_elements(section, panel) + symmetry_elements(panel) +
+         axis_elements(panel);
 }
 
 // --- the page ---
@@ -298,6 +330,8 @@ std::vector<LegendEntry> legend_entries(const Section& section) {
                            ? each.body->name
                            : fmt::format("{} ({})", each.body->name, each.body->material),
                        svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" {}", each.colour, edge))});
+  if (!section.scene.surface.gaps.empty()) entries.push_back({"gap", svg_line(0, 8, 16, 8, gap_look)});
+  entries.push_back({"chamber pressure", arrow(0, 8)});
   entries.push_back({"line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink))});
   if (!section.scene.output.observation_points.empty())
     entries.push_back({"observation point", svg_circle(8, 8, 3.2, ink)});

@@ -110,6 +110,12 @@ Quantities<std::vector<double>> axis_quantities(const study::Study& study) {
   return quantities;
 }
 
+std::string plain_words(std::string name) {
+  name.erase(0, name.rfind('.') + 1);
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values) {
   constexpr std::size_t most = 12;
   const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
@@ -127,7 +133,7 @@ std::string distribution_text(const ShownKey& key, const math::Distribution& dis
   const auto number = [&key](double value_si) { return digits_of(value_si, key.form); };
   const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
   if (is_log_normal(distribution))
-    return fmt::format("log-normal, {}{} +- {}", number(distribution.centre), unit,
+    return fmt::format("log-normal, {}{} ± {}", number(distribution.centre), unit,
                        in_words(distribution.deviation, keys::significant(3, percent)));
   if (distribution.kind != math::Distribution::Kind::normal) {
     const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
@@ -135,7 +141,7 @@ std::string distribution_text(const ShownKey& key, const math::Distribution& dis
                        number(distribution.upper), unit);
   }
   std::string text =
-      fmt::format("normal, {} +- {}{}", number(distribution.centre), number(distribution.deviation), unit);
+      fmt::format("normal, {} ± {}{}", number(distribution.centre), number(distribution.deviation), unit);
   const bool below = std::isfinite(distribution.lower), above = std::isfinite(distribution.upper);
   if (below && above)
     return text + fmt::format(", cut off at {} and {}{}", number(distribution.lower),

@@ -189,7 +189,7 @@ void check_rise(const Scene& scene, Warnings& warnings) {
   const double share = scene::largest_changes(scene.load, transit).rise / peak;
   if (!(share > largest_rise_in_a_transit)) return;
   warnings.add(
-      "the load rises by {:.3g} % of its peak within {:.3g} us, the time that sound takes through "
+      "the load rises by {:.3g} % of its peak within {:.3g} µs, the time that sound takes through "
       "the charge: its stress waves are not resolved by the cells (up to {:.3g} % are)",
       100.0 * share, 1e6 * transit, 100.0 * largest_rise_in_a_transit);
 }

@@ -143,7 +143,12 @@ std::string plausible_text(const KeyDescription& key) {
 }
 
 std::string format_value(const KeyDescription& key, const Value& value) {
-  if (const auto* number = std::get_if<double>(&value)) return format_quantity(*number, key.dimension);
+  if (const auto* number = std::get_if<double>(&value)) {
+    // Cells of all sizes are in one unit, to compare them.
+    if (key.name.ends_with("cell_size") && std::isfinite(*number))
+      return fmt::format("{:.6g} mm", in_unit(*number, key.dimension, "mm"));
+    return format_quantity(*number, key.dimension);
+  }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
   std::string joined;

@@ -21,13 +21,13 @@ std::string row(std::string_view name, const std::string& value) {
 }
 
 /// A charge that shrank away from its base as it cooled, held at its nose. Linear expansion of Composition B
-/// 54.6e-6/K, of steel 11.7e-6/K [A]: of them only the difference counts, 24 um a kelvin over 0.56 m as model
+/// 54.6e-6/K, of steel 11.7e-6/K [A]: of them only the difference counts, 24 µm a kelvin over 0.56 m as model
 /// section 14 gives it.
 std::string cooling_text(const Scene& scene) {
   constexpr double of_charge = 54.6e-6, of_steel = 11.7e-6;  // 1/K
   const Extent charge = charge_extent(scene);
   return fmt::format(
-      "of Composition B in steel, held at the nose: parts from the base by {:.3g} um a kelvin "
+      "of Composition B in steel, held at the nose: parts from the base by {:.3g} µm a kelvin "
       "below the temperature at which it filled the shell",
       1e6 * (of_charge - of_steel) * (charge.x_end - charge.x_begin));
 }

@@ -23,7 +23,7 @@ std::vector<Key<Surface>> closing_keys() {
       plausibly(number_key("roughness", Dimension::length, above_to(0, 1e-3), Standing::assumed,
                            "Least opening of a closing gap, at which the faces meet; a gap no wider is none.",
                            &Surface::roughness),
-                between(1e-6, 3e-5), "pressed and machined faces have 1 to 30 um", of_motion),
+                between(1e-6, 3e-5), "pressed and machined faces have 1 to 30 µm", of_motion),
       always_plausible(
           word_key("base", Standing::assumed,
                    "Whether the base takes heat from the air of a closing gap: the two bounds.",
@@ -76,7 +76,7 @@ std::vector<Key<Surface>> gap_keys() {
           of_skin_model),
       plausibly(number_key("skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
                            "Thickness of the charge's skin that the air heats.", &Surface::skin_thickness),
-                between(3e-5, 1.5e-4), "heat goes 40 um deep in a launch, and the published skin is 0.1 mm"),
+                between(3e-5, 1.5e-4), "heat goes 40 µm deep in a launch, and the published skin is 0.1 mm"),
       plausibly(number_key("exchange_time", Dimension::time, above_to(0, 100), Standing::calibrated,
                            "Time constant of the exchange between air and skin.", &Surface::exchange_time),
                 between(1.5e-4, 6e-4), "published temperatures ask for 0.3 ms, whatever mesh and closure",

@@ -145,7 +145,7 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
     coverage.reason =
         has_cracks(recorded)
             ? fmt::format(
-                  "it was made with cracks of {:.4g} um in flaws of {:.4g} mm, and {:.4g} um in {:.4g} "
+                  "it was made with cracks of {:.4g} µm in flaws of {:.4g} mm, and {:.4g} µm in {:.4g} "
                   "mm is more than {:g} times as much",
                   1e6 * recorded.crack_radius, 1e3 * recorded.flaw_size, 1e6 * launch.crack_radius,
                   1e3 * launch.flaw_size, most_cracks)

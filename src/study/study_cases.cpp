@@ -159,7 +159,7 @@ std::string case_label(const Study& study, const StudyCase& made) {
     return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
   });
   if (of_launch)
-    return fmt::format("{:.6g} MPa, {:.6g} um, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
+    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
                        1e3 * made.flaw_size);
   std::string text;
   for (std::size_t i = 0; i < study.axes.size(); ++i)

@@ -166,6 +166,17 @@ TEST(Documents, TheReadmesVerdictsAreThoseOfTheMainJob) {
   EXPECT_EQ(rows, 6U);
 }
 
+// A dirty tree is one that nobody else can build.
+TEST(Documents, NoReportIsOfADirtyTree) {
+  std::size_t texts = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(source / "reports")) {
+    if (!entry.is_regular_file() || entry.path().extension() == ".h5") continue;
+    ++texts;
+    EXPECT_EQ(page_of(entry.path()).find("-dirty"), std::string::npos) << entry.path();
+  }
+  EXPECT_GT(texts, 50u);
+}
+
 TEST(Documents, TheReadmeFitsOnThreeScreens) {
   std::istringstream page(page_of(source / "README.md"));
   std::size_t lines = 0;

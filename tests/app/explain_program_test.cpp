@@ -35,7 +35,7 @@ TEST_F(ExplainedProgram, ListsTheKeysThatBeginWithAWord) {
   EXPECT_EQ(listed["keys"][0]["key"], "load.peak");
   EXPECT_EQ(listed["keys"][1]["key"], "load.peak_time");
   const std::string told = run({"explain", "--keys", "charge.crack_radius"}).out;
-  EXPECT_NE(told.find("default: 30 um  [P]"), std::string::npos) << told;
+  EXPECT_NE(told.find("default: 30 µm  [P]"), std::string::npos) << told;
   const Outcome none = run({"explain", "--keys", "lode"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("\"lode\""), std::string::npos) << none.err;

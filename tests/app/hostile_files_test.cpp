@@ -111,7 +111,7 @@ TEST_F(CurveProgram, SaysWhatIsNoiseAndWhatSmoothingTakes) {
   EXPECT_NE(rough.out.find("roughness"), std::string::npos) << rough.out;
   const Outcome smooth = explained(curve, "smoothing = \"12 us\"");
   EXPECT_EQ(smooth.code, 0) << smooth.err;
-  EXPECT_NE(smooth.out.find("averaged over 12 us"), std::string::npos) << smooth.out;
+  EXPECT_NE(smooth.out.find("averaged over 12 µs"), std::string::npos) << smooth.out;
   EXPECT_NE(smooth.out.find("instead of 48 MPa"), std::string::npos) << smooth.out;
 }
 

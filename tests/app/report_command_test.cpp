@@ -170,7 +170,7 @@ TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasMoveAside) {
   std::vector<std::string> pictures;
   for (const auto& entry : std::filesystem::directory_iterator(folder() / "safety"))
     if (const std::string name = entry.path().filename();
-        name.starts_with("histories_") || name.starts_with("profile_"))
+        name.starts_with("histories_") || name.starts_with("profile"))
       pictures.push_back("safety/" + name);
   ASSERT_GE(pictures.size(), 2u);
   write("safety/mine.svg", "mine");

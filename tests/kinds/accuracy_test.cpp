@@ -71,7 +71,7 @@ TEST(Accuracy, FindsTheOrderAndTheLimitOfAManufacturedError) {
 
 TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
   const VariantAccuracy result = result_of();
-  const AccuracyRow& own = row_of(result, "cell_size 0.25 cm");
+  const AccuracyRow& own = row_of(result, "cell_size 2.5 mm");
   EXPECT_TRUE(own.baseline);
   EXPECT_TRUE(own.setting.reference);
   EXPECT_NEAR(own.temperature_error[0], 2.0, 0.03);
@@ -79,7 +79,7 @@ TEST(Accuracy, MeasuresErrorsOfSettingsAgainstTheLimit) {
   EXPECT_GT(own.setting.critical_gap, 0);
   EXPECT_LT(own.critical_gap_error, 0) << "more friction heat, a smaller critical gap";
   EXPECT_GE(own.setting.critical_gap_bound, std::abs(own.critical_gap_error));
-  const AccuracyRow& scaled = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  const AccuracyRow& scaled = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_NEAR(scaled.temperature_error[0], 4.0, 0.03);  // 2 K and log2(16)/2 K
   EXPECT_FALSE(scaled.baseline);
   ASSERT_EQ(scaled.error_at_times.size(), 2u);
@@ -125,7 +125,7 @@ TEST(Accuracy, DoesNotExtrapolateWhatDoesNotConverge) {
   EXPECT_FALSE(result.reference->temperature[0].limit.justified);
   EXPECT_FALSE(result.reference->temperature[0].limit.reason.empty());
   EXPECT_EQ(result.reference->temperature[0].limit.value, result.reference->temperature[0].values.front());
-  EXPECT_GE(row_of(result, "cell_size 0.25 cm").setting.temperature_bound, 4.0);
+  EXPECT_GE(row_of(result, "cell_size 2.5 mm").setting.temperature_bound, 4.0);
   EXPECT_TRUE(result.any_indeterminate());
 }
 
@@ -151,11 +151,11 @@ TEST(Accuracy, ASettingThatFailsIsARowWithoutNumbers) {
     return mechanics;
   });
   ASSERT_TRUE(result.reference);
-  const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  const AccuracyRow& row = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_FALSE(row.sound());
   EXPECT_TRUE(std::isnan(row.setting.temperature_bound));
   EXPECT_FALSE(row.on_front);
-  EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 0.5 cm, inertial_scaling 1");
+  EXPECT_EQ(cheapest_within(result.record, 1e9)->label, "cell_size 5 mm, inertial_scaling 1");
 }
 
 TEST(Accuracy, ASettingWithAValidityWarningIsShownWithItsErrorAndNotRecommended) {
@@ -165,7 +165,7 @@ TEST(Accuracy, ASettingWithAValidityWarningIsShownWithItsErrorAndNotRecommended)
     return mechanics;
   });
   ASSERT_TRUE(result.reference);
-  const AccuracyRow& row = row_of(result, "cell_size 0.25 cm, inertial_scaling 16");
+  const AccuracyRow& row = row_of(result, "cell_size 2.5 mm, inertial_scaling 16");
   EXPECT_FALSE(row.validity_warnings.empty());
   EXPECT_TRUE(row.computed());
   EXPECT_FALSE(row.sound());

@@ -78,7 +78,7 @@ TEST(QuantityKeys, EndWithTheUnitAndAreTheSameInEveryTable) {
       const std::string& unit = table.columns[i].form.unit;
       std::string words = keys[i];
       if (!unit.empty() && unit != "1/s") {
-        const std::string suffix = "_" + keys::key_text(unit);
+        const std::string suffix = "_" + keys::unit_key(unit);
         ASSERT_TRUE(words.ends_with(suffix)) << table.title << ": " << words << " in " << unit;
         words.resize(words.size() - suffix.size());
       }

@@ -23,11 +23,10 @@ TEST(ReadAccuracy, MakesTheReferenceMeshesFinestFirstThenEverySetting) {
   std::vector<std::string> labels;
   for (const StudyCase& each : study.cases) labels.push_back(each.label);
   // The scene has 1.25 mm and a factor of 0.65: that case and the scene as it is equal the coarsest mesh.
-  EXPECT_EQ(labels,
-            (std::vector<std::string>{"cell_size 0.417 mm", "cell_size 0.625 mm", "cell_size 0.125 cm",
-                                      "time_step_factor 0.25, cell_size 0.125 cm",
-                                      "time_step_factor 0.25, cell_size 0.5 cm",
-                                      "time_step_factor 0.65, cell_size 0.5 cm", "frame lab"}));
+  EXPECT_EQ(labels, (std::vector<std::string>{"cell_size 0.417 mm", "cell_size 0.625 mm", "cell_size 1.25 mm",
+                                              "time_step_factor 0.25, cell_size 1.25 mm",
+                                              "time_step_factor 0.25, cell_size 5 mm",
+                                              "time_step_factor 0.65, cell_size 5 mm", "frame lab"}));
   EXPECT_EQ(study.cases.back().scene.scene.frame, scene::Frame::lab);
 }
 
@@ -91,9 +90,9 @@ TEST(ReadAccuracy, AVariantIsTheStudyWithWhatItSaysOtherwise) {
   std::vector<std::string> labels;
   for (const StudyCase& each : study.cases) labels.push_back(each.label);
   EXPECT_EQ(labels, (std::vector<std::string>{"a: cell_size 0.417 mm", "a: cell_size 0.625 mm",
-                                              "a: cell_size 0.125 cm", "a: inertial_scaling 4",
-                                              "b_0.1: cell_size 0.834 mm", "b_0.1: cell_size 0.125 cm",
-                                              "b_0.1: cell_size 0.25 cm", "b_0.1: cell_size 0.5 cm"}));
+                                              "a: cell_size 1.25 mm", "a: inertial_scaling 4",
+                                              "b_0.1: cell_size 0.834 mm", "b_0.1: cell_size 1.25 mm",
+                                              "b_0.1: cell_size 2.5 mm", "b_0.1: cell_size 5 mm"}));
 }
 
 TEST(ReadAccuracy, RefusesVariantsThatCannotBeToldApartOrMeanNothing) {

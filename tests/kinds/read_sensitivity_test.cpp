@@ -208,7 +208,7 @@ TEST(ReadSensitivity, FaultsOfNormalsAskForARange) {
   expect_input_error(normal + "mean = \"30 um\"\ndeviation = 3", {8, "vary.deviation", "without a unit"});
   expect_input_error(
       normal + "mean = \"30 um\"\ndeviation = \"10 um\"",
-      {8, "vary.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 um\""});
+      {8, "vary.deviation", "within 4 deviations", "a range that cuts", "range = \"0 cm to 70 µm\""});
   const std::string narrow = normal + "mean = \"30 um\"\ndeviation = \"5 um\"\n";
   EXPECT_TRUE(parse_here(sensitivity_start + input(narrow)));
   expect_input_error(narrow + "range = \"50 to 60 cm\"", {9, "vary.range", "has no share", "near the mean"});

@@ -66,7 +66,7 @@ TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
   const StudyFile study = study_of(critical_kind);
   EXPECT_EQ(study.study.gaps, study.scene.scene.surface.gaps);
   ASSERT_EQ(study.cases.size(), 1u);
-  EXPECT_EQ(study.cases[0].label, "496 MPa, 30 um, 1 mm");
+  EXPECT_EQ(study.cases[0].label, "496 MPa, 30 µm, 1 mm");
   EXPECT_EQ(study.study.largest_gap, 1e-3);
   EXPECT_TRUE(settings_of<CriticalGapSettings>(study.study).confirm);
 }
@@ -87,9 +87,9 @@ TEST(ReadStudy, MakesTheProductOfPressuresAndDefects) {
                                                          {"crack_radius", "10, 30, 100 um"},
                                                          {"flaw_size", "1, 2 mm"}}));
   ASSERT_EQ(study.cases.size(), 12u);
-  EXPECT_EQ(study.cases[0].label, "400 MPa, 10 um, 1 mm");
-  EXPECT_EQ(study.cases[1].label, "400 MPa, 10 um, 2 mm");
-  EXPECT_EQ(study.cases[11].label, "500 MPa, 100 um, 2 mm");
+  EXPECT_EQ(study.cases[0].label, "400 MPa, 10 µm, 1 mm");
+  EXPECT_EQ(study.cases[1].label, "400 MPa, 10 µm, 2 mm");
+  EXPECT_EQ(study.cases[11].label, "500 MPa, 100 µm, 2 mm");
   EXPECT_EQ(study.cases[11].scene.scene.load.peak, 500e6);
   EXPECT_EQ(study.cases[11].scene.scene.charge().strength.initial_crack_radius, 1e-4);
   EXPECT_EQ(study.cases[11].scene.scene.charge().strength.flaw_size, 2e-3);

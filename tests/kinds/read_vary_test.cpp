@@ -39,9 +39,9 @@ std::string numbers(int count, double first, double step) {
 TEST(ReadVary, CasesThatDifferInTheSeventhDigitHaveLabelsOfTheirOwn) {
   const StudyFile study = study_of(critical_kind + vary({{"peak_pressure", "400, 400.0001, 500 MPa"}}));
   ASSERT_EQ(study.cases.size(), 3u);
-  EXPECT_EQ(study.cases[0].label, "400 MPa, 30 um, 1 mm");
-  EXPECT_EQ(study.cases[1].label, "400 MPa, 30 um, 1 mm (2)");
-  EXPECT_EQ(study.cases[2].label, "500 MPa, 30 um, 1 mm");
+  EXPECT_EQ(study.cases[0].label, "400 MPa, 30 µm, 1 mm");
+  EXPECT_EQ(study.cases[1].label, "400 MPa, 30 µm, 1 mm (2)");
+  EXPECT_EQ(study.cases[2].label, "500 MPa, 30 µm, 1 mm");
 }
 
 TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
@@ -61,7 +61,7 @@ TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
   EXPECT_EQ(study.study.axes[2].values, (std::vector<double>{1.5, 1.4, 1.3}));
   ASSERT_EQ(study.cases.size(), 12u);
   const StudyCase& second = study.cases[1];
-  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 1.4, crack_radius 30 um");
+  EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 1.4, crack_radius 30 µm");
   EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 1.4, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
   EXPECT_EQ(second.flaw_size, 1e-3);
@@ -101,7 +101,7 @@ TEST(ReadVary, WithoutItIsTheSceneAlone) {
   const StudyFile study = study_of(critical_kind);
   EXPECT_EQ(study.study.gaps, study.scene.scene.surface.gaps);
   ASSERT_EQ(study.cases.size(), 1u);
-  EXPECT_EQ(study.cases[0].label, "496 MPa, 30 um, 1 mm");
+  EXPECT_EQ(study.cases[0].label, "496 MPa, 30 µm, 1 mm");
   EXPECT_TRUE(study.cases[0].own_conditions);
   EXPECT_TRUE(study.cases[0].coordinates.empty());
 }
@@ -220,9 +220,9 @@ TEST(ReadVary, AKeyThatVariesTakesOneNumber) {
 TEST(ReadVary, AValueThatTheSceneCannotHaveNamesTheValues) {
   expect_values_error("load.base", "\"1, 900 MPa\"",
                       {5, "vary.values", "a base of 900 MPa and a peak of 496 MPa", "at most the peak"});
-  expect_values_error("numerics.cell_size", "\"50 cm\"", {5, "vary.values", "50 cm"});
+  expect_values_error("numerics.cell_size", "\"50 cm\"", {5, "vary.values", "500 mm"});
   expect_values_error("load.duration", "\"1 us\"",
-                      {5, "vary.values", "1 us, with which output.trace_interval is", "at most"});
+                      {5, "vary.values", "1 µs, with which output.trace_interval is", "at most"});
 }
 
 // Distributions are of sensitivity, variants of comparison.

@@ -96,19 +96,21 @@ TEST(StabilityReport, JsonHoldsCountsAndCasesWithTheirNumbers) {
   expect_part(4, R"({"outcome": "not computed", "finding": "the run failed: no more memory"})");
 }
 
-TEST(StabilityReport, ThePictureHasABarForEveryOutcomeOfEveryGroup) {
+TEST(StabilityReport, ThePictureHasABarOfOutcomesForEveryGroup) {
   const Report report = report_of(made_stability());
   const Plot& plot = std::get<Picture>(report.items.front()).plot;
   ASSERT_EQ(plot.y.tics.size(), 2u);
   EXPECT_EQ(plot.y.tics[0].label, "load");
   EXPECT_GT(plot.y.tics[0].at, plot.y.tics[1].at) << "the first group is on top";
   ASSERT_EQ(plot.series.size(), 4u);
-  EXPECT_EQ(plot.series[3].label, "WRONG");
+  EXPECT_EQ(plot.series[3].label, "1 WRONG");
+  EXPECT_TRUE(plot.title.ends_with("1 WRONG")) << plot.title;
   for (const Series& series : plot.series) {
-    EXPECT_EQ(series.upper, std::vector<double>{1.0}) << series.label;
-    const double place = plot.y.tics[series.label == "held" ? 1 : 0].at;
-    EXPECT_LT(std::abs(series.y.at(0) - place), 0.5) << series.label;
+    EXPECT_EQ(series.style, Style::filled_bars);
+    EXPECT_EQ(series.y.at(0), plot.y.tics[series.label == "1 held" ? 1 : 0].at) << series.label;
+    EXPECT_EQ(series.upper[0] - series.lower[0], 1.0) << series.label;
   }
+  EXPECT_EQ(plot.series[2].lower[0], plot.series[1].upper[0]) << "the parts of a bar follow each other";
 }
 
 TEST(StabilityReport, WritesThePageAndItsFiles) {

@@ -101,7 +101,7 @@ TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
   result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
   result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
   const std::string note = critical_gap_table(result).notes.back();
-  EXPECT_TRUE(in_order(note, {"0.039 cm", "350 MPa, 50 um", "35 times"}));
+  EXPECT_TRUE(in_order(note, {"0.039 cm", "350 MPa, 50 µm", "35 times"}));
   EXPECT_TRUE(says(to_markdown(report_of(result)), note));
 }
 

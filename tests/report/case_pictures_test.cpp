@@ -72,13 +72,47 @@ const Plot& plot_of(const std::vector<CasePicture>& drawn, const std::string& fi
 TEST(CasePictures, OfFieldsAreNamedByFieldAndTheTimesThatWereAskedFor) {
   const RunScene run(cased_charge());
   const auto names = files(pictures(run.drawn(), "fields"));
-  EXPECT_EQ(names.size(), 4U * 3U);
-  for (const char* name : {"field_temperature_0ms.svg", "field_pressure_0.02ms.svg",
-                           "field_von_mises_0.04ms.svg", "field_crack_radius_0.04ms.svg"})
+  EXPECT_EQ(names.size(), 3U * 3U);
+  for (const char* name :
+       {"field_temperature_0ms.svg", "field_pressure_0.02ms.svg", "field_von_mises_0.04ms.svg"})
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   const auto one = files(pictures(run.drawn({2e-5}), "fields"));
   EXPECT_EQ(one, (std::vector<std::string>{"field_temperature_0.02ms.svg", "field_pressure_0.02ms.svg",
-                                           "field_von_mises_0.02ms.svg", "field_crack_radius_0.02ms.svg"}));
+                                           "field_von_mises_0.02ms.svg"}))
+      << "cracks do not grow";
+}
+
+TEST(CasePictures, OfTheTemperatureShowTheSkinOfTheLargestGapThatDoesNotBurn) {
+  RunScene run(cased_charge());
+  const auto drawn = [&] { return std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").front().plot); };
+  const auto particles = static_cast<std::size_t>(scene::particle_count(run.scene));
+  const CellPlot of_largest = drawn();
+  ASSERT_EQ(of_largest.scales.size(), 1U) << "one scale for all";
+  const auto& skin = run.result.gaps[2].skin;
+  const std::size_t rings = of_largest.cells.size() - particles;
+  EXPECT_EQ(rings, run.result.mechanics.trace.stations.size());
+  const auto hottest =
+      std::max_element(skin.temperature.end() - static_cast<std::ptrdiff_t>(rings), skin.temperature.end());
+  EXPECT_NEAR(of_largest.scales[0].maximum, *hottest, 1e-6);
+  EXPECT_NE(of_largest.title.find("Gap 0.04 cm at 0.04 ms"), std::string::npos) << of_largest.title;
+  run.result.gaps[2].skin.ignition = {3e-5, 0, surface::IgnitionCause::trigger, 0.1};
+  EXPECT_NE(drawn().title.find("Gap 0.01 cm"), std::string::npos);
+  run.result.gaps.clear();
+  EXPECT_EQ(files(pictures(run.drawn({4e-5}), "fields")).front(), "field_pressure_0.04ms.svg")
+      << "the bulk alone does not warm by 1 %";
+}
+
+// 98 of 100 values are within the colours; by hand, one cell of the charge presses as no other.
+TEST(CasePictures, OfAFieldMarkWhatIsFarFromAllElse) {
+  RunScene run(cased_charge(0.2));
+  auto& snapshots = run.result.mechanics.snapshots;
+  snapshots.back().pressure[0] = 1e12;
+  const auto drawn = pictures(run.drawn({4e-5}), "fields");
+  const auto& plot = std::get<CellPlot>(drawn[1].plot);
+  EXPECT_LT(plot.scales[0].maximum, 1e4) << "MPa";
+  const std::string commands = to_gnuplot(plot);
+  EXPECT_GE(block_of(commands, "whole_beyond").size(), 2U) << "on both sides of the axis";
+  EXPECT_NE(commands.find("crosses: beyond the colours"), std::string::npos);
 }
 
 // The number of particles is that of the scene's grid.
@@ -87,6 +121,7 @@ TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
   const auto particles = static_cast<std::size_t>(scene::particle_count(run.scene));
   ASSERT_EQ(particles, 4U * 8 + 2 * 8 + 6 * 4) << "cells of 2.5 mm";
   for (const CasePicture& picture : pictures(run.drawn(), "fields")) {
+    if (picture.file.starts_with("field_temperature")) continue;  // has the skin's cells too
     const std::string commands = to_gnuplot(std::get<CellPlot>(picture.plot));
     std::size_t cells = 0, below_axis = 0;
     for (const char* name : {"whole_cells0", "whole_cells1", "whole_grey"})
@@ -129,14 +164,13 @@ TEST(CasePictures, OfFieldsHaveOneOutlineForEveryBodyWhichAtRestIsItsRectangle) 
 
 TEST(CasePictures, OfAFieldHaveTheSameColoursAtAllSnapshots) {
   const RunScene run(cased_charge());
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
+  std::vector<double> values;
   for (const run::Snapshot& shot : run.result.mechanics.snapshots)
-    for (std::size_t i = 0; i < shot.x.size(); ++i) {
-      if (shot.body[i] != 0) continue;
-      lowest = std::min(lowest, 1e-6 * shot.pressure[i]);
-      highest = std::max(highest, 1e-6 * shot.pressure[i]);
-    }
-  ASSERT_GT(highest, lowest);
+    for (std::size_t i = 0; i < shot.x.size(); ++i)
+      if (shot.body[i] == 0) values.push_back(1e-6 * shot.pressure[i]);
+  ASSERT_EQ(values.size(), 3U * 32);
+  const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
+  ASSERT_GT(*highest, *lowest);
   std::size_t seen = 0;
   for (const auto& drawn : {run.drawn(), run.drawn({0.0})})
     for (const CasePicture& picture : pictures(drawn, "fields")) {
@@ -146,8 +180,8 @@ TEST(CasePictures, OfAFieldHaveTheSameColoursAtAllSnapshots) {
       ASSERT_EQ(plot.scales.size(), 2U);
       EXPECT_EQ(plot.scales[0].label, "charge: pressure [MPa]");
       EXPECT_EQ(plot.scales[1].label, "shell: pressure [MPa]");
-      EXPECT_DOUBLE_EQ(plot.scales[0].minimum, lowest);
-      EXPECT_DOUBLE_EQ(plot.scales[0].maximum, highest);
+      EXPECT_DOUBLE_EQ(plot.scales[0].minimum, *lowest) << "of less than 100 all count";
+      EXPECT_DOUBLE_EQ(plot.scales[0].maximum, *highest);
     }
   EXPECT_EQ(seen, 4U);
 }
@@ -163,7 +197,9 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
   run::Snapshot burning = snapshots[3];
   burning.events = {scene::Event::ignition};
   burning.burnt_share.assign(burning.x.size(), 0.5);
+  burning.burnt_share[0] = 0.4;
   for (double& pressure : burning.pressure) pressure = 2e9;
+  burning.pressure[0] = 1.9e9;
   run.result.gaps[2].combustion.emplace().snapshots = {burning};
   const auto drawn = pictures(run.drawn(), "fields");
   const auto names = files(drawn);
@@ -183,7 +219,9 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
       continue;
     }
     EXPECT_DOUBLE_EQ(plot.scales[0].maximum, 2000.0);
-    EXPECT_EQ(plot.title, "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning");
+    EXPECT_EQ(
+        plot.title,
+        "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning: 1900 to 2000 MPa in 98 % of the charge");
   }
 }
 
@@ -232,8 +270,9 @@ TEST(CasePictures, HaveUnitsOnAllAxesAndColourBars) {
     if (!each.lacks(run.drawn()).empty()) continue;
     for (const CasePicture& picture : each.pictures(run.drawn())) {
       if (const auto* plot = std::get_if<Plot>(&picture.plot)) {
-        for (const PlotAxis* axis : {&plot->x, &plot->y})
-          EXPECT_TRUE(axis->label.ends_with("]")) << picture.file << ": " << axis->label;
+        for (const Plot& panel : plot->panels.empty() ? std::vector{*plot} : plot->panels)
+          for (const PlotAxis* axis : {&panel.x, &panel.y})
+            EXPECT_TRUE(axis->label.ends_with("]")) << picture.file << ": " << axis->label;
         EXPECT_EQ(plot->subtitle, "a cased charge");
         continue;
       }
@@ -246,13 +285,11 @@ TEST(CasePictures, HaveUnitsOnAllAxesAndColourBars) {
   }
 }
 
-TEST(CasePictures, OfTheSkinAreOneAGap) {
+TEST(CasePictures, OfHistoriesAreOneAGapAndTheProfileIsOneForAll) {
   const RunScene run(cased_charge());
   EXPECT_EQ(files(pictures(run.drawn(), "histories")),
             (std::vector<std::string>{"histories_0cm.svg", "histories_0.01cm.svg", "histories_0.04cm.svg"}));
-  EXPECT_EQ(files(pictures(run.drawn(), "profile")),
-            (std::vector<std::string>{"profile_0cm.svg", "profile_0.01cm.svg", "profile_0.04cm.svg",
-                                      "profile_spread.svg"}));
+  EXPECT_EQ(files(pictures(run.drawn(), "profile")), std::vector<std::string>{"profile.svg"});
 }
 
 /// Stations at 7.5 and 2.5 mm and an observation point; the skins are 300 K, then 320, 310 and 999 K.
@@ -276,27 +313,30 @@ RunScene written_by_hand() {
 TEST(CasePictures, OfProfilesGoFromTheAxisToTheWallWithoutObservationPoints) {
   const RunScene run = written_by_hand();
   const auto drawn = pictures(run.drawn({2e-5, 3e-5}), "profile");
-  const Plot& profile = plot_of(drawn, "profile_0.04cm.svg");
-  ASSERT_EQ(profile.series.size(), 2U);
-  EXPECT_EQ(profile.series[1].label, "0.03 ms");
-  EXPECT_EQ(profile.series[0].x, (std::vector<double>{2.5, 7.5}));
-  EXPECT_EQ(profile.series[0].y, (std::vector<double>{310, 320}));
-  EXPECT_NEAR(profile.series[1].y[0], 313.0, 1e-9) << "half way";
-  EXPECT_EQ(pictures(run.drawn(), "profile").size(), 2U);
-  EXPECT_EQ(plot_of(pictures(run.drawn(), "profile"), "profile_0.04cm.svg").series.size(), 6U);
+  EXPECT_EQ(files(drawn), (std::vector<std::string>{"profile_0.02ms.svg", "profile_0.03ms.svg"}));
+  const Series& first = plot_of(drawn, "profile_0.02ms.svg").series.front();
+  EXPECT_EQ(first.label, "0.04 cm");
+  EXPECT_EQ(first.x, (std::vector<double>{2.5, 7.5}));
+  EXPECT_EQ(first.y, (std::vector<double>{310, 320}));
+  EXPECT_NEAR(plot_of(drawn, "profile_0.03ms.svg").series[0].y[0], 313.0, 1e-9) << "half way";
+  const auto last = pictures(run.drawn(), "profile");
+  EXPECT_EQ(plot_of(last, "profile.svg").series[0].y, (std::vector<double>{316, 330}));
+  EXPECT_NE(plot_of(last, "profile.svg").title.find("by up to 14 K"), std::string::npos);
 }
 
-TEST(CasePictures, OfTheSpreadShowHighestLessLowestUntilIgnition) {
+TEST(CasePictures, OfTheSkinEndBeforeWhatBurns) {
   RunScene run = written_by_hand();
-  EXPECT_EQ(plot_of(pictures(run.drawn(), "profile"), "profile_spread.svg").series[0].y,
-            (std::vector<double>{0, 10, 14}));
   run.result.gaps[0].skin.ignition = {3e-5, 0, surface::IgnitionCause::trigger, 0.1};
-  const Plot spread = plot_of(pictures(run.drawn(), "profile"), "profile_spread.svg");
-  EXPECT_EQ(spread.series[0].y, (std::vector<double>{0, 10}));
-  EXPECT_EQ(spread.series[0].label, "0.04 cm, until ignition");
+  const Series profile = plot_of(pictures(run.drawn(), "profile"), "profile.svg").series[0];
+  EXPECT_EQ(profile.y, (std::vector<double>{310, 320}));
+  EXPECT_EQ(profile.label, "0.04 cm, igniting at 0.03 ms");
   const Plot history = plot_of(pictures(run.drawn(), "histories"), "histories_0.04cm.svg");
-  ASSERT_EQ(history.vertical_lines.size(), 1U);
-  EXPECT_EQ(history.vertical_lines[0].label, "ignition at S1, 0.03 ms");
+  EXPECT_EQ(history.title, "Gap 0.04 cm: S1 ignites at 0.03 ms");
+  ASSERT_EQ(history.panels.size(), 2U) << "the skin above the load";
+  EXPECT_EQ(history.panels[0].vertical_lines.size(), 1U);
+  EXPECT_EQ(history.panels[0].series[0].x.size(), 2U);
+  EXPECT_EQ(history.panels[1].series[0].x.size(), 3U);
+  EXPECT_EQ(history.panels[0].x.maximum, history.panels[1].x.maximum) << "on one time axis";
 }
 
 TEST(CasePictures, OfHistoriesNameAFewStations) {
@@ -310,37 +350,26 @@ TEST(CasePictures, OfHistoriesNameAFewStations) {
   gap.at_stations.station = 3;
   const auto drawn = pictures(run.drawn(), "histories");
   std::vector<std::string> names;
-  for (const Series& series : plot_of(drawn, "histories_0.04cm.svg").series)
+  for (const Series& series : plot_of(drawn, "histories_0.04cm.svg").panels.at(0).series)
     if (!series.label.empty()) names.push_back(series.label.substr(0, series.label.find(',')));
   EXPECT_EQ(names, (std::vector<std::string>{"stations between", "S13", "S7", "S4", "S1"}));
-  EXPECT_EQ(plot_of(drawn, "histories_0.04cm.svg").series.size(), 13U);
+  EXPECT_EQ(plot_of(drawn, "histories_0.04cm.svg").panels[0].series.size(), 13U);
 }
 
-// T = T0 (rho/rho0)^(gamma - 1) and rho/rho0 = (p/p0)^(1/gamma), with the highest pressure of the trace.
-TEST(CasePictures, OfAReservoirHaveOneMarkForAllGapsOnTheAdiabat) {
-  const RunScene run(cased_charge());
-  const Plot air = plot_of(pictures(run.drawn(), "air"), "air.svg");
-  ASSERT_EQ(air.series.size(), 2U) << "adiabat and one mark";
-  const auto& pressure = run.result.mechanics.trace.bottom_pressure;
-  const materials::AirParameters& gas = run.scene.surface.air;
-  const double ratio =
-      std::pow(*std::max_element(pressure.begin(), pressure.end()) / gas.initial_pressure, 1 / 1.4);
-  EXPECT_NEAR(air.series[1].x[0] / ratio, 1.0, 1e-9);
-  EXPECT_NEAR(air.series[1].y[0] / (300.0 * std::pow(ratio, 0.4)), 1.0, 1e-9);
-  EXPECT_TRUE(air.series[1].label.starts_with("every gap: ")) << air.series[1].label;
-}
-
-TEST(CasePictures, OfOtherAirHaveAMarkForEveryStateAtTheHighestPressure) {
+TEST(CasePictures, OfTheAirHaveALineForGapsThatDiffer) {
+  const RunScene reservoir(cased_charge());
+  const Plot same = plot_of(pictures(reservoir.drawn(), "air"), "air.svg");
+  ASSERT_EQ(same.series.size(), 1U) << "the reservoir's state follows from the pressure alone";
+  EXPECT_EQ(same.series[0].label, "every gap");
+  EXPECT_TRUE(same.title.ends_with(", whatever the gap")) << same.title;
   RunScene run = written_by_hand();
-  run.scene.surface.air_model = scene::AirModel::film;
   run.result.gaps.push_back(run.result.gaps[0]);
   run.result.gaps[1].gap = 1e-4;
   run.result.gaps[1].skin.air_temperature = {300, 500, 450};
   const Plot air = plot_of(pictures(run.drawn(), "air"), "air.svg");
-  ASSERT_EQ(air.series.size(), 3U);
-  EXPECT_EQ(air.series[1].y[0], 1000);
-  EXPECT_NEAR(air.series[1].x[0], 20e6 / 101325 * 300 / 1000, 1e-9);
-  EXPECT_EQ(air.series[2].label, "gap 0.01 cm: 500 K at 20 MPa");
+  ASSERT_EQ(air.series.size(), 2U);
+  EXPECT_EQ(air.series[1].label, "0.01 cm");
+  EXPECT_EQ(air.title, "The gap's air reaches 1000 K");
 }
 
 TEST(CasePictures, OfEnergiesHaveTheTermsThatAreMoreThanRoundOff) {
@@ -423,8 +452,8 @@ TEST(CasePictures, AreDrawnWithAFilledShapeForEveryCell) {
   const auto less = to_svg(without_base);
   ASSERT_TRUE(less) << less.error().message;
   EXPECT_EQ(count_of(*svg, "<polygon"), count_of(*less, "<polygon") + 2 * 24);
-  EXPECT_NE(svg->find("charge: temperature [K]"), std::string::npos);
-  EXPECT_NE(svg->find("Bulk temperature at 0.04"), std::string::npos);
+  EXPECT_NE(svg->find("temperature [K]"), std::string::npos);
+  EXPECT_NE(svg->find("Gap 0.04 cm at 0.04"), std::string::npos);
 }
 
 TEST(CaseTables, HoldTheNumbersOfSnapshotsAndOfEveryGapsSkin) {

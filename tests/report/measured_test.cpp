@@ -8,14 +8,14 @@
 namespace launchsafe::report {
 namespace {
 
-// Expected texts follow from the rule by hand: one significant digit of the uncertainty, two after a leading
-// 1 and where it is of the value's order, the value down, the uncertainty up.
+// Expected texts follow from the rule by hand: two significant digits of the uncertainty, the value down, the
+// uncertainty up.
 TEST(Measured, AValueHasTheDigitsOfItsUncertainty) {
-  EXPECT_EQ(measured(0.0395058, 0.0083, 0.0083).text("cm"), "0.039 ± 0.009 cm");
-  EXPECT_EQ(measured(0.0395058, 0.00938, 0.00938).text("cm"), "0.039 ± 0.010 cm");
+  EXPECT_EQ(measured(0.0395058, 0.0083, 0.0083).text("cm"), "0.0395 ± 0.0083 cm");
+  EXPECT_EQ(measured(0.0395058, 0.00938, 0.00938).text("cm"), "0.0395 ± 0.0094 cm");
   EXPECT_EQ(measured(0.0395058, 0.00012, 0.00012).text("cm"), "0.03950 ± 0.00012 cm");
-  EXPECT_EQ(measured(519.44, 2.0, 2.0).text("K"), "519 ± 2 K");
-  EXPECT_EQ(measured(0.03, 0.002, 0.002).text("cm"), "0.030 ± 0.002 cm");
+  EXPECT_EQ(measured(519.44, 2.0, 2.0).text("K"), "519.4 ± 2.0 K");
+  EXPECT_EQ(measured(0.03, 0.002, 0.002).text("cm"), "0.0300 ± 0.0020 cm");
   EXPECT_EQ(measured(123.4, 60.0, 60.0).text(""), "123 ± 60");
   EXPECT_EQ(measured(0.0381508, 0.03801, 0.03801).text("cm"), "0.038 ± 0.039 cm");
   EXPECT_EQ(measured(0.0081, 0.038, 0.038).text("cm"), "0.008 ± 0.038 cm");
@@ -23,7 +23,7 @@ TEST(Measured, AValueHasTheDigitsOfItsUncertainty) {
 
 TEST(Measured, SharesWithASignMakeItAsymmetric) {
   EXPECT_EQ(measured(0.0395, 0.012, 0.005).text("cm"), "0.039 +0.006 −0.012 cm");
-  EXPECT_EQ(measured(0.152, 0.083, 0.054).text("cm"), "0.15 +0.06 −0.09 cm");
+  EXPECT_EQ(measured(0.152, 0.083, 0.054).text("cm"), "0.152 +0.054 −0.083 cm");
 }
 
 TEST(Measured, RoundingNeverAllowsMoreThanWasComputed) {

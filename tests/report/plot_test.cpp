@@ -68,7 +68,7 @@ TEST_F(DrawnPlot, LeavesOutWhatCannotBeDrawn) {
 TEST_F(DrawnPlot, HasEveryStyle) {
   Plot plot = sample();
   for (const Style style : {Style::line, Style::dashed_line, Style::points, Style::steps,
-                            Style::vertical_bars, Style::horizontal_bars}) {
+                            Style::vertical_bars, Style::horizontal_bars, Style::filled_bars}) {
     plot.series.push_back({"style", {0, 0.02}, {400, 500}, style, {0, 0.01}, {500, 600}});
   }
   const auto svg = to_svg(plot);
@@ -134,18 +134,57 @@ TEST(Plot, SeriesOfDifferentLengthsAreAnError) {
   EXPECT_NE(svg.error().message.find("computed"), std::string::npos);
 }
 
-TEST(Plot, ALegendOfLongEntriesStandsBesideIt) {
+TEST(Plot, ALegendOfLongEntriesTakesNoRoomFromThePlot) {
   Plot plot = sample();
-  EXPECT_NE(to_gnuplot(plot).find("set key outside bottom"), std::string::npos);
-  plot.series[0].label.assign(60, 'x');  // twice 60 letters are wider than 800 pixels
-  EXPECT_NE(to_gnuplot(plot).find("set key outside right"), std::string::npos);
+  plot.series.resize(3, plot.series[0]);
+  EXPECT_NE(to_gnuplot(plot).find("maxcols 3 "), std::string::npos);
+  EXPECT_NE(to_gnuplot(plot).find("size 800,560 "), std::string::npos);
+  plot.series[0].label.assign(60,
+                              'x');  // 60 letters of 8.4 pixels and their sample: one column in 800 pixels
+  EXPECT_NE(to_gnuplot(plot).find("maxcols 1 "), std::string::npos);
+  EXPECT_NE(to_gnuplot(plot).find("size 800,600 "), std::string::npos) << "two further lines of 20 pixels";
+}
+
+// By hand: from 416 to 493 the plot is 410 pixels high, and names are 18 apart.
+TEST(Plot, LinesAreNamedAtTheirEndsNoNameOnAnother) {
+  Plot plot = sample();
+  plot.named_in_place = true;
+  plot.horizontal_lines = {{480, "ignition"}};
+  plot.series.push_back({"near", {0, 0.03}, {416, 493.1}});
+  plot.series.push_back({"marks", {0.02}, {450}, Style::points});
+  const std::string text = to_gnuplot(plot);
+  EXPECT_NE(text.find("set label \"ignition\" at graph 0.01, first 480 "), std::string::npos) << text;
+  EXPECT_NE(text.find("using 1:2 with points linewidth 1.5 pointtype 9 pointsize 0.7 linecolor rgb '#009e73' "
+                      "title \"marks\""),
+            std::string::npos)
+      << text;
+  const auto height_of = [&](const char* name) {
+    const std::string words = std::string("set label \"") + name + "\" at first 0.03, first ";
+    const std::size_t at = text.find(words);
+    return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
+  };
+  EXPECT_NEAR(height_of("near") - height_of("computed"), 77.1 * 18 / 410, 0.01);
+  EXPECT_NEAR(height_of("computed"), 493, 5.0);
+}
+
+TEST(Plot, PanelsBelowEachOtherHaveTheSameMargins) {
+  Plot plot;
+  plot.panels = {sample(), sample()};
+  plot.columns = 1;
+  for (Plot& panel : plot.panels) panel.named_in_place = true;
+  plot.panels[1].series[0].label = "a long name of a line";
+  const std::string text = to_gnuplot(plot);
+  EXPECT_EQ(count_of(text, "set lmargin 10\n"), 2U);
+  EXPECT_EQ(count_of(text, "set rmargin 20\n"), 2U) << "3 and 0.85 of 21 letters";
 }
 
 TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
   Plot plot = sample();
   plot.vertical_bands = {{0.01, 0.02, "where it may be"}};
+  plot.horizontal_bands = {{420, 430, "known"}};
   const std::string text = to_gnuplot(plot);
   EXPECT_NE(text.find("$band0 << END_OF_DATA\n0.01 0\n0.01 1\n0.02 1\n0.02 0\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("$level0 << END_OF_DATA\n0 420\n0 430\n1 430\n1 420\n"), std::string::npos) << text;
   EXPECT_LT(text.find("$band0 using"), text.find("$series0 using")) << "what is drawn first is behind";
   EXPECT_NE(text.find("title \"where it may be\""), std::string::npos);
 }

@@ -237,7 +237,7 @@ TEST(ValidityWarnings, ALoadThatRisesWhileSoundRunsThroughTheCharge) {
   scene::Scene scene = shipped_scene();
   scene.load.shape = scene::LoadShape::power_exponential;
   scene.load.peak_time = 0.5e-3;
-  expect_one(validity_warnings(scene, sound_run()), "% of its peak within 192 us");
+  expect_one(validity_warnings(scene, sound_run()), "% of its peak within 192 µs");
   scene.load.peak_time = 1.5e-3;
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 

@@ -166,7 +166,7 @@ TEST(Plan, TellsByHowMuchACoolChargePartsFromItsBase) {
   Scene scene = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   EXPECT_EQ(to_text(make_plan(scene), scene, 1e7).find("a kelvin"), std::string::npos);
   scene.surface.model = GapModel::closing;
-  EXPECT_NE(to_text(make_plan(scene), scene, 1e7).find("parts from the base by 24 um a kelvin"),
+  EXPECT_NE(to_text(make_plan(scene), scene, 1e7).find("parts from the base by 24 µm a kelvin"),
             std::string::npos);
 }
 

@@ -143,7 +143,7 @@ TEST(Quantity, ListTakesMissingUnitsFromTheNextOne) {
 TEST(Quantity, IsShownInTheUnitThatReadsBest) {
   EXPECT_EQ(format_quantity(0.118, Dimension::length), "11.8 cm");
   EXPECT_EQ(format_quantity(2.5e-3, Dimension::length), "0.25 cm");
-  EXPECT_EQ(format_quantity(30e-6, Dimension::length), "30 um");
+  EXPECT_EQ(format_quantity(30e-6, Dimension::length), "30 µm");
   EXPECT_EQ(format_quantity(0.0, Dimension::length), "0 cm");
   EXPECT_EQ(format_quantity(18e-3, Dimension::time), "18 ms");
   EXPECT_EQ(format_quantity(496e6, Dimension::pressure), "496 MPa");

@@ -123,7 +123,7 @@ const Fault faults[] = {
      "\"steel\""},
     {"x = \"0 to 1 cm\"", "x = \"1 cm\"", "x = ", "body.x", "without \"to\"", "a range"},
     {"r = \"0 to 2 cm\"", "r = \"-1 to 2 cm\"", "-1 to", "body.r", "-1 to 2 cm", "0 cm to 10 m"},
-    {"", "numerics.cell_size = \"-1 mm\"\n", "-1 mm", "numerics.cell_size", "-1 mm", "10 um to"},
+    {"", "numerics.cell_size = \"-1 mm\"\n", "-1 mm", "numerics.cell_size", "-1 mm", "10 µm to"},
     {"r = \"0 to 2 cm\"", "r = \"2 to 2 cm\"", "2 to 2", "body.r", "no extent", "lower end"},
     {"r = \"0 to 1.5 cm\"", "r = \"0 to 2.5 cm\"", "2.5 cm", "body.filling.r", "sticks out", "r 0 to 2 cm"},
     {"x = \"1 to 4 cm\"", "x = \"1 to 6 cm\"", "1 to 6", "body.filling.x", "sticks out", "x 0 to 5 cm"},

@@ -133,7 +133,7 @@ TEST(SceneKeys, ListingTellsInputFromDefault) {
       EXPECT_EQ(key.place.line, 2);
     }
     if (key.name == "charge.crack_radius") {
-      EXPECT_EQ(key.value, "30 um");
+      EXPECT_EQ(key.value, "30 µm");
       EXPECT_EQ(letter_of(key.standing), "P");
     }
   }

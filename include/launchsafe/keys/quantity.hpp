@@ -28,7 +28,7 @@ struct Unit {
 };
 
 inline constexpr Unit centimetre{Dimension::length, "cm"}, millimetre{Dimension::length, "mm"},
-    micrometre{Dimension::length, "um"}, second{Dimension::time, "s"}, millisecond{Dimension::time, "ms"},
+    micrometre{Dimension::length, "µm"}, second{Dimension::time, "s"}, millisecond{Dimension::time, "ms"},
     megapascal{Dimension::pressure, "MPa"}, kelvin{Dimension::temperature, "K"},
     metre_per_second{Dimension::speed, "m/s"}, per_second{Dimension::frequency, "1/s"},
     percent{Dimension::share, "%"}, gram{Dimension::mass, "g"}, kilogram{Dimension::mass, "kg"},
@@ -81,9 +81,11 @@ inline std::string key_text(std::string_view text) {
   return key;
 }
 
-/// A unit within a key: of a rate it is a word.
+/// A unit within a key: of a rate it is a word, and micro is "u".
 inline std::string unit_key(std::string_view unit) {
-  return unit == per_second.name ? "per_second" : key_text(unit);
+  if (unit == per_second.name) return "per_second";
+  constexpr std::string_view micro = "µ";
+  return unit.starts_with(micro) ? "u" + key_text(unit.substr(micro.size())) : key_text(unit);
 }
 
 /// All there is to say about a quantity, apart from where its value is.

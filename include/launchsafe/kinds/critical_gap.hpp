@@ -37,7 +37,7 @@ struct CriticalGapResult {
 /// was stored before.
 CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 um, 1 mm, coupled at 0.04 cm". Journals
+/// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 µm, 1 mm, coupled at 0.04 cm". Journals
 /// of stored studies name it so.
 std::string label_with_skin(const study::CaseOutcome& outcome, double gap);
 

@@ -20,8 +20,10 @@ struct FieldCell {
 
 /// What colours mean.
 struct ColourScale {
-  std::string label;                ///< of the colour bar, with its unit
-  double minimum = 0, maximum = 0;  ///< equal ones are drawn as a range around the value
+  std::string label;  ///< of the colour bar, with its unit
+  /// Equal ones are drawn as a range around the value. Cells beyond have the last
+  /// colour, those by more than a tenth of the range a cross too.
+  double minimum = 0, maximum = 0;
 };
 
 struct Place {

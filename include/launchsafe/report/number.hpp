@@ -37,8 +37,7 @@ std::size_t display_width(std::string_view text);
 // A value with its uncertainty in digits that mean something. Rounding never makes an allowed gap larger or
 // an uncertainty smaller.
 
-/// Digits after the point with which an uncertainty (> 0) is told: one significant digit, two where the first
-/// is 1. At least 0.
+/// Digits after the point with which an uncertainty (> 0) is told: two significant digits. At least 0.
 int decimals_for(double uncertainty);
 
 /// `value` cut to so many digits after the point, towards minus infinity; what is a decimal number already
@@ -58,8 +57,7 @@ struct Measured {
   std::string text(const std::string& unit) const;
 };
 
-/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0). An
-/// uncertainty of the value's own order has two digits, or rounding would halve the value.
+/// A value that may be smaller by `minus` and larger by `plus` (both finite, >= 0, not both 0).
 Measured measured(double value, double minus, double plus);
 
 /// A critical gap between its bounds, all in cm. Nothing where one of them is not known.

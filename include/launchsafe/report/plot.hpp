@@ -34,6 +34,7 @@ enum class Style {
   line_and_points,
   vertical_bars,    ///< points with bars along y from `lower` to `upper`
   horizontal_bars,  ///< points with bars along x from `lower` to `upper`
+  filled_bars,      ///< likewise, filled, without points
   steps
 };
 
@@ -53,7 +54,7 @@ struct Series {
   std::string label = {};  ///< not in the legend when empty
   std::vector<double> x = {}, y = {};
   Style style = Style::line_and_points;
-  std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the two styles of bars
+  std::vector<double> lower = {}, upper = {};  ///< ends of the bars; only for the styles of bars
   std::optional<int> colour = {};  ///< index into the palette of eight; the series' own number where absent
   std::optional<Mark> mark = {};   ///< goes with the colour where absent
 
@@ -69,7 +70,7 @@ struct Series {
   }
 };
 
-/// A dashed line across the whole picture; `label` is its entry in the legend.
+/// A dashed line across the whole picture; `label` is its entry in the legend, or stands on it.
 struct Line {
   double at = 0;
   std::string label = {};
@@ -86,11 +87,14 @@ struct Plot {
   PlotAxis x, y;
   std::vector<Series> series = {};
   std::vector<Line> vertical_lines = {}, horizontal_lines = {};
-  int width = 800, height = 560;  ///< pixels
+  int width = 800, height = 560;  ///< pixels, with one line of a legend; further ones come on top
   std::string subtitle = {};      ///< small, below the title
-  std::vector<Band> vertical_bands = {};
-  /// Pictures side by side, row by row, each as large as it says; of the plot itself only the title is drawn.
+  std::vector<Band> vertical_bands = {}, horizontal_bands = {};
+  /// Whether lines have their labels at their right ends, in their colours, and lines across stand by theirs.
+  bool named_in_place = false;
+  /// Pictures side by side, row by row; of the plot itself only title and subtitle are drawn.
   std::vector<Plot> panels = {};
+  int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
 /// The commands and data that `to_svg` gives to gnuplot.

@@ -27,10 +27,13 @@ Quantities<std::vector<double>> axis_quantities(const study::Study& study);
 
 /// "400, 450, 496 MPa"; long lists by their ends and their number.
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values);
-/// "uniform from 400 to 600 MPa", "normal, 30 +- 5 um, cut off at 10 and 50 um".
+/// "uniform from 400 to 600 MPa", "normal, 30 ± 5 µm, cut off at 10 and 50 µm".
 std::string distribution_text(const ShownKey& key, const math::Distribution& distribution);
 
-/// "600 MPa, 30 um": where a case lies; empty without coordinates.
+/// Of a key's name, in a picture: "face friction" of "charge.face_friction".
+std::string plain_words(std::string name);
+
+/// "600 MPa, 30 µm": where a case lies; empty without coordinates.
 std::string place_text(const std::vector<ShownKey>& keys, const std::vector<double>& coordinates);
 
 }  // namespace launchsafe::report

@@ -54,7 +54,7 @@ std::int64_t counted(double count);
 
 /// Smallest whole number of parts no longer than `part` that make up `length`; at least 1. A part that
 /// divides the length up to a relative 1e-9 counts as dividing it.
-/// Extents are at most 10 m and cells at least 10 um, so that the number is far below 2^31.
+/// Extents are at most 10 m and cells at least 10 µm, so that the number is far below 2^31.
 int parts_of(double length, double part);
 
 /// The charge (without one, the whole scene) is a whole number of cells long and the outer radius a whole

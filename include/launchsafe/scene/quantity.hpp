@@ -63,7 +63,7 @@ double in_unit(double value_si, Dimension dimension, std::string_view unit);
 int power_of(Dimension dimension, std::string_view unit);
 /// A value with its decimal point moved: the double nearest to its shortest decimal times ten to the power.
 double shifted_point(double value, int power);
-/// A value in a unit that is a power of ten of the SI unit, as if it had been written so: 3e-05 m is 30 um,
+/// A value in a unit that is a power of ten of the SI unit, as if it had been written so: 3e-05 m is 30 µm,
 /// to the last digit.
 double as_written(double value_si, Dimension dimension, std::string_view unit);
 

@@ -20,7 +20,7 @@ inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double assumed_numerical_uncertainty = 60.0;
 /// One mechanical run of a study: a complete, valid scene.
 struct StudyCase {
-  std::string label;           ///< "496 MPa, 30 um, 1 mm", or "2.5 mm" for the mesh of a calibration
+  std::string label;           ///< "496 MPa, 30 µm, 1 mm", or "2.5 mm" for the mesh of a calibration
   double peak_pressure = 0;    ///< Pa
   double crack_radius = 0;     ///< m
   double flaw_size = 0;        ///< m

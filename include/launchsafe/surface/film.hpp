@@ -11,9 +11,9 @@ namespace launchsafe::surface {
 
 /// How finely columns are resolved. Both orders are second.
 struct FilmNumerics {
-  std::size_t charge_cells = 40;  ///< from 0.4 um at the surface over a launch of 18 ms to 300 um deep
+  std::size_t charge_cells = 40;  ///< from 0.4 µm at the surface over a launch of 18 ms to 300 µm deep
   std::size_t gas_cells = 32;     ///< by mass, from 0.3 % of it at each wall
-  std::size_t base_cells = 24;    ///< from 8 um at the surface to 3.5 mm deep
+  std::size_t base_cells = 24;    ///< from 8 µm at the surface to 3.5 mm deep
   double tolerance = 1e-5;        ///< local error of a step, relative to the temperature
   int fixed_steps = 0;            ///< steps in each interval of the trace; 0: by the tolerance
 };
