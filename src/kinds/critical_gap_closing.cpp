@@ -171,8 +171,12 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
   const CaseOutcome& outcome = result.details.front();
   report::Plot plot;
-  plot.title = "Highest temperature where the gap closes";
-  plot.subtitle = "what ignites is drawn above the ignition temperature";
+  plot.title = "Critical gap by the reservoir: " + report::reads_as(outcome.critical);
+  for (const ClosingAnswer& answer : outcome.closing)
+    if (!std::isnan(answer.upper))
+      plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": " +
+                       report::reads_as(critical_gap_of(answer));
+  plot.named_in_place = true;
   plot.x.label = quantity::gap().label();
   plot.y.label = quantity::temperature_max().label();
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
@@ -189,8 +193,8 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
         series.add(report::shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
     plot.series.push_back(std::move(series));
   }
-  plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
+  const std::string at = report::in_words(ignition, keys::significant(4, keys::kelvin));
+  plot.horizontal_lines.push_back({ignition, "ignition: " + at + "; what ignites is drawn above"});
   return plot;
 }
 

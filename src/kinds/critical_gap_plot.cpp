@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,13 +33,16 @@ void give_look(std::size_t index, Series& series) {
   series.mark = looks[(index + index / looks.size()) % looks.size()];
 }
 
-/// What did not ignite, with its uncertainty: the model form, whose sign is known, counts upwards alone.
-Series inert_series(const CaseOutcome& outcome, const std::string& label) {
+/// What did not ignite, of one verdict or of all, with its uncertainty: the model form, whose sign is known,
+/// counts upwards alone.
+Series inert_series(const CaseOutcome& outcome, const std::string& label,
+                    std::optional<study::Verdict> verdict = {}) {
   Series series{label, {}, {}, Style::vertical_bars};
   if (!outcome.completed()) return series;  // temperatures of a part of the launch
   for (const study::GapVerdict& row : outcome.verdicts) {
     const double temperature = row.maximum.temperature;
     if (row.ignition || !std::isfinite(temperature)) continue;
+    if (verdict && row.judgement.verdict != *verdict) continue;
     const study::Uncertainty& uncertainty = row.uncertainty;
     series.x.push_back(shown_gap(row.gap));
     series.y.push_back(temperature);
@@ -68,29 +72,67 @@ Series fitted_line(const study::GapFit& fit, const std::string& label) {
   return line;
 }
 
-void add_case(const CriticalGapResult& result, std::size_t index, Plot& plot) {
-  const CaseOutcome& outcome = result.details[index];
-  const bool only = result.details.size() == 1;
-  if (outcome.fit) {
-    Series line = fitted_line(*outcome.fit, only ? "least squares" : "");
-    line.colour = only ? 7 : static_cast<int>(index);
-    plot.series.push_back(std::move(line));
+void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, Plot& plot) {
+  if (!outcome.fit) return;
+  plot.series.push_back(fitted_line(*outcome.fit, label));
+  plot.series.back().colour = colour;
+}
+
+/// The only case, in a colour for each verdict.
+void add_only_case(const CaseOutcome& outcome, Plot& plot) {
+  constexpr int grey = 7, green = 2, orange = 4, vermilion = 1;
+  add_fit(outcome, "least squares", grey, plot);
+  for (const auto& [verdict, colour] :
+       {std::pair{study::Verdict::safe, green}, {study::Verdict::indeterminate, orange}}) {
+    Series inert = inert_series(outcome, study::to_string(verdict), verdict);
+    inert.colour = colour;
+    inert.mark = Mark::circle;
+    if (!inert.x.empty()) plot.series.push_back(std::move(inert));
   }
-  Series inert = inert_series(outcome, only ? "computed, with its uncertainty" : outcome.input.label);
+  Series ignited = ignited_series(outcome);
+  ignited.colour = vermilion;
+  ignited.mark = Mark::cross;
+  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+}
+
+/// One of several, in a colour of its own.
+void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
+  add_fit(outcome, "", static_cast<int>(index), plot);
+  Series inert = inert_series(outcome, outcome.input.label);
   give_look(index, inert);
   Series ignited = ignited_series(outcome);
-  if (inert.x.empty() && !only) ignited.label = outcome.input.label + ": ignites";
+  if (inert.x.empty()) ignited.label = outcome.input.label + ": ignites";
   if (!inert.x.empty()) plot.series.push_back(std::move(inert));
   give_look(index, ignited);
   ignited.mark = Mark::cross;
   if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
 }
 
+/// The axis ends above the ignition temperature: how hot a burning skin is says nothing of the gap. What is
+/// hotter stands at that end.
+void cut_above(double ignition, Plot& plot) {
+  double lowest = ignition;
+  for (const Series& series : plot.series)
+    for (const double temperature : series.y) lowest = std::min(lowest, temperature);
+  const double top = ignition + std::max(0.25 * (ignition - lowest), 20.0);
+  for (Series& series : plot.series)
+    for (double& temperature : series.y) temperature = std::min(temperature, top);
+  plot.y.maximum = top;
+}
+
+/// What the picture shows of the only case, with its numbers.
+std::string finding_of(const CaseOutcome& outcome) {
+  const double safe = study::largest_safe_gap(outcome.verdicts);
+  return fmt::format("Critical gap {}; {}", report::reads_as(outcome.critical),
+                     std::isfinite(safe) ? "of the computed gaps SAFE up to " + report::centimetres(safe)
+                                         : "none of the computed gaps is SAFE");
+}
+
 /// One entry of the legend for the ignitions of all cases.
 void name_ignitions(Plot& plot) {
   const auto first = std::ranges::find_if(
       plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
-  if (first != plot.series.end()) first->label = "ignites: of the burning skin";
+  if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
 }
 
 /// Where no case has the launch that was published there is nothing to compare; under constants that miss the
@@ -138,17 +180,20 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
 }  // namespace
 
 Plot temperature_plot(const CriticalGapResult& result) {
+  const bool only = result.details.size() == 1;
   Plot plot;
-  plot.title = "Highest temperature of the charge bottom";
+  plot.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom";
   plot.x.label = report::quantity::gap().label();
   plot.y.label = report::quantity::temperature_max().label();
   // The legend stands below and takes two cases a line.
   plot.height = 600 + 14 * static_cast<int>(result.details.size());
-  for (std::size_t i = 0; i < result.details.size(); ++i) add_case(result, i, plot);
+  for (std::size_t i = 0; i < result.details.size(); ++i)
+    only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
   name_ignitions(plot);
   add_published(result, plot);
-  if (result.details.size() == 1) add_critical_gap(result.details.front(), plot);
+  if (only) add_critical_gap(result.details.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
+  cut_above(ignition, plot);
   plot.horizontal_lines.push_back(
       {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
   return plot;

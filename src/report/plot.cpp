@@ -227,11 +227,11 @@ Places places_along(const Plot& plot, const PlotAxis& axis, std::vector<double> 
   return places;
 }
 
-/// What a line is called, where it ends.
+/// What a line is called, beside the plot at the height where it ends.
 struct EndName {
   std::string text;
   std::string_view colour;
-  double x = 0, place = 0;  ///< place: along y, 0 to 1
+  double place = 0;  ///< along y, 0 to 1
 };
 
 /// From the lowest to the highest, no two on each other.
@@ -242,7 +242,7 @@ std::vector<EndName> names_at_ends(const Plot& plot, const Places& along_y) {
     if (!named_at_end(plot, series)) continue;
     for (std::size_t k = series.x.size(); k-- > 0;)
       if (drawable(series.x[k], plot.x.scale) && drawable(series.y[k], plot.y.scale)) {
-        names.push_back({series.label, colour_of(series, i), series.x[k], along_y.of(series.y[k])});
+        names.push_back({series.label, colour_of(series, i), along_y.of(series.y[k])});
         break;
       }
   }
@@ -260,16 +260,12 @@ std::vector<EndName> names_at_ends(const Plot& plot, const Places& along_y) {
 /// Characters beside the plot, where lines are named at their ends.
 std::size_t right_margin(std::size_t longest_name) { return 3 + 17 * longest_name / 20; }
 
-/// By how many letters the names at the ends of lines are longer than the plot goes on behind them.
+/// Letters of the longest name of a line.
 std::size_t longest_end_name(const Plot& plot) {
-  const Places along_x = places_along(plot, plot.x, &Series::x, plot.vertical_lines),
-               along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
-  const double letters = (plot.width - 200.0) / letter;
-  double longest = 0;
-  for (const EndName& name : names_at_ends(plot, along_y))
-    longest = std::max(longest,
-                       static_cast<double>(display_width(name.text)) - (1.0 - along_x.of(name.x)) * letters);
-  return static_cast<std::size_t>(longest);
+  std::size_t longest = 0;
+  for (const Series& series : plot.series)
+    if (named_at_end(plot, series)) longest = std::max(longest, display_width(series.label));
+  return longest;
 }
 
 /// `width`: letters of the names at the right.
@@ -279,8 +275,8 @@ std::string names_in_place(const Plot& plot, std::size_t width) {
                along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
   std::string text;
   for (const EndName& name : names_at_ends(plot, along_y))
-    text += fmt::format("set label {} at first {}, first {} left offset 1, 0 front textcolor rgb '{}'\n",
-                        quoted(name.text), exact(name.x), exact(along_y.at(name.place)), name.colour);
+    text += fmt::format("set label {} at graph 1, first {} left offset 1, 0 front textcolor rgb '{}'\n",
+                        quoted(name.text), exact(along_y.at(name.place)), name.colour);
   for (const Line& line : plot.horizontal_lines)
     text +=
         fmt::format("set label {} at graph 0.01, first {} left offset 0, 0.6 front textcolor rgb '#444444'\n",

@@ -133,16 +133,17 @@ TEST_F(OwnFolder, EarlierReportsGoWhereNobodyElsesFilesAre) {
 }
 
 TEST_F(OwnFolder, FilesThatANewReportLacksMoveAside) {
-  ASSERT_EQ(study().code, 0);
-  const std::string picture = read("out/critical_gap.svg");
+  write("study.toml", sweep_study.substr(0, sweep_study.find("[[vary]]")));  // one case, drawn whatever it is
+  study();
+  const std::string picture = read("out/temperature.svg");
   if (picture.empty()) GTEST_SKIP() << "no gnuplot";
   // Found nowhere, so that the report has no picture; a page that is gone makes it be written again.
   fs::remove(folder() / "out/report.md");
   before_start([] { ::setenv("PATH", "/nowhere", 1); });
-  const Outcome again = study();
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_FALSE(exists("out/critical_gap.svg")) << "it is not of this report";
-  EXPECT_EQ(read("out/earlier-1/critical_gap.svg"), picture);
+  study();
+  EXPECT_TRUE(exists("out/report.md"));
+  EXPECT_FALSE(exists("out/temperature.svg")) << "it is not of this report";
+  EXPECT_EQ(read("out/earlier-1/temperature.svg"), picture);
 }
 
 TEST_F(OwnFolder, MayBeALink) {

@@ -133,17 +133,24 @@ TEST(CriticalGapReport, WhatFollowsIgnitionUnderScaledInertiaIsIndicative) {
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   const CriticalGapResult result = one_case();
   const report::Plot plot = kinds::temperature_plot(result);
-  const report::Series* computed = series_named(plot, "computed, with its uncertainty");
-  ASSERT_NE(computed, nullptr);
-  EXPECT_EQ(computed->style, report::Style::vertical_bars);
-  ASSERT_EQ(computed->x, (std::vector<double>{0.0, 3.0e-4 * 100.0})) << "those that do not ignite";
-  const Uncertainty& uncertainty = result.details.front().verdicts[1].uncertainty;
-  EXPECT_NEAR(computed->upper[1] - computed->y[1], uncertainty.total(), 1e-9);
+  std::vector<double> inert;
+  for (const report::Series& series : plot.series)
+    if (series.style == report::Style::vertical_bars)
+      inert.insert(inert.end(), series.x.begin(), series.x.end());
+  std::ranges::sort(inert);
+  ASSERT_EQ(inert, (std::vector<double>{0.0, 3.0e-4 * 100.0})) << "those that do not ignite";
+  const GapVerdict& row = result.details.front().verdicts[1];
+  const report::Series* computed = series_named(plot, study::to_string(row.judgement.verdict));
+  ASSERT_NE(computed, nullptr) << "in the colour of its verdict";
+  EXPECT_NEAR(computed->upper.back() - computed->y.back(), row.uncertainty.total(), 1e-9);
   // The model form moves towards ignition alone; the study states 1 K.
-  EXPECT_NEAR(computed->y[1] - computed->lower[1], uncertainty.total() - 1.0, 1e-9);
-  const report::Series* ignited = series_named(plot, "ignites: of the burning skin");
+  EXPECT_NEAR(computed->y.back() - computed->lower.back(), row.uncertainty.total() - 1.0, 1e-9);
+  const report::Series* ignited = series_named(plot, "ignites; the burning skin is hotter than shown");
   ASSERT_NE(ignited, nullptr);
   EXPECT_EQ(ignited->style, report::Style::points) << "no uncertainty is known of it";
+  ASSERT_TRUE(plot.y.maximum);
+  EXPECT_GT(*plot.y.maximum, 526.784) << "the ignition temperature";
+  EXPECT_LT(*plot.y.maximum, 784.0) << "that of a burnt skin";
   const CriticalGap& critical = result.details.front().critical;
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
   // The same words and ends as in a safety report: rounded away from the value.

@@ -159,7 +159,7 @@ TEST(Plot, LinesAreNamedAtTheirEndsNoNameOnAnother) {
             std::string::npos)
       << text;
   const auto height_of = [&](const char* name) {
-    const std::string words = std::string("set label \"") + name + "\" at first 0.03, first ";
+    const std::string words = std::string("set label \"") + name + "\" at graph 1, first ";
     const std::size_t at = text.find(words);
     return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
   };
