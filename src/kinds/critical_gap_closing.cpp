@@ -173,9 +173,9 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   report::Plot plot;
   plot.title = "Critical gap by the reservoir: " + report::reads_as(outcome.critical);
   for (const ClosingAnswer& answer : outcome.closing)
-    if (!std::isnan(answer.upper))
-      plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": " +
-                       report::reads_as(critical_gap_of(answer));
+    if (std::isfinite(answer.upper))
+      plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
+                       report::centimetres(answer.upper);
   plot.named_in_place = true;
   plot.x.label = quantity::gap().label();
   plot.y.label = quantity::temperature_max().label();
