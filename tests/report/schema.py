@@ -65,7 +65,7 @@ def broken(report):
         return made
 
     yield "no format", without("format")
-    yield "another format", other("launchsafe safety report 3", "format")
+    yield "another format", other("launchsafe safety report 4", "format")
     yield "no recommended gap", without("answer", "recommended_gap_cm")
     yield "a gap as text", other("0.02 cm", "answer", "largest_safe_gap_cm")
     yield "a gap beside the others", other(0.02, "answer", "allowed_gap_cm")
