@@ -281,10 +281,9 @@ report::Report report_of(const CalibrationResult& result) {
   report.items.push_back(ReportTable{
       table_of("From the coarsest to the finest mesh", convergence_quantities(), result.convergence), "",
       "convergence"});
-  for (std::size_t row = 0; row < result.rows.size(); ++row) {
-    const Shown shown = result.recommendation.row == row ? Shown::page_and_terminal : Shown::page;
-    report.items.push_back(ReportTable{.table = compared_table(result, result.rows[row]), .shown = shown});
-  }
+  // Of the row that is recommended; the file has all.
+  if (const CalibrationRow* row = result.recommended())
+    report.items.push_back(ReportTable{compared_table(result, *row)});
   report.items.push_back(ReportTable{table_of_all(result, compared_quantities(), &CalibrationRow::compared),
                                      "compared.csv", "compared", Shown::file});
   report.items.push_back(

@@ -72,10 +72,12 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
          unless_own([](const CaseRow& row) {
            return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
          })},
-        {quantity::processor_time(), [](const CaseRow& row) { return row.compared().processor_time; }},
-        {quantity::particles(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
-        {quantity::steps(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
-        {quantity::energy_drift(), &CaseRow::compared, &CaseAnswer::run, &RunSummary::energy_drift},
+        {for_programs(quantity::processor_time()),
+         [](const CaseRow& row) { return row.compared().processor_time; }},
+        {for_programs(quantity::particles()), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
+        {for_programs(quantity::steps()), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::energy_drift()), &CaseRow::compared, &CaseAnswer::run,
+         &RunSummary::energy_drift},
         {quantity::reason(), [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared();
            return answer.completed() ? to_string(answer.critical.reason) : answer.failure;

@@ -37,7 +37,8 @@ Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
   for (const auto& [column, value] : fixed_values) {
     const auto axis = std::ranges::find(study.study.axes, column.name, &study::Axis::name);
     if (axis == study.study.axes.end())
-      launch.emplace_back(column, [value = value](const std::vector<double>&) { return value; });
+      launch.emplace_back(for_programs(column),
+                          [value = value](const std::vector<double>&) { return value; });
     else
       launch.push_back(axes[static_cast<std::size_t>(axis - study.study.axes.begin())]);
   }
@@ -98,12 +99,13 @@ Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
 Quantities<AnsweredCase> run_quantities(const std::vector<double>& gaps) {
   return keys::joined<AnsweredCase>(
       {outer_gap_quantities(gaps),
-       {{quantity::status(), [](const AnsweredCase& row) { return status_of(*row.answer); }},
-        {quantity::energy_drift(), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::energy_drift},
+       {{for_programs(quantity::status()), [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {for_programs(quantity::energy_drift()), &AnsweredCase::answer, &CaseAnswer::run,
+         &RunSummary::energy_drift},
         {for_programs(quantity::steps()), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::steps},
         {for_programs(quantity::particles()), &AnsweredCase::answer, &CaseAnswer::run,
          &RunSummary::particles},
-        {quantity::limiters(),
+        {for_programs(quantity::limiters()),
          [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 

@@ -109,8 +109,6 @@ namespace {
 
 /// Below this share of the variance with all interactions an input does not matter.
 constexpr double negligible_share = 0.05;
-/// Evaluations on the page; the file has all.
-constexpr std::size_t most_evaluation_rows = 200;
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
@@ -244,8 +242,8 @@ report::Report report_of(const SensitivityResult& result) {
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{said_below("sensitivity.rests")});
   report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::page,
-                                     most_evaluation_rows});
+  report.items.push_back(
+      ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
   if (has_fit(result) && !result.outputs.empty())
     report.files = surrogate_files(surrogate_record(result), result.study);
   report.json = study_json(result.study, report,

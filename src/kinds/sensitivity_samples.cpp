@@ -226,7 +226,7 @@ report::Quantities<QuantileRow> quantile_quantities() {
       {{"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws."},
        &QuantileRow::share},
       {for_programs(quantity::critical_gap()), &QuantileRow::gap},
-      {headed("critical gap", quantity::critical_gap_reads_as()), &QuantileRow::gap_reads_as},
+      {quantity::critical_gap_reads_as(), &QuantileRow::gap_reads_as},
       {quantity::temperature_max(), [](const QuantileRow& row) { return report::known(row.temperature); }}};
 }
 

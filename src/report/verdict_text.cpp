@@ -96,7 +96,7 @@ Quantities<LimitRow> limit_quantities() {
        &study::CitedLimit::source},
       {headed("computed at", quantity::peak_pressure()), &LimitRow::input, &study::StudyCase::peak_pressure},
       {quantity::case_name(), &LimitRow::input, &study::StudyCase::label},
-      {quantity::critical_gap(), &LimitRow::critical, value_of},
+      {for_programs(quantity::critical_gap()), &LimitRow::critical, value_of},
       {quantity::critical_gap_reads_as(), &LimitRow::critical, reads_as},
       {{"difference", "computed minus cited", significant(2, centimetre),
         "Critical gap minus the limit, where the pressures agree."},
@@ -197,21 +197,23 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
       {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
                            "Share of reaction in the heating rate at ignition."}),
        &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::chemical_share},
-      {skin_took(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::taken},
-      {compression_supplies(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::supplied},
-      {taken_over_supplied(), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::ratio}};
+      {for_programs(skin_took()), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::taken},
+      {for_programs(compression_supplies()), &VerdictRow::gap, &study::GapVerdict::air,
+       &surface::AirEnergy::supplied},
+      {for_programs(taken_over_supplied()), &VerdictRow::gap, &study::GapVerdict::air,
+       &surface::AirEnergy::ratio}};
 }
 
 Quantities<study::CriticalGap> critical_gap_quantities() {
   using study::CriticalGap, keys::significant;
-  return {{quantity::critical_gap_kind(), &CriticalGap::kind},
-          {quantity::critical_gap(), value_of},
+  return {{for_programs(quantity::critical_gap_kind()), &CriticalGap::kind},
+          {for_programs(quantity::critical_gap()), value_of},
           {quantity::critical_gap_reads_as(), reads_as},
-          {{"critical_gap_lower", "no ignition", significant(6, centimetre),
-            "Lower end of the bracket: the largest gap there that does not ignite."},
+          {for_programs(Column{"critical_gap_lower", "no ignition", significant(6, centimetre),
+                               "Lower end of the bracket: the largest gap there that does not ignite."}),
            &CriticalGap::lower},
-          {{"critical_gap_upper", "ignites", significant(6, centimetre),
-            "Upper end of the bracket: the smallest gap there that ignites."},
+          {for_programs(Column{"critical_gap_upper", "ignites", significant(6, centimetre),
+                               "Upper end of the bracket: the smallest gap there that ignites."}),
            &CriticalGap::upper}};
 }
 

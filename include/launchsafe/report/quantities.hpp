@@ -112,7 +112,7 @@ inline Column critical_gap_kind() {
   return {"critical_gap_kind", "kind", text(), "Whether the search gave a value, a bound, or nothing."};
 }
 inline Column critical_gap_reads_as() {
-  return {"critical_gap_reads_as", "reads as", text(), "The critical gap or its bound in words."};
+  return {"critical_gap_reads_as", "critical gap", text(), "The critical gap or its bound in words."};
 }
 
 /// By which a report finds the setting of an accuracy study that a case was computed with.
