@@ -2,7 +2,8 @@
 """The shipped safety reports in a browser, on a phone, a laptop and A4 paper; needs chromium.
 
 A copy of the page is laid out in a frame of each width by a script of this test, which measures it: nothing may reach
-beyond the frame, every figure must say what it shows, text must stand out (WCAG 2.1, ratio 4.5), nothing may be fetched,
+beyond the frame, no letter be smaller than 11 pixels on a screen, the answer fill one page of paper at the most, every
+figure must say what it shows, text must stand out (WCAG 2.1, ratio 4.5), nothing may be fetched,
 and markup in a title must be shown and not obeyed. Usage: browser.py LAUNCHSAFE SOURCE_DIR; 77 without chromium.
 """
 import hashlib
@@ -16,7 +17,8 @@ import sys
 import tempfile
 
 # Width in CSS pixels; paper: 210 mm less the margins of 15 mm at both sides.
-VIEWS = {"phone": (360, False), "laptop": (1366, False), "A4": (680, True)}
+VIEWS = {"phone": (390, False), "tablet": (768, False), "laptop": (1280, False), "A4": (680, True)}
+PAGE = 1031  # pixels: 297 mm less the margins of 12 mm
 MARKUP = "<script>document.title='obeyed'</script><b>bold</b> & \"quotes\""
 
 MEASURE = """
@@ -31,7 +33,7 @@ function background(element) {
   return [255, 255, 255];
 }
 function measure(frame) {
-  const page = frame.contentDocument, width = frame.clientWidth, found = {wide: [], dim: [], mute: [], lowest: 99};
+  const page = frame.contentDocument, width = frame.clientWidth, found = {wide: [], dim: [], mute: [], lowest: 99, smallest: 99};
   for (const e of page.body.querySelectorAll('*')) {
     const box = e.getBoundingClientRect(), style = frame.contentWindow.getComputedStyle(e);
     if (box.width === 0 || style.position === 'absolute' || e.closest('thead') && box.width < 2) continue;
@@ -39,6 +41,7 @@ function measure(frame) {
         'absolute') && (box.right > width + 1 || box.left < -1)) found.wide.push(e.tagName + ' ' + e.textContent.slice(0, 40));
     const own = [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim());
     if (own) {
+      found.smallest = Math.min(found.smallest, parseFloat(style.fontSize));
       const a = luminance(channels(style.color)), b = luminance(background(e));
       const ratio = (Math.max(a, b) + .05) / (Math.min(a, b) + .05);
       found.lowest = Math.min(found.lowest, ratio);
@@ -50,6 +53,7 @@ function measure(frame) {
     }
   }
   found.page = page.documentElement.scrollWidth;
+  found.answer = page.getElementById('answer').getBoundingClientRect().bottom;
   found.title = page.title;
   found.scripts = page.scripts.length;
   found.bold = page.querySelectorAll('header b').length;
@@ -115,6 +119,11 @@ def main():
                 faults += [f"{report}, {view}: {what}: {found[what][:5]}" for what in ("wide", "dim", "mute") if found[what]]
                 if found["page"] > VIEWS[view][0] + 1:
                     faults.append(f"{report}, {view}: the page is {found['page']} wide")
+                paper = VIEWS[view][1]
+                if not paper and found["smallest"] < 11:
+                    faults.append(f"{report}, {view}: letters of {found['smallest']} pixels")
+                if paper and report != "markup" and found["answer"] > PAGE:
+                    faults.append(f"{report}, {view}: the answer takes {found['answer']} of {PAGE} pixels")
                 if found["images"] == 0 or found["scripts"] or found["bold"] or "obeyed" == found["title"]:
                     faults.append(f"{report}, {view}: figures {found['images']}, scripts {found['scripts']}, {found['title']}")
                 if report == "markup" and MARKUP not in found["title"]:
