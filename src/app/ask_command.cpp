@@ -8,10 +8,8 @@
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/surrogate.hpp"
-#include "terminal_width.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>

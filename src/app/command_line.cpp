@@ -1,9 +1,7 @@
-#include "command_line.hpp"
-
 #include "command_help.hpp"
+#include "commands.hpp"
 #include "common_options.hpp"
 #include "launchsafe/scene/input_error.hpp"
-#include "shell_words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// The subcommands: what each is given, and what `perform` does with it. Each lives in a file of its own.
+// The command line: what can be written on it, and what `perform` does with it. Each subcommand lives in a
+// file of its own.
 #pragma once
 
 #include "console.hpp"
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::app {
@@ -122,5 +124,28 @@ struct ReportArguments {
   report::DocumentHead document;
 };
 ExitCode perform(const ReportArguments& arguments, Console& console);
+
+/// What `--help` or `--version` asks for.
+struct Information {
+  std::string help;
+  bool version = false;  ///< it is the version that is asked for
+};
+/// Why the command line makes no sense.
+struct UsageError {
+  std::string message;
+};
+
+using Request = std::variant<Information, UsageError, RunArguments, StudyArguments, StatusArguments,
+                             MergeArguments, EmitArguments, VerifyArguments, ExplainArguments, PlotArguments,
+                             InitArguments, ImportCurveArguments, ReportArguments, AskArguments>;
+
+struct CommandLine {
+  Request request;
+  std::string command;  ///< "run"; empty where there is none
+  bool quiet = false;
+  bool json = false;  ///< also where the rest of the command line makes no sense
+};
+
+CommandLine parse_command_line(int argument_count, const char* const* arguments);
 
 }  // namespace launchsafe::app

@@ -1,14 +1,16 @@
 #include "console.hpp"
 
-#include "descriptors.hpp"
-
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
+#include <cstdlib>
 
 namespace launchsafe::app {
 namespace {
@@ -28,18 +30,52 @@ nlohmann::ordered_json or_null(const Part& part) {
   return part == Part{} ? nlohmann::ordered_json() : nlohmann::ordered_json(part);
 }
 
-void say(std::string_view text) { write_or_drop(STDERR_FILENO, text); }
+bool is_closed(int descriptor) { return ::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF; }
+
+/// Writes all of the text: 0, or the number of the error that kept the rest from being written. `wait`: where
+/// the descriptor is a full pipe that does not block.
+int write_to(int descriptor, std::string_view text, bool wait) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written >= 0) {
+      text.remove_prefix(static_cast<std::size_t>(written));
+    } else if (errno == EAGAIN && wait) {
+      pollfd full{descriptor, POLLOUT, 0};
+      ::poll(&full, 1, -1);
+    } else if (errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+/// On stderr; what cannot be written is dropped.
+void say(std::string_view text) { write_to(STDERR_FILENO, text, false); }
+
+/// Errors that a file system only tells of when a descriptor is closed. 0, or the error's number; the
+/// descriptor stays open.
+int late_error_of(int descriptor) {
+  const int copy = ::dup(descriptor);
+  if (copy < 0) return 0;
+  return ::close(copy) == 0 ? 0 : errno;
+}
+
+using namespace std::chrono_literals;
+
+bool can_move_its_cursor() {
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+bool is_plain(char letter) {
+  constexpr std::string_view plain = "_-./,:+=@%";
+  const auto code = static_cast<unsigned char>(letter);
+  return (code < 128 && std::isalnum(code) != 0) || plain.find(letter) != std::string_view::npos;
+}
 
 }  // namespace
 
-Console::Console(bool quiet, bool json)
-    : quiet_(quiet),
-      json_(json),
-      object_(std::make_unique<nlohmann::ordered_json>(nlohmann::ordered_json::object())) {
-  owed() = json;
-}
-
-Console::~Console() = default;
+Console::Console(bool quiet, bool json) : quiet_(quiet), json_(json) { owed() = json; }
 
 void Console::print_text(std::string_view text) {
   if (!json_) write_result(text);
@@ -47,7 +83,7 @@ void Console::print_text(std::string_view text) {
 
 void Console::print_json(nlohmann::ordered_json members) {
   if (!json_) return;
-  for (auto& [key, value] : members.items()) (*object_)[key] = std::move(value);
+  for (auto& [key, value] : members.items()) object_[key] = std::move(value);
 }
 
 void Console::remark(std::string_view text) const {
@@ -72,20 +108,20 @@ ExitCode Console::end_with(const store::Error& error) {
 void Console::add_error(const std::string& message, const scene::InputError& parts) {
   say(fmt::format("launchsafe: {}\n", message));
   if (!json_) return;
-  if (object_->contains("error")) {
+  if (object_.contains("error")) {
     // The first one is the cause; what followed from it is told with it.
-    auto& told = (*object_)["error"]["message"];
+    auto& told = object_["error"]["message"];
     told = told.get<std::string>() + "; " + message;
     return;
   }
-  (*object_)["error"] = {{"message", message},
-                         {"file", or_null(parts.file)},
-                         {"line", or_null(parts.line)},
-                         {"column", or_null(parts.column)},
-                         {"key", or_null(parts.key)},
-                         {"found", or_null(parts.found)},
-                         {"allowed", or_null(parts.allowed)},
-                         {"suggestion", or_null(parts.suggestion)}};
+  object_["error"] = {{"message", message},
+                      {"file", or_null(parts.file)},
+                      {"line", or_null(parts.line)},
+                      {"column", or_null(parts.column)},
+                      {"key", or_null(parts.key)},
+                      {"found", or_null(parts.found)},
+                      {"allowed", or_null(parts.allowed)},
+                      {"suggestion", or_null(parts.suggestion)}};
 }
 
 void Console::failures(const std::vector<kinds::Failure>& failures) {
@@ -95,7 +131,7 @@ void Console::failures(const std::vector<kinds::Failure>& failures) {
   if (named < failures.size())
     say(fmt::format("launchsafe: and {} more cases failed\n", failures.size() - named));
   if (!json_ || failures.empty()) return;
-  auto& list = (*object_)["failures"];
+  auto& list = object_["failures"];
   for (const kinds::Failure& failure : failures)
     list.push_back({{"case", failure.label}, {"reason", failure.reason}});
 }
@@ -103,7 +139,7 @@ void Console::failures(const std::vector<kinds::Failure>& failures) {
 ExitCode Console::finish(ExitCode code) {
   if (json_) {
     const std::string text =
-        object_->dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+        object_.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     owed() = false;
     write_result(text);
   }
@@ -115,14 +151,69 @@ ExitCode Console::finish(ExitCode code) {
 }
 
 void Console::write_result(std::string_view text) {
-  const int error = write_all(STDOUT_FILENO, text);
+  const int error = write_to(STDOUT_FILENO, text, true);
   output_lost_ = output_lost_ || (error != 0 && error != EPIPE);
 }
 
 ExitCode fail_at_once(const char* message) {
   for (const char* part : {"launchsafe: ", message, "\n"}) say(part);
-  if (owed().exchange(false)) write_all(STDOUT_FILENO, "{\"error\": {\"message\": \"internal error\"}}\n");
+  if (owed().exchange(false))
+    write_to(STDOUT_FILENO, "{\"error\": {\"message\": \"internal error\"}}\n", true);
   return ExitCode::failed;
+}
+
+void reserve_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (!is_closed(descriptor)) continue;
+    // The lowest free number is given away first, which is this one.
+    const int mode = descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY;
+    if (::open("/dev/null", mode) < 0) ::open("/", O_RDONLY | O_DIRECTORY);
+  }
+}
+
+std::optional<std::size_t> terminal_width(int descriptor) {
+  struct winsize size {};
+  if (::isatty(descriptor) != 1 || ::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+    return std::nullopt;
+  return size.ws_col;
+}
+
+std::size_t width_of_output() { return terminal_width(STDOUT_FILENO).value_or(0); }
+
+Progress::Progress(bool quiet)
+    : quiet_(quiet),
+      in_place_(can_move_its_cursor()),
+      pause_(in_place_ ? 200ms : 10s),
+      last_(std::chrono::steady_clock::now() - (in_place_ ? pause_ : 0s)) {}
+
+Progress::~Progress() {
+  const std::lock_guard lock(mutex_);
+  if (shown_) say("\r\x1b[K");
+}
+
+void Progress::show(const std::string& line) {
+  if (quiet_) return;
+  const std::lock_guard lock(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < pause_) return;
+  last_ = now;
+  shown_ = in_place_;
+  // A line that wraps cannot be rewritten.
+  const std::size_t width = terminal_width(STDERR_FILENO).value_or(80) - 1;
+  say(in_place_ ? fmt::format("\r{}\x1b[K", line.substr(0, width)) : line + "\n");
+}
+
+std::string shell_quoted(std::string_view word) {
+  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return std::string(word);
+  std::string quoted = "'";
+  for (const char letter : word) quoted += letter == '\'' ? R"('\'')" : std::string(1, letter);
+  return quoted + "'";
+}
+
+std::string shell_command(const std::vector<std::string>& words) {
+  std::string command;
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + shell_quoted(word);
+  return command;
 }
 
 }  // namespace launchsafe::app

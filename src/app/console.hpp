@@ -1,13 +1,17 @@
-// Where a command's words go: results to stdout, everything else to stderr; and the exit codes.
+// Where a command's words go: results to stdout, everything else to stderr, progress in place on a terminal;
+// the exit codes; and commands that a person can copy into a shell.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/store/result.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
-#include <memory>
+#include <chrono>
+#include <cstddef>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +33,6 @@ enum class ExitCode {
 class Console {
  public:
   Console(bool quiet, bool json);
-  ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
@@ -66,7 +69,7 @@ class Console {
   bool quiet_;
   bool json_;
   bool output_lost_ = false;
-  std::unique_ptr<nlohmann::ordered_json> object_;
+  nlohmann::ordered_json object_ = nlohmann::ordered_json::object();
 
   void write_result(std::string_view text);
   void add_error(const std::string& message, const scene::InputError& parts);
@@ -75,5 +78,43 @@ class Console {
 /// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
 /// Allocates nothing, never throws.
 ExitCode fail_at_once(const char* message);
+
+/// Opens descriptors 0 to 2 where the caller closed them, so that no file of ours gets one of these numbers
+/// and is written to as if it were stdout or stderr. To be called before anything else is opened. Writing to
+/// a stdout that was closed still fails, so that lost results are noticed; a closed stderr swallows all.
+void reserve_standard_descriptors();
+
+/// Columns of the terminal that a descriptor leads to; nothing where it leads to none, or to one that does
+/// not tell.
+std::optional<std::size_t> terminal_width(int descriptor);
+/// Those of standard output; 0, for any width, where it is no terminal.
+std::size_t width_of_output();
+
+/// A progress line on stderr: rewritten in place on a terminal that can move its cursor (not TERM=dumb), a
+/// plain line now and then elsewhere. Any thread may report.
+class Progress {
+ public:
+  explicit Progress(bool quiet);
+  /// Removes the line from the terminal.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Shows the line unless quiet, or the last one is too fresh: a fifth of a second on a terminal, where the
+  /// first is shown at once; ten seconds elsewhere, from the beginning on.
+  void show(const std::string& line);
+
+ private:
+  const bool quiet_, in_place_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::duration pause_;
+  std::chrono::steady_clock::time_point last_;
+  bool shown_ = false;
+};
+
+/// The word as a POSIX shell reads it back: in quotes where it needs them.
+std::string shell_quoted(std::string_view word);
+/// The words with a blank between them, each quoted where needed.
+std::string shell_command(const std::vector<std::string>& words);
 
 }  // namespace launchsafe::app

@@ -12,10 +12,8 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "update_rate.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>

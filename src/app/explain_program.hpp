@@ -9,10 +9,6 @@ namespace launchsafe::app {
 bool explains_program(const ExplainArguments& arguments);
 /// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
-
-/// Prints the shipped materials whose name begins with a word, every number and where it comes from; all for
-/// an empty one.
-ExitCode explain_materials(const std::string& word, Console& console);
 /// Prints the materials of a file.
 ExitCode explain_material_file(const std::filesystem::path& file, Console& console);
 

@@ -10,10 +10,8 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
-#include "shell_words.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>

@@ -9,10 +9,8 @@
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "output_folder.hpp"
-#include "shell_words.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <string>

@@ -1,16 +1,16 @@
-#include "command_line.hpp"
-#include "descriptors.hpp"
-#include "faster_program.hpp"
+#include "commands.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/version.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <string_view>
 
 namespace {
 
@@ -19,6 +19,37 @@ using namespace launchsafe::app;
 
 constexpr const char* out_of_memory = "out of memory";
 constexpr const char* unknown_error = "internal error: an exception of an unknown kind";
+
+#if LAUNCHSAFE_CHOOSES_PROGRAM && defined(__x86_64__)
+
+/// bin/launchsafe has its faster forms in lib/launchsafe/ARCHITECTURE/launchsafe.
+std::filesystem::path program_for(std::string_view architecture) {
+  std::error_code unknown;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  return self.parent_path().parent_path() / "lib" / "launchsafe" / architecture / "launchsafe";
+}
+
+/// An installation holds the same program for several kinds of processor. Where one for wider vectors is
+/// installed that this processor runs, that one takes over and this does not return. Which one computes is in
+/// `launchsafe --version` and in every manifest. LAUNCHSAFE_ARCHITECTURE in the environment, one of x86-64,
+/// x86-64-v3 and x86-64-v4, limits the choice: results of several processors then agree to the last digit.
+void become_faster_program(char** arguments) {
+  const char* given = std::getenv("LAUNCHSAFE_ARCHITECTURE");
+  const std::string_view most = given ? given : "";
+  bool allowed = most.empty();
+  for (const auto& [name, runs_here] : {std::pair{"x86-64-v4", __builtin_cpu_supports("x86-64-v4") != 0},
+                                        std::pair{"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0}}) {
+    allowed = allowed || most == name;
+    // What is missing, or no program, is passed over: this one does the same, more slowly.
+    if (allowed && runs_here) ::execv(program_for(name).c_str(), arguments);
+  }
+}
+
+#else
+
+void become_faster_program(char**) {}
+
+#endif
 
 /// Version, commit, compiler, flags and libraries.
 std::string version_text() {

@@ -7,7 +7,6 @@
 #include "study_session.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <string>
 

@@ -5,12 +5,10 @@
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
-#include "progress.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -132,7 +130,7 @@ std::vector<DrawnFile> tabulate(const report::DrawnCase& drawn, const Selection&
 
 store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const Selection& selection,
                                            const Console& console) {
-  Progress progress(progress_style(console.quiet()));
+  Progress progress(console.quiet());
   std::vector<DrawnFile> pictures;
   for (const PictureKind* kind : selection.kinds) {
     for (const CasePicture& picture : kind->pictures(drawn)) {

@@ -6,7 +6,6 @@
 #include "signals.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <utility>
 

@@ -17,13 +17,10 @@
 #include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
-#include "progress.hpp"
 #include "signals.hpp"
-#include "terminal_width.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -286,8 +283,15 @@ nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResul
   return object;
 }
 
+/// "12 s left" when a share 0..1 took `elapsed` seconds; "" while it is too early to say.
+std::string time_left(double share, double elapsed) {
+  constexpr double too_early = 0.005;
+  if (!(share > too_early) || share > 1.0) return {};
+  return fmt::format("{} left", report::duration(elapsed * (1.0 - share) / share));
+}
+
 run::CaseResult run_with_progress(const scene::Scene& scene, const Console& console) {
-  Progress progress(progress_style(console.quiet()));
+  Progress progress(console.quiet());
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
   options.stop = &stop_requested();

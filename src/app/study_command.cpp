@@ -8,10 +8,8 @@
 #include "signals.hpp"
 #include "study_folder.hpp"
 #include "study_session.hpp"
-#include "update_rate.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,5 @@
-// What `study` and `merge` share: the folder with its store, and the delivery of its outcome.
+// What `study` and `merge` share: the folder with its store, what a running study shows of itself, and the
+// delivery of its outcome.
 #pragma once
 
 #include "commands.hpp"
@@ -6,15 +7,57 @@
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/study_record.hpp"
-#include "study_watch.hpp"
+#include "launchsafe/study/scheduler.hpp"
 
+#include <chrono>
+#include <condition_variable>
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace launchsafe::app {
+
+/// From before the runs to the end of the study. A thread of its own shows what was told last, also while
+/// runs tell nothing.
+class StudyWatch {
+ public:
+  /// `command` goes on after an interruption. At the time `until` the study is asked to stop, as by a signal.
+  StudyWatch(store::CaseStore& store, std::string command, bool quiet, std::optional<std::time_t> until);
+  ~StudyWatch() { end_line(); }
+  StudyWatch(const StudyWatch&) = delete;
+  StudyWatch& operator=(const StudyWatch&) = delete;
+
+  /// For the runs: remembers how far they are.
+  study::ProgressCallback callback();
+  /// Removes the line; nothing is shown any more but the end.
+  void end_line();
+  /// Tells the folder how the study ended.
+  void tell_end(int exit_code);
+
+ private:
+  void show_until_ended();
+  void show();
+  study::Progress progress_now();
+  nlohmann::ordered_json members(const study::Progress& progress) const;
+  void write_page();
+
+  store::CaseStore& store_;
+  std::string command_;
+  std::optional<std::time_t> until_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  bool ended_ = false;
+  study::Progress progress_;
+  std::chrono::steady_clock::time_point told_;
+  std::optional<std::chrono::steady_clock::time_point> page_written_;
+  std::optional<Progress> line_;
+  std::thread thread_;
+};
 
 /// How a study uses its folder.
 struct SessionRequest {
