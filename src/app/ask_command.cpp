@@ -29,14 +29,10 @@ Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
   auto text = scene::read_text_file(file, largest_record);
   if (text) return study::parse_surrogate(*text, file.string());
   if (!text.error().file_missing) return text.error();
-  return InputError{file.string(),
-                    0,
-                    0,
-                    {},
-                    "no such file",
-                    "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", "
-                    "or of one with surrogate = true (launchsafe study --update fits a finished one)",
-                    {}};
+  return scene::error_at(
+      {file.string()}, {}, "no such file",
+      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of one with "
+      "surrogate = true (launchsafe study --update fits a finished one)");
 }
 
 /// An input of the launches that are asked for.
@@ -66,9 +62,9 @@ Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record)
   return inputs;
 }
 
-InputError fault_of_set(const std::string& given, std::string found, std::string allowed,
-                        std::string suggestion = {}) {
-  return {{}, 0, 0, "--set " + given, std::move(found), std::move(allowed), std::move(suggestion)};
+InputError fault_of_set(const std::string& given, const std::string& found, const std::string& allowed,
+                        const std::string& suggestion = {}) {
+  return scene::error_at({}, "--set " + given, found, allowed, suggestion);
 }
 
 /// "KEY=VALUE", or a list of values, with a key of the study's inputs by its short or full name.
@@ -102,15 +98,10 @@ std::optional<InputError> check_ranges(const SurrogateRecord& record, const std:
     const scene::Dimension dimension = inputs[i].key.dimension;
     for (const double value : inputs[i].values)
       if (!(value >= range.lower - slack && value <= range.upper + slack))
-        return InputError{{},
-                          0,
-                          0,
-                          inputs[i].key.name,
-                          scene::format_quantity(value, dimension),
-                          fmt::format("{} to {}, where launches were computed",
-                                      scene::format_quantity(range.lower, dimension),
-                                      scene::format_quantity(range.upper, dimension)),
-                          {}};
+        return scene::error_at({}, inputs[i].key.name, scene::format_quantity(value, dimension),
+                               fmt::format("{} to {}, where launches were computed",
+                                           scene::format_quantity(range.lower, dimension),
+                                           scene::format_quantity(range.upper, dimension)));
   }
   return std::nullopt;
 }

@@ -185,21 +185,18 @@ void add_init(CLI::App& app, CommandLine& line) {
       app, line, "init", "Write a scene and a study of a shell of your own to start from", init_footer);
   const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
     constexpr double smallest = 0.02, largest = 0.5;
-    const auto given = parse_positive<scene::Dimension::length>(text);
-    if (!given || *given < smallest || *given > largest)
-      throw CLI::ValidationError(
-          "--calibre", fmt::format("found \"{}\"; allowed: 20 mm to 50 cm, such as \"105 mm\"", text));
-    calibre = *given;
+    calibre = parse_scene_quantity<scene::Dimension::length>(text).value_or(0.0);
+    return calibre >= smallest && calibre <= largest;
   };
-  command.add_option_function<std::string>("--calibre", read_calibre, "Calibre, such as \"105 mm\"")
-      ->required()
-      ->type_name("LENGTH");
+  add_read(command, "--calibre", read_calibre, "20 mm to 50 cm, such as \"105 mm\"", "LENGTH",
+           "Calibre, such as \"105 mm\"")
+      ->required();
   CLI::Option* curve = add_optional(command, "--curve", init.curve, "FILE.csv",
                                     "Measured pressure that scenes take, such as import-curve writes");
   add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>,
              "a pressure such as 380MPa", "PRESSURE",
-             "Peak chamber pressure, where there is no measured curve");
-  command.get_option("--peak")->excludes(curve);
+             "Peak chamber pressure, where there is no measured curve")
+      ->excludes(curve);
   add_folder(command, init.output, "Folder for the files")->required();
 }
 

@@ -2,11 +2,11 @@
 
 #include "launchsafe/report/study_status.hpp"
 
+#include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -38,23 +38,14 @@ constexpr std::array<UnitFactor, 5> duration_units{
 
 constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
 
-/// The unit's own letters, without the blanks around them.
-std::string unit_in(std::string_view text) {
-  std::string unit;
-  for (const char letter : text) unit += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  const auto first = unit.find_first_not_of(' ');
-  if (first == std::string::npos) return {};
-  return unit.substr(first, unit.find_last_not_of(' ') - first + 1);
-}
-
 template <std::size_t count>
 std::optional<double> parse_amount(std::string_view text, const std::array<UnitFactor, count>& units) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{}) return std::nullopt;
-  const std::string unit = unit_in(text.substr(static_cast<std::size_t>(end - text.data())));
-  const auto found =
-      std::find_if(units.begin(), units.end(), [&](const UnitFactor& each) { return each.name == unit; });
+  const std::string rest = boost::algorithm::to_lower_copy(std::string(end, text.data() + text.size()));
+  const std::string unit = boost::algorithm::trim_copy_if(rest, [](char letter) { return letter == ' '; });
+  const auto found = std::ranges::find(units, unit, &UnitFactor::name);
   if (found == units.end()) return std::nullopt;
   const double amount = number * found->factor;
   return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
@@ -67,7 +58,6 @@ std::optional<double> parse_size(std::string_view text) {
   constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
   return size && *size >= 1 && *size <= largest ? size : std::nullopt;
 }
-constexpr const char* allowed_sizes = "a size such as 500MB, 8GB, 1.5GiB or 8e9B, up to 1e18";
 
 /// Seconds: "90s", "10min", "2h", "1.5 d". Nothing for any other text, and for what is not more than
 /// zero.
@@ -78,7 +68,6 @@ constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 
 std::optional<double> parse_temperature(std::string_view text) {
   return parse_amount(text, temperature_units);
 }
-constexpr const char* allowed_temperatures = "a temperature difference such as 2K or 0.5K";
 
 }  // namespace
 
@@ -91,13 +80,14 @@ CLI::Validator no_option_name(const char* kind) {
   return CLI::Validator(check, "");
 }
 
-void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, ReadAmount parse,
-                const char* allowed, const char* type, const char* meaning) {
-  const auto read = [name, &value, parse, allowed](const std::string& text) {
-    value = parse(text);
-    if (!value) throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, allowed));
+CLI::Option* add_read(CLI::App& command, const std::string& name,
+                      std::function<bool(const std::string&)> read, const char* allowed, const char* type,
+                      const char* meaning) {
+  const auto read_or_refuse = [name, read, allowed](const std::string& text) {
+    if (!read(text))
+      throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, allowed));
   };
-  command.add_option_function<std::string>(name, read, meaning)->type_name(type);
+  return command.add_option_function<std::string>(name, read_or_refuse, meaning)->type_name(type);
 }
 
 void add_longest_run(CLI::App& command, std::optional<double>& longest_run) {
@@ -111,40 +101,27 @@ void add_jobs(CLI::App& command, int& jobs, const char* meaning) {
 }
 
 void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit) {
-  add_amount(command, "--memory", memory, parse_size, allowed_sizes, "SIZE",
-             "Memory of all running cases together, such as 8GB; most of what is free unless given");
+  add_amount(command, "--memory", memory, parse_size, "a size such as 500MB, 8GB, 1.5GiB or 8e9B, up to 1e18",
+             "SIZE", "Memory of all running cases together, such as 8GB; most of what is free unless given");
   add_amount(command, "--time-limit", time_limit, parse_duration, allowed_durations, "DURATION",
              "Wall time after which a case is given up, such as 10min");
 }
 
 void add_until(CLI::App& command, std::optional<std::time_t>& until) {
-  const auto read = [&until](const std::string& text) {
-    until = report::next_clock_time(text, std::time(nullptr));
-    if (!until)
-      throw CLI::ValidationError(
-          "--until",
-          fmt::format("found \"{}\"; allowed: a time of the day such as 06:00, of the next 24 h", text));
-  };
-  command
-      .add_option_function<std::string>(
-          "--until", read,
-          "Stop at this local time, as on Ctrl-C: what was run is kept, the same command goes on")
-      ->type_name("HH:MM");
+  const auto read = [](const std::string& text) { return report::next_clock_time(text, std::time(nullptr)); };
+  add_amount(command, "--until", until, read, "a time of the day such as 06:00, of the next 24 h", "HH:MM",
+             "Stop at this local time, as on Ctrl-C: what was run is kept, the same command goes on");
 }
 
 void add_shard(CLI::App& command, study::Shard& shard) {
-  const auto read = [&shard](const std::string& text) {
-    if (!study::parse_shard(text, shard))
-      throw CLI::ValidationError("--shard", fmt::format("found \"{}\"; allowed: i/N such as 2/4", text));
-  };
-  command
-      .add_option_function<std::string>("--shard", read,
-                                        "Run only part i of N of the mechanical runs; see launchsafe merge")
-      ->type_name("i/N");
+  const auto read = [&shard](const std::string& text) { return study::parse_shard(text, shard); };
+  add_read(command, "--shard", read, "i/N such as 2/4", "i/N",
+           "Run only part i of N of the mechanical runs; see launchsafe merge");
 }
 
 void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {
-  add_amount(command, "--tolerance", tolerance, parse_temperature, allowed_temperatures, "KELVIN",
+  add_amount(command, "--tolerance", tolerance, parse_temperature,
+             "a temperature difference such as 2K or 0.5K", "KELVIN",
              "Use the cheapest setting of the study's accuracy record that knows T max to this, such as 2K");
 }
 

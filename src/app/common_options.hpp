@@ -14,9 +14,6 @@
 
 namespace launchsafe::app {
 
-/// The amount that a text tells; nothing for any other text.
-using ReadAmount = std::function<std::optional<double>(std::string_view)>;
-
 /// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
 template <scene::Dimension dimension>
 std::optional<double> parse_scene_quantity(std::string_view text) {
@@ -45,9 +42,17 @@ CLI::Option* add_folder(CLI::App& command, Path& path, const char* meaning) {
   return add_place(command, "-o,--output", path, "DIR", "folder", meaning);
 }
 
-/// An option whose text is read by `parse`; a text that tells no amount is refused with what is `allowed`.
-void add_amount(CLI::App& command, const std::string& name, std::optional<double>& value, ReadAmount parse,
-                const char* allowed, const char* type, const char* meaning);
+/// An option whose text is read by `read`; one for which that is false is refused with what is `allowed`.
+CLI::Option* add_read(CLI::App& command, const std::string& name,
+                      std::function<bool(const std::string&)> read, const char* allowed, const char* type,
+                      const char* meaning);
+/// The same of an amount, of which `parse` makes nothing for any other text.
+template <class Amount, class Parse>
+CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amount>& value, Parse parse,
+                        const char* allowed, const char* type, const char* meaning) {
+  const auto read = [&value, parse](const std::string& text) { return (value = parse(text)).has_value(); };
+  return add_read(command, name, read, allowed, type, meaning);
+}
 
 /// --longest-run, s.
 void add_longest_run(CLI::App& command, std::optional<double>& longest_run);

@@ -1,6 +1,7 @@
 // launchsafe status: how far studies are, from what their writers tell in status files.
 #include "commands.hpp"
 #include "launchsafe/report/study_status.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 #include "signals.hpp"
 
 #include <fmt/format.h>
@@ -34,15 +35,12 @@ std::string study_folder_near(const fs::path& folder) {
 scene::InputError no_study_in(const fs::path& folder) {
   std::error_code failed;
   const bool is_folder = fs::is_directory(folder, failed);
-  return {folder.string(),
-          0,
-          0,
-          {},
-          !is_folder                             ? "no such folder"
-          : fs::exists(folder / "slurm", failed) ? "a study of which no shard has begun"
-                                                 : "no status.json of a study",
-          "folders that launchsafe study was given as --output DIR",
-          study_folder_near(folder)};
+  const char* found = !is_folder                             ? "no such folder"
+                      : fs::exists(folder / "slurm", failed) ? "a study of which no shard has begun"
+                                                             : "no status.json of a study";
+  return scene::error_at({folder.string()}, {}, found,
+                         "folders that launchsafe study was given as --output DIR",
+                         study_folder_near(folder));
 }
 
 /// The snapshots of all folders, as those of one study; those of its shards in the order of their numbers.

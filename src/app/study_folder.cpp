@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -60,12 +59,8 @@ using std::filesystem::path;
 
 /// In alphabetical order; none where there is no folder.
 std::vector<std::string> names_in(const path& folder) {
-  std::vector<std::string> names;
   std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-    names.push_back(entry.path().filename());
-  std::sort(names.begin(), names.end());
-  return names;
+  return store::list_folder(folder, failed);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
-#include "xdmf.hpp"
 
 #include <fmt/format.h>
 
@@ -113,14 +112,13 @@ MaybeError read_image(std::string_view bytes, Body body) {
 
 using trace::BottomTrace;
 
-/// Whether times are finite and each is later than the one before.
-bool increase(const std::vector<double>& times) {
-  return std::all_of(times.begin(), times.end(), [](double time) { return std::isfinite(time); }) &&
-         std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+bool are_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-bool are_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+/// Whether times are finite and each is later than the one before.
+bool increase(const std::vector<double>& times) {
+  return are_finite(times) && std::ranges::adjacent_find(times, std::greater_equal<>()) == times.end();
 }
 
 std::string fault_in_trace(const BottomTrace& trace, bool completed) {
@@ -180,8 +178,7 @@ Result<Value> read_with(const std::filesystem::path& path, Result<Value> (*parse
   const Result<std::string> file = read_file(path);
   if (!file) return file.error();
   Result<Value> value = parse(*file);
-  if (!value) return Error{value.error().kind, fmt::format("{}: {}", path.string(), value.error().message)};
-  return value;
+  return value ? value : of_file(path, value.error());
 }
 
 }  // namespace
@@ -223,11 +220,10 @@ Result<Manifest> manifest_of(std::string_view bytes) {
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,
                            const run::CaseResult& result, const Manifest& manifest) {
   const Result<std::string> bytes = case_bytes(scene, result, manifest);
-  if (!bytes) {
+  if (!bytes)
     return Error{bytes.error().kind,
                  fmt::format("cannot write {}: {}", path.string(), bytes.error().message)};
-  }
-  const bool burns = std::any_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
+  const bool burns = std::ranges::any_of(result.gaps, [](const run::GapResult& gap) {
     return gap.combustion && !gap.combustion->snapshots.empty();
   });
   const bool has_sidecar = burns || !result.mechanics.snapshots.empty();

@@ -1,5 +1,5 @@
 // Where everything is in a case file, but for the snapshots. Each function serves writing and reading, as
-// those of archive_parts.hpp do.
+// those of snapshot_layout.hpp do.
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
@@ -151,9 +151,8 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
                     {"1", "of them, up to the checkpoint from which the run went on"});
     archive.value("particles", mechanics.particles, {"1", "particles"});
     archive.value("wall_time", mechanics.wall_time, {"s", "wall time of the mechanics"});
-    if constexpr (!Archive::reading) {
+    if constexpr (!Archive::reading)
       archive.value("update_rate", mechanics.update_rate(), {"1/s", "particle updates per second"});
-    }
     archive.group("masses", "Masses by material, summed over the particles", [&] {
       column(archive, "material", mechanics.masses, &run::MaterialMass::material, {"none", "material"});
       column(archive, "mass", mechanics.masses, &run::MaterialMass::mass, {"kg", "mass"});
@@ -189,90 +188,77 @@ void lay_out_station(Archive& archive, auto& station, const trace::BottomTrace& 
 }
 
 template <class Archive>
-void lay_out_ignition(Archive& archive, const std::string& name, auto& ignition,
-                      const trace::BottomTrace& trace) {
-  if constexpr (Archive::reading) {
-    if (!archive.has(name)) return;
-    ignition.emplace();
-  } else {
-    if (!ignition) return;
-  }
-  archive.group(name, "First ignition; absent when there is none", [&] {
-    archive.value("time", ignition->time, {"s", "time of ignition"});
-    lay_out_station(archive, ignition->station, trace);
-    choice(archive, "cause", ignition->cause, ignition_cause_names,
-           {"none", "trigger: T1 by heating from outside"});
-    archive.value("chemical_share", ignition->chemical_share, {"1", "Arrhenius share of the heating at T1"});
-  });
+void lay_out_ignition(Archive& archive, auto& ignition, const trace::BottomTrace& trace) {
+  optional_group(
+      archive, "ignition", "First ignition; absent when there is none", ignition, [&](auto& first) {
+        archive.value("time", first.time, {"s", "time of ignition"});
+        lay_out_station(archive, first.station, trace);
+        choice(archive, "cause", first.cause, ignition_cause_names,
+               {"none", "trigger: T1 by heating from outside"});
+        archive.value("chemical_share", first.chemical_share, {"1", "Arrhenius share of the heating at T1"});
+      });
 }
 
 template <class Archive>
 void lay_out_combustion(Archive& archive, auto& combustion, const trace::BottomTrace& trace) {
-  if constexpr (Archive::reading) {
-    if (!archive.has("combustion")) return;
-    combustion.emplace();
-  } else {
-    if (!combustion) return;
-  }
-  archive.group("combustion", "What followed ignition; absent without two-way coupling", [&] {
-    auto& c = *combustion;
-    choice(archive, "end", c.end, combustion_end_names, {"none", "why the run ended"});
-    archive.value("reason", c.reason, {"none", "why it broke off"});
-    archive.value("energy_drift", c.energy_drift, {"1", "largest energy drift of the run"});
-    archive.value("wall_time", c.wall_time, {"s", "wall time of the run"});
-    archive.value("skin_flame_speed", c.skin_flame_speed, {"m/s", "at the first station, through its skin"});
-    archive.value("bulk_flame_speed", c.bulk_flame_speed, {"m/s", "the same, behind the skin"});
-    archive.value("complete_time", c.complete_time, {"s", "when the skin of some station had burnt"});
-    archive.value("energy_residual", c.energy_residual,
-                  {"1", "largest energy made or lost over the heat of reaction of what had burnt"});
-    archive.array("time", c.time, {"s", "time"});
-    const std::size_t count = c.time.size();
-    history(archive, "burnt_mass", c.burnt_mass, count, {"kg", "mass of the gas"});
-    history(archive, "burnt_depth", c.burnt_depth, count, {"m", "largest depth of a flame"});
-    history(archive, "gas_volume", c.gas_volume, count, {"m3", "volume of the gas"});
-    history(archive, "gas_temperature", c.gas_temperature, count, {"K", "mean over the gas's mass"});
-    history(archive, "pressure", c.pressure, count, {"Pa", "mean over the bottom"});
-    history(archive, "released", c.released, count, {"J", "heat of reaction released"});
-    history(archive, "kept_back", c.kept_back, count, {"J", "heat of reaction that was not released"});
-    history(archive, "brought", c.brought, count,
-            {"J", "heat above the initial temperature that the burnt part had before"});
-    archive.table("reaction_degree", c.reaction_degree, {count, trace.stations.size()},
-                  {"1", "of the skin; rows are times, columns stations"});
-    if (is_recorded(archive, "snapshots", c.snapshots))
-      list(archive, "snapshots", "Particle fields at one time", c.snapshots,
-           [&](auto& snapshot) { lay_out_snapshot(archive, snapshot); });
-  });
+  optional_group(
+      archive, "combustion", "What followed ignition; absent without two-way coupling", combustion,
+      [&](auto& c) {
+        choice(archive, "end", c.end, combustion_end_names, {"none", "why the run ended"});
+        archive.value("reason", c.reason, {"none", "why it broke off"});
+        archive.value("energy_drift", c.energy_drift, {"1", "largest energy drift of the run"});
+        archive.value("wall_time", c.wall_time, {"s", "wall time of the run"});
+        archive.value("skin_flame_speed", c.skin_flame_speed,
+                      {"m/s", "at the first station, through its skin"});
+        archive.value("bulk_flame_speed", c.bulk_flame_speed, {"m/s", "the same, behind the skin"});
+        archive.value("complete_time", c.complete_time, {"s", "when the skin of some station had burnt"});
+        archive.value("energy_residual", c.energy_residual,
+                      {"1", "largest energy made or lost over the heat of reaction of what had burnt"});
+        archive.array("time", c.time, {"s", "time"});
+        const std::size_t count = c.time.size();
+        history(archive, "burnt_mass", c.burnt_mass, count, {"kg", "mass of the gas"});
+        history(archive, "burnt_depth", c.burnt_depth, count, {"m", "largest depth of a flame"});
+        history(archive, "gas_volume", c.gas_volume, count, {"m3", "volume of the gas"});
+        history(archive, "gas_temperature", c.gas_temperature, count, {"K", "mean over the gas's mass"});
+        history(archive, "pressure", c.pressure, count, {"Pa", "mean over the bottom"});
+        history(archive, "released", c.released, count, {"J", "heat of reaction released"});
+        history(archive, "kept_back", c.kept_back, count, {"J", "heat of reaction that was not released"});
+        history(archive, "brought", c.brought, count,
+                {"J", "heat above the initial temperature that the burnt part had before"});
+        archive.table("reaction_degree", c.reaction_degree, {count, trace.stations.size()},
+                      {"1", "of the skin; rows are times, columns stations"});
+        if (is_recorded(archive, "snapshots", c.snapshots))
+          list(archive, "snapshots", "Particle fields at one time", c.snapshots,
+               [&](auto& snapshot) { lay_out_snapshot(archive, snapshot); });
+      });
 }
 
 template <class Archive>
 void lay_out_closing(Archive& archive, auto& closing) {
-  if constexpr (Archive::reading) {
-    if (!archive.has("closing")) return;
-    closing.emplace();
-  } else {
-    if (!closing) return;
-  }
-  archive.group("closing", "How the gap closed; absent where it does nothing to the mechanics", [&] {
-    auto& c = *closing;
-    archive.value("smallest_opening", c.smallest_opening, {"m", "anywhere on the bottom"});
-    archive.value("contact_time", c.contact_time, {"s", "when the faces first met; none if they did not"});
-    archive.value("approach_speed", c.approach_speed, {"m/s", "largest until then"});
-    integer(archive, "contacts", c.contacts, {"1", "how often the faces met after touching nowhere"});
-    archive.value("largest_gas_pressure", c.largest_gas_pressure, {"Pa", "anywhere"});
-    archive.value("largest_gas_temperature", c.largest_gas_temperature,
-                  {"K", "mean over the air at a place"});
-    archive.value("work_on_gas", c.work_on_gas,
-                  {"J/m2", "of the faces, beyond the surrounding pressure; mean over the bottom, as below"});
-    archive.value("heat_to_charge", c.energy.charge, {"J/m2", "gained by the charge"});
-    archive.value("heat_to_base", c.energy.base, {"J/m2", "gained by the base"});
-    archive.value("gas_enthalpy", c.energy.gas, {"J/m2", "gained by the air"});
-    archive.value("compression", c.energy.work, {"J/m2", "integral of V dp over the air"});
-    archive.value("friction_heat", c.energy.friction, {"J/m2", "in the charge"});
-    archive.value("reaction_heat", c.energy.reaction, {"J/m2", "in the charge"});
-    archive.array("time", c.time, {"s", "time"});
-    history(archive, "opening", c.opening, c.time.size(), {"m", "mean over the bottom"});
-    history(archive, "gas_pressure", c.gas_pressure, c.time.size(), {"Pa", "mean over the bottom"});
-  });
+  optional_group(
+      archive, "closing", "How the gap closed; absent where it does nothing to the mechanics", closing,
+      [&](auto& c) {
+        archive.value("smallest_opening", c.smallest_opening, {"m", "anywhere on the bottom"});
+        archive.value("contact_time", c.contact_time,
+                      {"s", "when the faces first met; none if they did not"});
+        archive.value("approach_speed", c.approach_speed, {"m/s", "largest until then"});
+        integer(archive, "contacts", c.contacts, {"1", "how often the faces met after touching nowhere"});
+        archive.value("largest_gas_pressure", c.largest_gas_pressure, {"Pa", "anywhere"});
+        archive.value("largest_gas_temperature", c.largest_gas_temperature,
+                      {"K", "mean over the air at a place"});
+        archive.value(
+            "work_on_gas", c.work_on_gas,
+            {"J/m2", "of the faces, beyond the surrounding pressure; mean over the bottom, as below"});
+        archive.value("heat_to_charge", c.energy.charge, {"J/m2", "gained by the charge"});
+        archive.value("heat_to_base", c.energy.base, {"J/m2", "gained by the base"});
+        archive.value("gas_enthalpy", c.energy.gas, {"J/m2", "gained by the air"});
+        archive.value("compression", c.energy.work, {"J/m2", "integral of V dp over the air"});
+        archive.value("friction_heat", c.energy.friction, {"J/m2", "in the charge"});
+        archive.value("reaction_heat", c.energy.reaction, {"J/m2", "in the charge"});
+        archive.array("time", c.time, {"s", "time"});
+        history(archive, "opening", c.opening, c.time.size(), {"m", "mean over the bottom"});
+        history(archive, "gas_pressure", c.gas_pressure, c.time.size(), {"Pa", "mean over the bottom"});
+      });
 }
 
 template <class Archive>
@@ -305,7 +291,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
   lay_out_maximum(archive, "maximum_at_stations", "T_max over the stations, which tile the bottom",
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
-  lay_out_ignition(archive, "ignition", skin.ignition, trace);
+  lay_out_ignition(archive, skin.ignition, trace);
   lay_out_closing(archive, gap.closing);
   lay_out_combustion(archive, gap.combustion, trace);
   if (is_stored(archive, "air_energy")) lay_out_air_energy(archive, gap.air);

@@ -35,7 +35,6 @@ Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::s
 bool belongs_to(const Manifest& manifest, const std::string& hash);
 /// Whether a regular file begins as case files do.
 bool began_as_case(const std::filesystem::path& path);
-Error of_file(const std::filesystem::path& path, const Error& error);
 Error of_another_case(const std::filesystem::path& path);
 
 /// Whether the content of a file is that of a page of status.

@@ -45,6 +45,9 @@ std::string system_reason(int error_number);
 /// "cannot write PATH: REASON", of kind write_failed.
 Error write_error(const std::filesystem::path& path, int error_number);
 
+/// The error, whose message begins with the file.
+Error of_file(const std::filesystem::path& path, const Error& error);
+
 /// "PATH WHAT, and nothing is overwritten ...", of kind conflict.
 Error refusal(const std::filesystem::path& path, std::string_view what);
 inline constexpr std::string_view foreign_file = "was not written by launchsafe";
@@ -69,8 +72,5 @@ inline std::int64_t time_of(const struct stat& status) {
 /// So that new names in the folder survive a power cut. False with errno set. Some network file systems
 /// cannot sync a folder; theirs is no failure.
 bool sync_folder(const std::filesystem::path& folder);
-
-/// The names of what is in a folder, sorted, so that nothing depends on the file system's order.
-std::vector<std::string> list_folder(const std::filesystem::path& folder, std::error_code& status);
 
 }  // namespace launchsafe::store

@@ -1,5 +1,3 @@
-#include "xdmf.hpp"
-
 #include "snapshot_layout.hpp"
 
 #include <fmt/format.h>

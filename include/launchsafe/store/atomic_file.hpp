@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace launchsafe::store {
 
@@ -43,5 +44,8 @@ Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path&
 
 /// The whole content of a regular file. Errors: missing, unreadable.
 Result<std::string> read_file(const std::filesystem::path& path);
+
+/// The names of what is in a folder, sorted, so that nothing depends on the file system's order.
+std::vector<std::string> list_folder(const std::filesystem::path& folder, std::error_code& status);
 
 }  // namespace launchsafe::store
