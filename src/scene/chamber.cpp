@@ -75,13 +75,13 @@ class CutPlane {
 };
 
 /// Columns of cells in which the shell touches the barrel throughout.
-struct Ring {
+struct FullRing {
   int first = 0, last = 0;
 };
 
 /// The foremost ring of full radius, or the one around a stated place.
-std::optional<Ring> ring_of_band(const CutPlane& plane, const std::optional<double>& stated,
-                                 double tolerance) {
+std::optional<FullRing> ring_of_band(const CutPlane& plane, const std::optional<double>& stated,
+                                     double tolerance) {
   const auto is_full = [&](int column) { return plane.body({column, plane.barrel_row()}).has_value(); };
   for (int first = 1; first + 1 < plane.columns(); ++first) {
     if (!is_full(first)) continue;
@@ -89,7 +89,7 @@ std::optional<Ring> ring_of_band(const CutPlane& plane, const std::optional<doub
     while (is_full(last + 1)) ++last;
     const bool is_around =
         !stated || (*stated >= plane.x_begin(first) - tolerance && *stated <= plane.x_end(last) + tolerance);
-    if (is_around) return Ring{first, last};
+    if (is_around) return FullRing{first, last};
     first = last;
   }
   return std::nullopt;

@@ -8,7 +8,7 @@ namespace launchsafe::scene {
 namespace {
 
 /// Where a body begins and ends along one direction.
-struct Span {
+struct BodySpan {
   std::string body;
   double begin = 0, end = 0;
 };
@@ -20,16 +20,16 @@ std::size_t nearest(const std::vector<double>& lines, double place) {
   return above == lines.end() || place - lines[i - 1] < *above - place ? i - 1 : i;
 }
 
-std::vector<std::string> bodies_with_edge_at(double place, double cell, const std::vector<Span>& spans) {
+std::vector<std::string> bodies_with_edge_at(double place, double cell, const std::vector<BodySpan>& spans) {
   std::vector<std::string> names;
-  for (const Span& span : spans)
+  for (const BodySpan& span : spans)
     if (std::min(std::abs(span.begin - place), std::abs(span.end - place)) < 1e-3 * cell)
       names.push_back(span.body);
   return names;
 }
 
 GridInterval interval(const std::vector<double>& lines, std::size_t first, std::size_t last,
-                      const std::vector<Span>& spans) {
+                      const std::vector<BodySpan>& spans) {
   GridInterval found;
   found.from = lines[first];
   found.to = lines[last];
@@ -44,11 +44,11 @@ GridInterval interval(const std::vector<double>& lines, std::size_t first, std::
   return found;
 }
 
-std::vector<GridInterval> intervals(const std::vector<double>& lines, const std::vector<Span>& spans,
+std::vector<GridInterval> intervals(const std::vector<double>& lines, const std::vector<BodySpan>& spans,
                                     bool cut_at_edges) {
   std::set<std::size_t> ends{0, lines.size() - 1};
   if (cut_at_edges)
-    for (const Span& span : spans) ends.insert({nearest(lines, span.begin), nearest(lines, span.end)});
+    for (const BodySpan& span : spans) ends.insert({nearest(lines, span.begin), nearest(lines, span.end)});
   std::vector<GridInterval> all;
   for (auto end = std::next(ends.begin()); end != ends.end(); ++end)
     all.push_back(interval(lines, *std::prev(end), *end, spans));
@@ -58,7 +58,7 @@ std::vector<GridInterval> intervals(const std::vector<double>& lines, const std:
 }  // namespace
 
 GridIntervals grid_intervals(const Scene& scene) {
-  std::vector<Span> along_x, along_r;
+  std::vector<BodySpan> along_x, along_r;
   for (const Body& body : scene.bodies) {
     along_x.push_back({body.name, body.x_begin, body.x_end});
     along_r.push_back({body.name, body.r_begin, body.r_end});

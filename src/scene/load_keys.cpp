@@ -1,6 +1,5 @@
-#include "load_keys.hpp"
-
 #include "launchsafe/scene/pressure_curve.hpp"
+#include "scene_file.hpp"
 
 namespace launchsafe::scene {
 namespace {

@@ -1,4 +1,4 @@
-// Files of materials and contacts, and those that ship.
+// Files of materials and contacts, those that ship, decompositions of explosives, and where values come from.
 #include "built_in_materials.hpp"
 #include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/input_content.hpp"
@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -44,6 +46,52 @@ std::vector<Named> named_in(const toml::table& root, const char* what, const std
   for (const Named& each : shipped)
     if (tables != nullptr && tables->contains(each.name)) own.push_back(each);
   return own;
+}
+
+/// "a, b" as its parts.
+std::vector<std::string> parts_of_list(const std::string& text) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::size_t first = text.find_first_not_of(" \t", begin);
+    if (first < end) {
+      const std::size_t last = text.find_last_not_of(" \t", end - 1);
+      parts.push_back(text.substr(first, last - first + 1));
+    }
+    begin = end + 1;
+  }
+  return parts;
+}
+
+Key<Source> keys_of_source_key() {
+  KeyDescription described =
+      keys::description("keys", KeyKind::text, Standing::input, "Keys whose values have this source.");
+  described.example = "density, specific_heat";
+  return keys::bound_key<Source>(
+      std::move(described), &Source::keys,
+      [](auto& keys, const Value& value) { keys = parts_of_list(std::get<std::string>(value)); },
+      [](const auto& keys) { return fmt::format("{}", fmt::join(keys, ", ")); });
+}
+
+std::optional<InputError> check_source(const Source& source, const std::map<std::string, Place>& places,
+                                       const std::vector<std::string>& known, std::set<std::string>& cited) {
+  if (source.keys.empty())
+    return error_at(places.at("keys"), "source.keys", "no key", "names of keys, such as \"density\"");
+  for (const std::string& key : source.keys) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      InputError error = unknown_key(places.at("keys"), key, known);
+      error.found = fmt::format("\"{}\", which no key with a value here is called", key);
+      error.key = "source.keys";
+      return error;
+    }
+    if (!cited.insert(key).second)
+      return error_at(places.at("keys"), "source.keys", fmt::format("\"{}\" a second time", key),
+                      "one source of each key");
+  }
+  if (source.citation.find_first_not_of(" \t\n") == std::string::npos)
+    return error_at(places.at("citation"), "source.citation", "no words",
+                    "where the values come from, in words");
+  return std::nullopt;
 }
 
 }  // namespace
@@ -84,6 +132,104 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   auto contacts = read_contacts(*table, file.string(), shipped_contacts());
   if (!contacts) return contacts.error();
   return NamedMaterials{std::move(*materials), std::move(*contacts), {}};
+}
+
+const std::vector<Key<Decomposition>>& decomposition_keys() {
+  static const std::vector<Key<Decomposition>> keys{
+      required(text_key("title", Standing::input, "Of which explosive, for reports.", "RDX",
+                        &Decomposition::title)),
+      required(number_key<Decomposition>(
+          "activation_temperature", Dimension::temperature_difference, above_to(0, 1e6), Standing::literature,
+          "Activation energy over the gas constant, E/R.",
+          [](auto& d) -> auto& { return d.kinetics.activation_temperature; })),
+      required(number_key<Decomposition>(
+          "frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature, "Frequency factor Z.",
+          [](auto& d) -> auto& { return d.kinetics.frequency; })),
+      required(number_key<Decomposition>(
+          "heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8), Standing::literature, "Heat Q.",
+          [](auto& d) -> auto& { return d.kinetics.heat_of_reaction; })),
+  };
+  return keys;
+}
+
+Expected<std::vector<Decomposition>> read_decompositions(const toml::table& root, const std::string& file,
+                                                         const std::vector<Decomposition>&) {
+  std::vector<Decomposition> all;
+  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
+    Decomposition each;
+    each.name = each.kinetics.name = name;
+    if (auto places = read_table(table, decomposition_keys(), {"source"}, file, each); !places)
+      return within("decomposition." + name, places.error());
+    auto sources = read_sources(table, {"activation_temperature", "frequency", "heat_of_reaction"}, file);
+    if (!sources) return within("decomposition." + name, sources.error());
+    each.sources = std::move(*sources);
+    all.push_back(std::move(each));
+    return std::nullopt;
+  };
+  if (auto error = visit_tables(root, "decomposition", "that combustion.kinetics refers to", file, read))
+    return *error;
+  return all;
+}
+
+materials::KineticsParameters flame_kinetics(const Scene& scene) {
+  materials::KineticsParameters kinetics = scene.charge().kinetics;
+  const auto& all = shipped_decompositions();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Decomposition& each) {
+    return each.name == scene.combustion.kinetics;
+  });
+  if (found == all.end()) return kinetics;
+  kinetics.name = found->name;
+  kinetics.activation_temperature = found->kinetics.activation_temperature;
+  kinetics.frequency = found->kinetics.frequency;
+  kinetics.heat_of_reaction = std::min(kinetics.heat_of_reaction, found->kinetics.heat_of_reaction);
+  return kinetics;
+}
+
+const std::vector<Key<Source>>& source_keys() {
+  using enum Standing;
+  const auto for_people = [](Key<Source> key) {
+    return always_plausible(std::move(key), "it is for people");
+  };
+  static const std::vector<Key<Source>> keys{
+      for_people(required(keys_of_source_key())),
+      for_people(word_key("standing", literature,
+                          "What the values are: published, derived from such, assumed or calibrated.",
+                          {{"literature", literature},
+                           {"paper", paper},
+                           {"derived", derived},
+                           {"assumed", assumed},
+                           {"calibrated", calibrated}},
+                          &Source::standing)),
+      for_people(
+          required(text_key("citation", input, "Where the values come from, in words.",
+                            "Gibbs and Popolato, LASL Explosive Property Data, 1980", &Source::citation))),
+  };
+  return keys;
+}
+
+Expected<std::vector<Source>> read_sources(const toml::table& table, const std::vector<std::string>& known,
+                                           const std::string& file) {
+  auto tables = read_tables(table, "source", source_keys(), file,
+                            "tables, such as source = [{ keys = \"density\", citation = \"...\" }]");
+  if (!tables) return tables.error();
+  std::vector<Source> sources;
+  std::set<std::string> cited;
+  for (auto& [source, places] : *tables) {
+    if (auto error = check_source(source, places, known, cited)) return *error;
+    sources.push_back(std::move(source));
+  }
+  return sources;
+}
+
+const Source* source_of(const std::vector<Source>& sources, const std::string& key) {
+  for (const Source& source : sources)
+    if (std::find(source.keys.begin(), source.keys.end(), key) != source.keys.end()) return &source;
+  return nullptr;
+}
+
+void forget_source(std::vector<Source>& sources, const std::string& key) {
+  for (Source& source : sources) std::erase(source.keys, key);
+  std::erase_if(sources, [](const Source& source) { return source.keys.empty(); });
 }
 
 }  // namespace launchsafe::scene

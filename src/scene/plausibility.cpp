@@ -1,3 +1,4 @@
+// What is plausible of keys, and of quantities that follow from several of them.
 #include "launchsafe/scene/plausibility.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::scene {
 namespace {
@@ -93,6 +95,141 @@ void judge_crack_bound(const Scene& scene, Judge& judge) {
                         length_text(strength.initial_crack_radius)));
 }
 
+using Number = std::optional<double>;
+
+/// Of dry air, J/(kg K).
+constexpr double gas_constant_of_air = 287.05;
+
+double measured_peak(const Load& load) {
+  return *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
+}
+
+/// The largest pressure that the scene states, Pa, wherever in time it lies.
+double stated_peak(const Load& load) {
+  return load.curve_time.empty() || load.rescale_to_peak ? load.peak : measured_peak(load);
+}
+
+Number peak_of_curve(const Scene& scene) {
+  if (scene.load.curve_time.empty()) return std::nullopt;
+  return measured_peak(scene.load);
+}
+
+/// Only where it is another than the stated one, which is judged by itself.
+Number simulated_peak(const Scene& scene) {
+  constexpr double same = 0.99;
+  const double peak = PressureHistory(scene.load).peak();
+  if (peak >= same * stated_peak(scene.load)) return std::nullopt;
+  return peak;
+}
+
+Number rescaling(const Scene& scene) {
+  if (scene.load.curve_time.empty() || !scene.load.rescale_to_peak) return std::nullopt;
+  return scene.load.peak / measured_peak(scene.load);
+}
+
+/// As one rigid body at the muzzle exit, or at the end where there is none, m/s and m.
+Number launch_speed(const Scene&, const RigidMotion& launch) { return launch.velocity; }
+Number launch_travel(const Scene&, const RigidMotion& launch) { return launch.travel; }
+
+/// At a stated muzzle exit.
+Number pressure_at_exit(const Scene& scene) {
+  const auto exit = exit_time(scene.load);
+  return exit ? Number(share_left(scene.load, *exit)) : std::nullopt;
+}
+Number calibres_to_exit(const Scene& scene, const RigidMotion& launch) {
+  const auto exit = exit_time(scene.load);
+  if (!exit) return std::nullopt;
+  return *exit == read_time(scene.load) ? calibres_of(scene, launch) : calibres_until(scene, *exit);
+}
+
+/// Of an isotropic solid.
+double poisson_ratio(double bulk, double shear) {
+  return (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
+}
+
+Number poisson_ratio_of_steel(const Scene& scene) {
+  if (!has_law<Steel>(scene)) return std::nullopt;
+  return poisson_ratio(scene.steel().bulk_modulus(), scene.steel().shear_modulus());
+}
+
+/// A quantity that only a scene with a charge has.
+std::function<Number(const Scene&)> of_charge(double (*value)(const Scene&)) {
+  return [value](const Scene& scene) { return has_charge(scene) ? Number(value(scene)) : std::nullopt; };
+}
+
+double poisson_ratio_of_charge(const Scene& scene) {
+  return poisson_ratio(scene.charge().bulk_modulus(), scene.charge().shear_modulus());
+}
+
+double bulk_sound_speed(const Scene& scene) {
+  return std::sqrt(scene.charge().bulk_modulus() / scene.charge().initial_density());
+}
+
+double heat_capacity(const Scene& scene) {
+  return 1e-6 * scene.charge().density * scene.charge().specific_heat;
+}
+
+/// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the
+/// induction time, c T^2/(Q Z E) exp(E/T); infinite without reaction. (Frank-Kamenetskii 1969.)
+double explosion_temperature(const Scene& scene) {
+  const materials::KineticsParameters& kinetics = scene.charge().kinetics;
+  const double activation = kinetics.activation_temperature;
+  const double rate = kinetics.heat_of_reaction * kinetics.frequency / scene.charge().specific_heat;
+  constexpr double delay = 1.0;  // s
+  const auto too_slow = [&](double temperature) {
+    return std::log(temperature * temperature / (rate * activation)) + activation / temperature >
+           std::log(delay);
+  };
+  double lower = 1.0, upper = std::min(0.5 * activation, 1e5);  // up to E/2 the time falls with T
+  if (!(rate > 0.0) || too_slow(upper)) return std::numeric_limits<double>::infinity();
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (lower + upper);
+    (too_slow(middle) ? lower : upper) = middle;
+  }
+  return upper;
+}
+
+double gas_law_of_air(const Scene& scene) {
+  const materials::AirParameters& air = scene.surface.air;
+  return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;
+}
+
+double heat_of_ideal_air(const Scene& scene) {
+  const materials::AirParameters& air = scene.surface.air;
+  return air.specific_heat * (air.heat_ratio - 1.0) / (air.heat_ratio * gas_constant_of_air);
+}
+
+Number length_of_shell(const Scene& scene) {
+  const Extent all = extent_of(scene);
+  return all.x_end - all.x_begin;
+}
+
+double warmth_of_air(const Scene& scene) {
+  return scene.surface.air.initial_temperature - scene.initial_temperature;
+}
+
+Number radius_of_shell(const Scene& scene) { return extent_of(scene).r_end; }
+
+using OfLaunch = std::function<Number(const Scene& scene, const RigidMotion& launch)>;
+
+DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
+                         std::string because, OfLaunch value) {
+  return {{.name = std::move(name),
+           .dimension = dimension,
+           .standing = Standing::derived,
+           .sentence = std::move(sentence),
+           .plausible = {.limits = plausible, .because = std::move(because)}},
+          std::move(value)};
+}
+
+/// Of a quantity that does not ask for the motion.
+DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
+                         std::string because, std::function<Number(const Scene&)> value) {
+  return quantity(
+      std::move(name), dimension, std::move(sentence), plausible, std::move(because),
+      OfLaunch([value = std::move(value)](const Scene& scene, const RigidMotion&) { return value(scene); }));
+}
+
 }  // namespace
 
 std::string validity_warning(const Implausible& value) {
@@ -146,6 +283,67 @@ std::vector<KeyDescription> acceptable_keys(const Scene& scene) {
     add({.kind = KeyKind::text}, name);
   add({.kind = KeyKind::number, .dimension = Dimension::pressure}, pressure_of_models);
   return keys;
+}
+
+const std::vector<DerivedQuantity>& derived_quantities() {
+  static const Limits gun = between(10e6, 1e9);
+  static const std::vector<DerivedQuantity> quantities{
+      quantity("load.measured_peak", Dimension::pressure,
+               "Largest pressure of a measured curve as it was measured, wherever in time it lies.", gun,
+               "a mortar has 10 MPa, and no gun tube bears 1 GPa", peak_of_curve),
+      quantity("load.simulated_peak", Dimension::pressure,
+               "Largest pressure until the end, where it is below the one that the scene states.", gun,
+               "what lies outside of the simulated time does nothing", simulated_peak),
+      quantity("load.rescaling", Dimension::number, "Factor on a measured curve by load.rescale_to_peak.",
+               between(0.25, 4), "other charges of propellant than these make another shape of the curve",
+               rescaling),
+      quantity("load.launch_speed", Dimension::speed,
+               "Speed at the muzzle exit, or at the end, of the projectile as one rigid body.",
+               between(300, 1.2e3),
+               "howitzers and guns launch with 300 m/s to 1.2 km/s: low zones, mortars and tank guns are "
+               "accepted with their number",
+               launch_speed),
+      quantity("load.travel", Dimension::length,
+               "Travel until the muzzle exit, or the end, of the projectile as one rigid body.",
+               between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
+      quantity("load.exit_pressure", Dimension::number, "Pressure over its peak at a stated muzzle exit.",
+               between(0, 0.25), "guns let the shot go at a tenth to a quarter of their peak pressure",
+               pressure_at_exit),
+      quantity("load.exit_calibres", Dimension::number,
+               "Travel until a stated muzzle exit over the outer diameter.", between(10, 200),
+               "mortars have barrels of 12 calibres or more, howitzers of 20, guns of 40 to 60",
+               calibres_to_exit),
+      quantity("steel.poisson_ratio", Dimension::number,
+               "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
+               "steels have 0.27 to 0.30", poisson_ratio_of_steel),
+      quantity("charge.poisson_ratio", Dimension::number,
+               "Poisson's ratio before relaxation, from the JWL and the shear moduli.", between(0.1, 0.49),
+               "explosives have 0.2 to 0.45", of_charge(poisson_ratio_of_charge)),
+      quantity("charge.bulk_sound_speed", Dimension::speed, "Bulk sound speed, from the JWL and the density.",
+               between(1.5e3, 5e3), "explosives have 2 to 3 km/s", of_charge(bulk_sound_speed)),
+      quantity("charge.heat_capacity", Dimension::number,
+               "Density times specific heat of the charge, in MJ/(m3 K).", between(1.2, 3.6),
+               "explosives have 1.6 to 2.5, the published model 3.1", of_charge(heat_capacity)),
+      quantity("kinetics.explosion_temperature", Dimension::temperature,
+               "Temperature at which self-heating runs away within a second, from Q, Z, E/R and specific "
+               "heat.",
+               between(400, 700), "explosives do so between 450 and 650 K", of_charge(explosion_temperature)),
+      quantity("gap.air_warmth", Dimension::temperature_difference,
+               "Temperature of the air before launch over that of the shell around it.", between(-5, 5),
+               "air in a narrow gap has the temperature of its walls", of_charge(warmth_of_air)),
+      quantity("gap.gas_law", Dimension::number,
+               "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
+               "temperature before launch.",
+               between(0.9, 1.1), "air at rest obeys the law within a percent", of_charge(gas_law_of_air)),
+      quantity("gap.heat_law", Dimension::number,
+               "Specific heat over that of an ideal gas of air's molar mass and the given heat ratio.",
+               between(0.9, 1.1), "air obeys the law within some percent", of_charge(heat_of_ideal_air)),
+      quantity("shell.length", Dimension::length, "Length of all bodies together.", between(0.02, 2.5),
+               "the longest shells have 2 m", length_of_shell),
+      quantity("shell.radius", Dimension::length, "Largest radius of all bodies.", between(0.005, 0.25),
+               "calibres go from machine cannons to 46 cm", radius_of_shell),
+  };
+  return quantities;
 }
 
 }  // namespace launchsafe::scene

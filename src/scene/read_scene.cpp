@@ -6,7 +6,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/selective_inertia.hpp"
-#include "use_materials.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

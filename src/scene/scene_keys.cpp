@@ -4,7 +4,7 @@
 #include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
-#include "load_keys.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

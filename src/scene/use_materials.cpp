@@ -1,4 +1,4 @@
-#include "use_materials.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

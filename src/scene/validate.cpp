@@ -1,9 +1,6 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
 #include "launchsafe/scene/interfaces.hpp"
-#include "scene_fault.hpp"
-#include "validate_gap.hpp"
-#include "validate_geometry.hpp"
-#include "validate_load.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

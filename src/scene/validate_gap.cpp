@@ -1,6 +1,4 @@
-#include "validate_gap.hpp"
-
-#include "scene_fault.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,6 @@
-#include "validate_geometry.hpp"
-
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "scene_fault.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,50 @@
+// The parts that reading a scene file is made of: its materials, and what is wrong with it.
+#pragma once
+
+#include "launchsafe/scene/read_scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace launchsafe::scene {
+
+/// The keys of [load], under their names in that table.
+std::vector<Key<Load>> load_keys();
+
+/// The material of a name that a scene file knows: its own, or a shipped one.
+const NamedMaterial* find_named_material(const SceneFile& file, const std::string& name);
+
+/// Makes the scene of materials that the bodies name. The material that bodies of a law are of becomes the
+/// scene's material of that law: its numbers are given values of the law's keys, and the scene's own stand
+/// above them. Where bodies of one law are of several materials, that one is the law's that is called so,
+/// else the first body's; the others keep their names and numbers. Of explosives there may be one. Faults: a
+/// name that no material has, a second explosive, and keys of a law of which no body says which material they
+/// mean.
+std::optional<InputError> use_materials(SceneFile& file, Scene& scene);
+
+/// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
+std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
+
+using Fault = std::optional<InputError>;
+
+/// A fault of a scene, at the place where the user gave the key.
+inline InputError fault_at(const SceneFile& file, const std::string& key, std::string_view found,
+                           std::string_view allowed, std::string_view suggestion = {}) {
+  return error_at(place_of_key(file, key), key, found, allowed, suggestion);
+}
+
+/// Edges of bodies, or a bore around the axis, that nearly but not quite lie at one place: closer than a
+/// tenth of a cell, which no grid shows. The message has the value that makes them one.
+std::optional<InputError> fault_of_near_edges(const SceneFile& file);
+
+/// A charge whose bottom does not bear on a body all over, bodies that nothing holds, and a chamber that the
+/// drawing leaves unclear.
+std::optional<InputError> fault_of_support(const SceneFile& file);
+
+/// The first fault of a measured curve, of what stands beside it, or of the end of the load.
+std::optional<InputError> fault_of_load(const SceneFile& file);
+/// Gaps twice, or without a charge; and what does not go with the model of the gap.
+std::optional<InputError> fault_of_gap(const SceneFile& file);
+
+}  // namespace launchsafe::scene
