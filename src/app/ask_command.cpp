@@ -6,7 +6,7 @@
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 
 #include "console.hpp"
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/study/shard.hpp"
+#include "launchsafe/study/options.hpp"
 
 #include <ctime>
 #include <filesystem>

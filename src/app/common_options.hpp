@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/study/shard.hpp"
+#include "launchsafe/study/options.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -11,7 +11,7 @@
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
 #include <fmt/format.h>
 

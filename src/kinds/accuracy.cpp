@@ -4,7 +4,7 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 

@@ -3,7 +3,6 @@
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"

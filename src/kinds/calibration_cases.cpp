@@ -1,7 +1,6 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
 #include "calibration_numbers.hpp"
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/comparison.hpp"
 
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "study_outcome.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // A study of kind comparison as a file: its keys, [[variant]], and the cases that follow.
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"

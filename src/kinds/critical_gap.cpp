@@ -4,7 +4,7 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"

@@ -9,7 +9,7 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "sweep_surrogate.hpp"
 
 #include <fmt/format.h>

@@ -2,9 +2,8 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/input_content.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
 #include "study_keys.hpp"
 #include "study_scene.hpp"
 #include "vary.hpp"

@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
 #include "answer_values.hpp"
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "sensitivity_chaos.hpp"
 #include "surrogate_text.hpp"
 

@@ -2,7 +2,7 @@
 #include "launchsafe/kinds/stability.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <fmt/format.h>
 

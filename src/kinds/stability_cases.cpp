@@ -1,6 +1,5 @@
 // A study of kind stability as a file: its keys, and [[group]] with its cases.
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/study/study_axes.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "study_outcome.hpp"

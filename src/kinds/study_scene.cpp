@@ -2,10 +2,9 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/study/changed_scene.hpp"
-#include "launchsafe/study/study_axes.hpp"
-#include "launchsafe/study/study_calibration.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 

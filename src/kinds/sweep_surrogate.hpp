@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/study_faults.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
 namespace launchsafe::kinds {

@@ -2,7 +2,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 #include "vary.hpp"
 

@@ -5,8 +5,7 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/study/changed_scene.hpp"
-#include "launchsafe/study/study_axes.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "safety_facts.hpp"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
 
 #include <fmt/format.h>

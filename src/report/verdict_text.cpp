@@ -7,8 +7,7 @@
 #include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/cited_limits.hpp"
-#include "launchsafe/study/statement_text.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
+#include "launchsafe/study/verdict.hpp"
 #include "notes.hpp"
 
 #include <fmt/format.h>

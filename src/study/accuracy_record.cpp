@@ -1,13 +1,15 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
+#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/record_domain.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace launchsafe::study {
@@ -99,7 +101,122 @@ double rise_of(const AccuracyRecord& record) {
   return std::isfinite(rise) ? rise : 0.0;
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// How far a record is carried; argued in the header.
+constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0;
+constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1, most_roughness_added = 0.01;
+/// What is no difference: round-off of units.
+constexpr double round_off = 1e-9;
+
+/// s, over even instants alone: what is shorter is roughness.
+double rise_time_of(const scene::PressureHistory& history, double duration, double peak) {
+  constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
+  const double step = duration / parts;
+  double largest = 0.0;
+  for (int i = 0; i < parts; ++i)
+    largest = std::max(largest, history.at(step * (i + 1)) - history.at(step * i));
+  return largest > 0.0 ? std::min(step * peak / largest, duration) : duration;
+}
+
+/// K/(s m). Where the exchange is per step its time constant does not matter.
+double air_heating_of(const scene::Scene& scene, double peak) {
+  const scene::Surface& surface = scene.surface;
+  const scene::Charge& charge = scene.charge();
+  const double share = surface.air.density * surface.air.specific_heat /
+                       (charge.density * charge.specific_heat * surface.skin_thickness);
+  const double rise =
+      materials::adiabatic_temperature(surface.air, std::max(peak, surface.air.initial_pressure)) -
+      surface.air.initial_temperature;
+  return share * rise / (surface.exchange == scene::Exchange::per_step ? 1.0 : surface.exchange_time);
+}
+
+/// Case over record; 1 where both are 0, infinite where the record alone is.
+double ratio_of(double value, double recorded) {
+  if (value <= 0.0) return value == recorded ? 1.0 : 0.0;
+  return recorded > 0.0 ? value / recorded : infinity;
+}
+
+double largest_of(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
+bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0 && launch.flaw_size > 0.0; }
+
+/// In crack radii and in crack radii over flaw sizes, whichever is larger.
+double crack_ratio(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
+  if (!has_cracks(launch)) return 0.0;
+  if (!has_cracks(recorded)) return infinity;
+  const double radii = launch.crack_radius / recorded.crack_radius;
+  return std::max(radii, radii * recorded.flaw_size / launch.flaw_size);
+}
+
+/// Largest difference of two shapes at equal times while both last.
+double shape_difference(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < launch.shape.size(); ++i) {
+    const double time = launch.duration * static_cast<double>(i) / (shape_instants - 1);
+    const double place = std::min(time / recorded.duration, 1.0) * (shape_instants - 1);
+    const std::size_t left = std::min(static_cast<std::size_t>(place), shape_instants - 2);
+    const double share = place - static_cast<double>(left);
+    const double there = (1.0 - share) * recorded.shape[left] + share * recorded.shape[left + 1];
+    largest = std::max(largest, std::abs(launch.shape[i] - there));
+  }
+  return largest;
+}
+
+/// Why another load is not covered, apart from its peak.
+std::string foreign_load(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
+  if (launch.duration > longest * recorded.duration) {
+    return fmt::format("its launch lasts {:.4g} ms, and {:.4g} ms are more than {:g} times that",
+                       1e3 * recorded.duration, 1e3 * launch.duration, longest);
+  }
+  const double off = shape_difference(launch, recorded);
+  if (!(off <= most_off_shape)) {
+    return fmt::format("its load differs in shape by {:.2g} of the peak, more than {:g}", off,
+                       most_off_shape);
+  }
+  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off)) {
+    return fmt::format("its load rises in {:.3g} ms, and {:.3g} ms are less than a part in {:g} of that",
+                       1e3 * recorded.rise_time, 1e3 * launch.rise_time, steepest);
+  }
+  if (!(launch.roughness <= recorded.roughness + most_roughness_added)) {
+    return fmt::format("the roughness of its load is {:.2g}, and {:.2g} is more by over {:g}",
+                       recorded.roughness, launch.roughness, most_roughness_added);
+  }
+  return {};
+}
+
+/// "it was made at 496 MPa, and 700 MPa are more than 1.25 times that".
+std::string beyond(double recorded, double value, const char* unit, const char* what, double most) {
+  return fmt::format("it was made {} {:.4g}{}, and {:.4g}{} is more than {:g} times that", what, recorded,
+                     unit, value, unit, most);
+}
+
 }  // namespace
+
+ReferenceValue reference_value(std::vector<double> values, const std::vector<double>& sizes) {
+  ReferenceValue reference;
+  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+    values.clear();
+  reference.values = std::move(values);
+  if (!reference.values.empty()) reference.limit = math::extrapolate(reference.values, sizes);
+  return reference;
+}
+
+double error_against(const ReferenceValue& reference, double value) {
+  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return value - reference.limit.value;
+}
+
+double bound_against(const ReferenceValue& reference, double value) {
+  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::abs(value - reference.values.front()) + reference.limit.uncertainty + reference.inexactness;
+}
+
+double larger_bound(double a, double b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
+}
 
 bool belongs_to_setting(const scene::KeyDescription& key) {
   return key.role().part == keys::Part::setting || key.role().part == keys::Part::minor_setting;
@@ -197,6 +314,59 @@ const RecordedSetting* most_accurate(const AccuracyRecord& record) {
     if (best == nullptr || each.temperature_bound < best->temperature_bound) best = &each;
   }
   return best;
+}
+
+RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
+  const scene::PressureHistory history(scene.load);
+  RecordedLaunch launch;
+  launch.peak_pressure = history.peak();
+  launch.duration = scene::end_time(scene.load);
+  for (std::size_t i = 0; i < shape_instants; ++i) {
+    const double time = launch.duration * static_cast<double>(i) / (shape_instants - 1);
+    const double pressure = history.at(time);
+    launch.shape.push_back(launch.peak_pressure > 0.0 ? std::min(pressure / launch.peak_pressure, 1.0) : 0.0);
+  }
+  launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
+  launch.roughness = scene::load_roughness(scene.load);
+  launch.crack_radius = scene.charge().strength.initial_crack_radius;
+  launch.flaw_size = scene.charge().strength.flaw_size;
+  launch.gaps = std::move(gaps);
+  launch.localisation = scene.surface.localisation;
+  launch.air_heating = air_heating_of(scene, launch.peak_pressure);
+  return launch;
+}
+
+Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
+  const double pressure = ratio_of(launch.peak_pressure, recorded.peak_pressure);
+  const double cracks = crack_ratio(launch, recorded);
+  const double friction = ratio_of(launch.localisation, recorded.localisation);
+  Coverage coverage;
+  const double heating = most_heating * largest_of(recorded.gaps) * recorded.air_heating;
+  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : infinity;
+  const double growth =
+      std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);
+  // What grows without bound is not known: the reason says so.
+  if (std::isfinite(growth)) coverage.growth = growth;
+  const double allowed = 1.0 + round_off;
+  if (!(pressure <= most_pressure * allowed)) {
+    coverage.reason = beyond(1e-6 * recorded.peak_pressure, 1e-6 * launch.peak_pressure, " MPa",
+                             "at a peak pressure of", most_pressure);
+  } else if (!(cracks <= most_cracks * allowed)) {
+    coverage.reason =
+        has_cracks(recorded)
+            ? fmt::format(
+                  "it was made with cracks of {:.4g} µm in flaws of {:.4g} mm, and {:.4g} µm in {:.4g} "
+                  "mm is more than {:g} times as much",
+                  1e6 * recorded.crack_radius, 1e3 * recorded.flaw_size, 1e6 * launch.crack_radius,
+                  1e3 * launch.flaw_size, most_cracks)
+            : "it was made without cracks";
+  } else if (!(friction <= most_heating * allowed)) {
+    coverage.reason = beyond(recorded.localisation, launch.localisation, "",
+                             "with a localisation of the friction of", most_heating);
+  } else {
+    coverage.reason = foreign_load(recorded, launch);
+  }
+  return coverage;
 }
 
 }  // namespace launchsafe::study

@@ -1,8 +1,8 @@
 // Accuracy records as JSON, written and read with distrust.
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
-#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/record_reader.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -9,30 +9,24 @@
 #include <vector>
 
 namespace launchsafe::study {
-
-CriticalGap::CriticalGap() : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value) {}
-
-std::string to_string(CriticalGapKind kind) {
-  constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate", "several-crossings"};
-  return words.at(static_cast<std::size_t>(kind));
-}
-
-GapOrBound gap_or_bound(const CriticalGap& gap) {
-  switch (gap.kind) {
-    case CriticalGapKind::value:
-      return gap.value;
-    case CriticalGapKind::all_safe:
-      return no_ignition;
-    case CriticalGapKind::all_ignite:
-      return 0.0;
-    case CriticalGapKind::indeterminate:
-    case CriticalGapKind::several_crossings:
-      break;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 namespace {
+
+/// All moves in one direction as one, m.
+template <class Move>
+double combined(const std::vector<GapShare>& shares, Move move) {
+  double squares = 0.0, sum = 0.0;
+  for (const GapShare& share : shares) {
+    const double distance = move(share);
+    if (traits_of(share.kind).of_class == ShareClass::random)
+      squares += distance * distance;
+    else
+      sum += distance;
+  }
+  return std::sqrt(squares) + sum;
+}
+
+/// A length that is not negative; NaN stays NaN.
+double not_negative(double length) { return length < 0.0 ? 0.0 : length; }
 
 using State = std::function<GapState(double)>;
 
@@ -78,6 +72,61 @@ Bracket centred(const State& state, const Bracket& narrow, double tolerance) {
 }
 
 }  // namespace
+
+const ShareTraits& traits_of(ShareKind kind) {
+  using enum ShareClass;
+  static const std::array<ShareTraits, share_kinds> traits{{
+      {"peak_pressure", "peak pressure", random, "a measured spread of the peak pressure"},
+      {"pulse_length", "length of the pulse", random, "measured curves of several rounds"},
+      {"initial_temperature", "initial temperature", random, "a narrower range of temperatures"},
+      {"muzzle_exit", "time of the muzzle exit", random, "a measured time of the exit"},
+      {"stated_inputs", "inputs, as stated", random, "a better known launch"},
+      {"load_curve", "noise and smoothing of the measured curve", knowledge, "a gauge with less noise"},
+      {"computation", "computation", knowledge, "a finer setting, or a record of its accuracy"},
+      {"sliding", "sliding at the base", knowledge, "a base that holds the charge"},
+      {"fit", "calibrated constants", knowledge, "more measured temperatures to calibrate on"},
+      {"model_form", "other models", knowledge, "measurements of how the shell holds the charge"},
+      {"accepted", "accepted constants, which the calibration has otherwise", knowledge,
+       "a calibration with these constants"},
+  }};
+  return traits.at(static_cast<std::size_t>(kind));
+}
+
+std::string to_string(ShareClass of_class) { return of_class == ShareClass::random ? "random" : "knowledge"; }
+
+double move_towards_ignition(double safe, const GapShare& share) {
+  return share.raised == no_ignition ? 0.0 : not_negative(safe - share.raised);
+}
+
+GapBounds bounds_of(double safe, double igniting, const std::vector<GapShare>& shares) {
+  const double down =
+      combined(shares, [&](const GapShare& share) { return move_towards_ignition(safe, share); });
+  const double up =
+      combined(shares, [&](const GapShare& share) { return not_negative(share.lowered - igniting); });
+  return {not_negative(safe - down), igniting + up};
+}
+
+CriticalGap::CriticalGap() : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value) {}
+
+std::string to_string(CriticalGapKind kind) {
+  constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate", "several-crossings"};
+  return words.at(static_cast<std::size_t>(kind));
+}
+
+GapOrBound gap_or_bound(const CriticalGap& gap) {
+  switch (gap.kind) {
+    case CriticalGapKind::value:
+      return gap.value;
+    case CriticalGapKind::all_safe:
+      return no_ignition;
+    case CriticalGapKind::all_ignite:
+      return 0.0;
+    case CriticalGapKind::indeterminate:
+    case CriticalGapKind::several_crossings:
+      break;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 CriticalGap find_critical_gap(const State& state, double largest, double tolerance) {
   std::vector<double> gaps;

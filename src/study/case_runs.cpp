@@ -1,16 +1,21 @@
-// Which runs the cases of a study need, and which they share.
+// Which runs the cases of a study need, which they share, and how they are divided over shards.
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/options.hpp"
 #include "launchsafe/study/run_cases.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <charconv>
+#include <numeric>
+#include <queue>
 #include <unordered_map>
+#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -138,6 +143,42 @@ void predict_costs(std::vector<CaseRuns>& cases) {
 }
 
 }  // namespace
+
+std::string Shard::part() const { return whole() ? std::string{} : fmt::format("{}-of-{}", index, count); }
+
+bool parse_shard(std::string_view text, Shard& shard) {
+  constexpr int most_shards = 10000;
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return false;
+  const auto whole_number = [](std::string_view digits, int& number) {
+    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return status == std::errc{} && end == digits.data() + digits.size();
+  };
+  Shard read;
+  if (!whole_number(text.substr(0, slash), read.index) || !whole_number(text.substr(slash + 1), read.count))
+    return false;
+  if (read.index < 1 || read.index > read.count || read.count > most_shards) return false;
+  shard = read;
+  return true;
+}
+
+std::vector<int> shards_of(const std::vector<double>& costs, int count) {
+  std::vector<std::size_t> order(costs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&costs](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+  using Load = std::pair<double, int>;  // ties go to the lower shard
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
+  for (int shard = 1; shard <= count; ++shard) least.emplace(0.0, shard);
+  std::vector<int> shards(costs.size());
+  for (const std::size_t at : order) {
+    auto [load, shard] = least.top();
+    least.pop();
+    shards[at] = shard;
+    least.emplace(load + costs[at], shard);
+  }
+  return shards;
+}
 
 std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
   std::optional<scene::Load> longer = scene::longer_launch(scene.load);

@@ -3,7 +3,6 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "launchsafe/study/raised_launch.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -5,7 +5,7 @@
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "launchsafe/study/statement_text.hpp"
-
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,5 @@
-#include "launchsafe/study/stored_answer.hpp"
-
 #include "launchsafe/store/sha256.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,8 @@
-#include "launchsafe/study/study_uncertainty.hpp"
-
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 

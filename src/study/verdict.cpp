@@ -1,46 +1,113 @@
 #include "launchsafe/study/verdict.hpp"
 
-#include "launchsafe/study/cases.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/study_file.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace launchsafe::study {
-
-std::string to_string(Verdict verdict) {
-  constexpr std::array words{"SAFE", "UNSAFE", "INDETERMINATE"};
-  return words.at(static_cast<std::size_t>(verdict));
-}
-
-std::string to_string(ReasonCode code) {
-  constexpr std::array words{"not-judged",
-                             "failed",
-                             "no-temperature",
-                             "validity-warning",
-                             "ignition",
-                             "closing-ignition",
-                             "unaccepted",
-                             "no-margin",
-                             "optimistic",
-                             "beyond-firings",
-                             "critical-gap-indeterminate",
-                             "several-crossings",
-                             "smaller-gaps-ignite",
-                             "margin-within-uncertainty",
-                             "calibrated-margin-within-uncertainty",
-                             "margin-over-uncertainty",
-                             "no-lower-bound",
-                             "may-ignite-without-gap",
-                             "not-below-bound",
-                             "closing-unknown",
-                             "closing-without-corner",
-                             "closing-corner",
-                             "below-bound"};
-  return words.at(static_cast<std::size_t>(code));
-}
-
 namespace {
+
+/// A peak pressure at which no other model of the launch was looked at: how wrong the one is there nobody
+/// knows, whatever is assumed or stated of it.
+std::optional<scene::Implausible> pressure_beyond_models(const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  const scene::Limits compared = compared_pressures(study.model_form);
+  constexpr double round_off = 1e-9;
+  const double peak = scene::PressureHistory(scene.load).stated_peak();
+  if (peak >= compared.lowest * (1.0 - round_off) && peak <= compared.highest * (1.0 + round_off))
+    return std::nullopt;
+  return scene::implausible(
+      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::pressure},
+      scene::pressure_of_models, keys::Value(peak),
+      fmt::format("{} to {}, because other models of the launch were compared only there",
+                  scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
+}
+
+/// A ring of the record that smoothing takes away heats, and may ignite, where it is pressure: that it is not
+/// somebody has to say.
+std::optional<scene::Implausible> ring_smoothed_away(const scene::Scene& scene) {
+  const auto ring = scene::smoothed_ring(scene.load);
+  if (!ring) return std::nullopt;
+  return scene::implausible(
+      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::time}, "load.smoothing",
+      keys::Value(scene.load.smoothing),
+      fmt::format("\"0 ms\", because it takes a ring of {:.2g} kHz away, which may be pressure",
+                  1e-3 * ring->frequency));
+}
+
+/// Whether firings gave a constant its value, rather than what was published: another one is foreign to them.
+bool is_of_firings(const Study& study, const std::string& key) {
+  return study.calibration.firings && scene::role_of(key).part == keys::Part::calibrated;
+}
+
+/// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
+/// peak pressure and the temperature, which were held against them.
+bool no_firing_speaks_of(const scene::Implausible& foreign) {
+  return foreign.key != "load.peak" && foreign.key != "initial_temperature";
+}
+
+std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
+                                               const scene::RigidMotion& launch) {
+  std::vector<scene::Implausible> values = study.implausible;
+  if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
+  if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
+  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch))
+    if (!is_of_firings(study, each.key)) values.push_back(std::move(each));
+  return values;
+}
+
+/// First what is foreign to the calibration.
+std::vector<std::string> extrapolated_in(const RecordDistance& distance, const scene::Load& load) {
+  std::vector<std::string> beyond = distance.names();
+  if (load.smoothing > 0.0)
+    beyond.push_back("load smoothed over " + scene::format_quantity(load.smoothing, scene::Dimension::time));
+  return beyond;
+}
+
+/// What only averages or removes heat: no ignition under it shows nothing.
+std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scene& calibrated) {
+  constexpr double deepest_station = 10e-3, widest_station = 20e-3, thickest_skin = 0.3e-3;  // m
+  constexpr double least_share = 0.5, slack = 1e-9;
+  const scene::Surface &ours = scene.surface, &theirs = calibrated.surface;
+  std::vector<std::string> found;
+  const auto add = [&found](bool cools, std::string name) {
+    if (cools) found.push_back(std::move(name));
+  };
+  add(ours.station_depth > deepest_station + slack, "stations deeper than 10 mm");
+  add(ours.station_width > widest_station + slack, "stations wider than 20 mm");
+  add(ours.skin_thickness > thickest_skin + slack, "a skin above 0.3 mm");
+  add(ours.friction == scene::FrictionClosure::none, "no friction heat");
+  add(ours.localisation * scene.charge().sliding_friction <
+          least_share * theirs.localisation * calibrated.charge().sliding_friction,
+      "sliding friction times localisation below half the calibrated product");
+  add(ours.exchange_time * least_share > theirs.exchange_time,
+      "an exchange slower than half the calibrated one");
+  return found;
+}
+
+/// No stress case of a stability study may pass for any but the film.
+Optimistic optimistic_by_input(const Study& study, const scene::Scene& scene,
+                               const scene::RigidMotion& launch) {
+  if (scene.surface.air_model == scene::AirModel::film) return {Optimistic::Why::film};
+  if (!study.kind.gives_verdicts) return {};
+  if (std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene); !cooling.empty())
+    return {Optimistic::Why::cooling, std::move(cooling)};
+  const double calibres = scene::calibres_of(scene, launch);
+  if (calibres >= fewest_calibres) return {};
+  return {Optimistic::Why::short_travel, {}, calibres};
+}
+
+bool nobody_accepts(const scene::Implausible& value) { return !value.accepted(); }
 
 Judgement indeterminate(ReasonCode code, const CriticalGap& critical, GapReason why = {}) {
   return {Verdict::indeterminate, code, critical.bounds.at_least, std::move(why)};
@@ -93,6 +160,82 @@ Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, J
 }
 
 }  // namespace
+
+std::vector<scene::Implausible> CaseStatements::to_be_accepted() const {
+  std::vector<scene::Implausible> values = implausible;
+  for (const scene::Implausible& each : distance.foreign) {
+    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
+    if (!known) values.push_back(each);
+  }
+  return values;
+}
+
+bool CaseStatements::has_unaccepted() const {
+  return std::ranges::any_of(implausible, nobody_accepts) ||
+         std::ranges::any_of(distance.foreign, nobody_accepts);
+}
+
+bool CaseStatements::is_beyond(double gap) const { return gap > calibrated_gap * (1.0 + 1e-9); }
+
+CaseStatements statements_of(const Study& study, const StudyCase& input) {
+  const scene::Scene& scene = input.scene.scene;
+  scene::RigidMotion launch;
+  if (study.kind.gives_verdicts) launch = scene::rigid_motion(scene, scene::read_time(scene.load));
+  CaseStatements all;
+  all.uncovered_load = run::uncovered_load(scene.load);
+  all.optimistic = optimistic_by_input(study, scene, launch);
+  all.ring = scene::ring_text(scene.load);
+  all.closes = input.closing.has_value();
+  if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
+  // No stress case of a stability study may pass because its input is called implausible.
+  if (!study.kind.gives_verdicts) return all;
+  all.distance = distance_to_calibration(scene, study.calibration);
+  all.implausible = implausible_in(study, input, launch);
+  all.extrapolated = extrapolated_in(all.distance, scene.load);
+  all.calibrated_gap = calibrated_gap(study.calibration, scene);
+  if (study.calibration.firings && std::ranges::any_of(all.distance.foreign, no_firing_speaks_of))
+    all.calibrated_gap = -1.0;
+  all.calibrated_by_firings = study.calibration.firings != nullptr;
+  all.demonstration = study.demonstration;
+  return all;
+}
+
+Optimistic optimistic_by_run(double friction_rise) {
+  if (friction_rise >= least_friction_rise) return {};
+  return {Optimistic::Why::unheated, {}, friction_rise};
+}
+
+std::string to_string(Verdict verdict) {
+  constexpr std::array words{"SAFE", "UNSAFE", "INDETERMINATE"};
+  return words.at(static_cast<std::size_t>(verdict));
+}
+
+std::string to_string(ReasonCode code) {
+  constexpr std::array words{"not-judged",
+                             "failed",
+                             "no-temperature",
+                             "validity-warning",
+                             "ignition",
+                             "closing-ignition",
+                             "unaccepted",
+                             "no-margin",
+                             "optimistic",
+                             "beyond-firings",
+                             "critical-gap-indeterminate",
+                             "several-crossings",
+                             "smaller-gaps-ignite",
+                             "margin-within-uncertainty",
+                             "calibrated-margin-within-uncertainty",
+                             "margin-over-uncertainty",
+                             "no-lower-bound",
+                             "may-ignite-without-gap",
+                             "not-below-bound",
+                             "closing-unknown",
+                             "closing-without-corner",
+                             "closing-corner",
+                             "below-bound"};
+  return words.at(static_cast<std::size_t>(code));
+}
 
 Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.of_case == nullptr) return {};

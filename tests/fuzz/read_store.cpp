@@ -1,7 +1,7 @@
 // What is read back from any bytes that stand for a results file: no verdict that its own numbers do not bear
 // out, and the same again once it is written.
 #include "fuzz_input.hpp"
-#include "launchsafe/study/stored_answer.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <cmath>
 

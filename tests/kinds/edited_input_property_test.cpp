@@ -3,8 +3,8 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/record_domain.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What a study costs besides simulating (opt-in: ctest -L slow).
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/stored_answer.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "study/read_error.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/read_error.hpp"
 

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
-#include "launchsafe/study/answer_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 // Answers that somebody edited: what is read back is what was written, or nothing. tests/fuzz/read_store.cpp
 // edits at random.
-#include "launchsafe/study/stored_answer.hpp"
-
+#include "launchsafe/study/case_answer.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

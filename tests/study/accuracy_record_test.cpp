@@ -1,8 +1,8 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
 #include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/record_domain.hpp"
-#include "launchsafe/study/study_uncertainty.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/made_record.hpp"
 

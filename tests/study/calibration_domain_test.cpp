@@ -1,10 +1,9 @@
-#include "launchsafe/study/calibration_domain.hpp"
-
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
 #include <gtest/gtest.h>
 

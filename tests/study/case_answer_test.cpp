@@ -1,7 +1,6 @@
 #include "launchsafe/study/case_answer.hpp"
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/stored_answer.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

@@ -3,9 +3,9 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/as_calibrated.hpp"
-#include "launchsafe/study/calibration_domain.hpp"
 #include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/record_domain.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>

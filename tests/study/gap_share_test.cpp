@@ -1,4 +1,4 @@
-#include "launchsafe/study/gap_share.hpp"
+#include "launchsafe/study/bracket.hpp"
 
 #include <gtest/gtest.h>
 

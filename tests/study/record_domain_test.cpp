@@ -3,7 +3,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/changed_scene.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "scene/perturbed_scenes.hpp"
 #include "study/synthetic_launch.hpp"
 

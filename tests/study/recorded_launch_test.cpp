@@ -1,5 +1,4 @@
-#include "launchsafe/study/recorded_launch.hpp"
-
+#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "study/made_record.hpp"
 

@@ -1,4 +1,4 @@
-#include "launchsafe/study/shard.hpp"
+#include "launchsafe/study/options.hpp"
 
 #include <gtest/gtest.h>
 

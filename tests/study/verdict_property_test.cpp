@@ -1,6 +1,6 @@
 // The verdict's order: more margin never makes a gap less safe, more uncertainty or a validity warning never
 // safer.
-#include "launchsafe/study/statement_text.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 #include <gtest/gtest.h>
 

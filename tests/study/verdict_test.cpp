@@ -1,7 +1,5 @@
 #include "launchsafe/study/verdict.hpp"
 
-#include "launchsafe/study/statement_text.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>

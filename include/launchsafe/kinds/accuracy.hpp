@@ -5,10 +5,9 @@
 #include "launchsafe/report/report.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/changed_scene.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/options.hpp"
-#include "launchsafe/study/reference_value.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 #include <cmath>

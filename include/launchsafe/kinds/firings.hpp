@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/study/firing_record.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/options.hpp"
 
 #include <optional>

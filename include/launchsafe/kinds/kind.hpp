@@ -5,7 +5,7 @@
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_faults.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <filesystem>
 #include <optional>

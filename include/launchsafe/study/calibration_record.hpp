@@ -1,11 +1,14 @@
-// What a calibration found, kept for the studies that use its constants.
+// What a calibration found, on published results or on firings, kept for the studies that use its constants.
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/record_domain.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 #include <array>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -53,5 +56,32 @@ std::string to_json_text(const CalibrationRecord& record);
 /// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
 /// in errors.
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
+
+/// The launch with the constants at the middle of their posterior, and the firings.
+struct FiringRecord {
+  std::string title;  ///< of the calibration
+  int model_version = 0;
+  Calibration calibration;  ///< with firings
+};
+
+/// The record as a file, with the SHA-256 of its content.
+std::string to_json_text(const FiringRecord& record);
+/// Whether a text is meant to be such a record.
+bool is_firing_record(const std::string& text);
+/// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
+/// in errors. Rounds that were made up and a digest that was computed anew are not recognised, as firings
+/// that were made up are not: a digest guards against mistakes and idle edits. Constants of the scene that
+/// are not those of the posterior buy nothing, as verdicts count with the heat that the posterior asks for.
+scene::Expected<FiringRecord> parse_firing_record(const std::string& text, const std::string& file);
+
+/// All of it as a text, of which another one is another calibration.
+std::string to_text(const FiringEvidence& evidence);
+
+/// Reads the record that a study names, if it names one, gives its load and constants to the scene, and notes
+/// them among the overrides. A fit uncertainty that the study does not state becomes the record's.
+Fault use_calibration(StudyFile& study, const std::filesystem::path& folder);
+
+/// Reads the record of other models that a study names, if it names one.
+Fault read_model_form(StudyFile& study, const std::filesystem::path& folder);
 
 }  // namespace launchsafe::study

@@ -1,7 +1,13 @@
-// What a study wants to know of one case: all that tables need, and no histories.
+// What a study wants to know of one case: all that tables need, and no histories. Answers to all cases take
+// the fewest mechanical runs: cases that differ in thermal keys alone share one, and what is stored is not
+// computed again. A results file has a row a case, rows of its gaps and of its shares; verdicts follow from
+// what is stored.
 #pragma once
 
+#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <optional>
 #include <string>
@@ -50,5 +56,26 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
 /// study's case: by its gaps, margins and times, or by less uncertainty or fewer validity warnings than its
 /// input has.
 std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input);
+
+/// An answer for every case; one that was not run, failed or belongs to another shard says so.
+std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);
+
+/// How far a run came that was cut off depends on the machine, and is no part of the result.
+bool was_cut_off(const FinishedRun& run);
+/// The answer to a case from its finished runs; a failed one where they have no result or were cut off.
+CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs);
+
+/// Stores an answer in the place of one with the same key, which are hexadecimal digits.
+void save_answer(store::CaseStore& store, const std::string& key, const CaseAnswer& answer);
+store::MaybeError save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
+
+/// Exactly what was saved, its rows not judged; not finite numbers but infinity become NaN. Nothing where
+/// there is none, and for what was not written by this program as it is: another checksum, an unknown
+/// enumerator, a negative amount, numbers that contradict each other.
+std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::string& key);
+std::optional<CaseAnswer> read_answer(store::Database& database, const std::string& key);
+
+/// All that is stored of an answer.
+std::string bytes_of(const CaseAnswer& answer);
 
 }  // namespace launchsafe::study

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/study/bracket.hpp"
-#include "launchsafe/study/study_faults.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -1,19 +1,69 @@
 // What a study knows of one gap, and of one case with its gaps.
 #pragma once
 
-#include "launchsafe/study/as_calibrated.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/bracket.hpp"
-#include "launchsafe/study/closing_answer.hpp"
 #include "launchsafe/study/fit.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 #include "launchsafe/study/verdict.hpp"
+#include "launchsafe/trace/bottom_trace.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace launchsafe::study {
+
+/// A skin with one constant as calibrated.
+struct AsCalibrated {
+  std::string key;         ///< the constant; empty: all that heat or cool the skin, together
+  double temperature = 0;  ///< K, T max over the stations
+  bool ignites = false;
+};
+
+/// Of what has to be accepted, the constants that heat or cool the skin on a given trace: those of gap and
+/// friction, and single ones of the charge. Accepting them makes no gap safe.
+std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted);
+/// What a skin can be evaluated anew with: all of these together (""), where there are any, then each, then
+/// each constant of the kinetics.
+std::vector<std::string> keys_as_calibrated(const std::vector<scene::Implausible>& to_be_accepted);
+
+/// The scene with these keys as calibrated. Its trace keeps the heat of its own sliding friction, for which
+/// the localisation makes up.
+scene::Scene with_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
+                             const std::vector<std::string>& keys);
+
+/// The skin of a gap (m) with each of keys_as_calibrated as calibrated.
+std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::Scene& calibrated,
+                                        const std::vector<scene::Implausible>& to_be_accepted,
+                                        const trace::BottomTrace& trace, double gap);
+
+/// K from there to ignition with all skin_keys as calibrated; infinite where there are none, minus
+/// infinite where it ignites.
+double margin_as_calibrated(const std::vector<AsCalibrated>& all, double ignition_temperature);
+
+/// A gap on the terms of a bound.
+struct ClosingPoint {
+  double gap = 0;                             ///< m
+  double maximum_temperature = not_a_number;  ///< K, at any depth and station; NaN where a run has none
+  bool ignited = false;
+  std::string place;                ///< station of the maximum
+  double release = 0;               ///< s, of the terms on which that is
+  std::string unknown_for = {};     ///< why there is no temperature; empty where there is one
+  std::vector<std::string> hashes;  ///< of the runs
+};
+
+/// What a bound says: the points that were computed, by gap, and the smallest gap of them that ignites.
+struct ClosingAnswer {
+  std::string name;
+  std::vector<ClosingPoint> points;
+  /// m, between the largest below which nothing ignites (NaN: there is none) and the smallest that does
+  /// (infinite: none up to the end of the search; NaN: a temperature beyond `lower` is not known).
+  double lower = not_a_number, upper = not_a_number;
+  const ClosingPoint* at(double gap) const;
+  bool is_worst_corner() const { return name == "corner"; }
+};
 
 /// A maximum with its place by name.
 struct Peak {

@@ -4,7 +4,7 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/bracket.hpp"
-#include "launchsafe/study/calibration_domain.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
 #include <optional>
 #include <string>

@@ -1,15 +1,120 @@
-// The cases of a study: complete, valid scenes.
+// The cases of a study, complete, valid scenes: other values of scene keys, the keys that vary, and what is
+// wrong with a study and where.
 #pragma once
 
-#include "launchsafe/study/changed_scene.hpp"
-#include "launchsafe/study/study_faults.hpp"
+#include "launchsafe/scene/read_scene.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::study {
+
+/// Equal but for the round-off of units.
+bool same_number(double a, double b);
+/// Likewise; numbers of lists too.
+bool same_value(const scene::Value& a, const scene::Value& b);
+
+/// A scene key with a new value.
+struct Change {
+  std::string key;  ///< of the scene
+  scene::Value value;
+  std::string text;       ///< the value as people read it
+  std::string study_key;  ///< for faults: where in the study it was asked for
+  scene::Place place;     ///< likewise
+};
+
+/// What gap.model may be where gaps that close are not judged: there they are judged on one launch, which a
+/// gap that closes has not.
+inline constexpr const char* only_reservoir =
+    "gap.model = \"reservoir\"; a study of kind critical-gap judges gaps that close";
+
+/// The scene with all changes, which need be valid only together (scene::with_keys), or why it cannot have
+/// them, at the change that this is about. `may_close`: they may make its gap one that closes.
+scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
+                                               const std::vector<Change>& changes, bool may_close = false);
+
+using Fault = std::optional<scene::InputError>;
+
+/// Where the user gave a key; the file as a whole if he did not.
+inline scene::Place place_of_key(const StudyFile& study, const std::string& key) {
+  const auto found = study.places.find(key);
+  return found == study.places.end() ? scene::Place{study.file} : found->second;
+}
+
+inline scene::InputError fault_at(const StudyFile& study, const std::string& key, std::string found,
+                                  std::string allowed, std::string suggestion = {}) {
+  return scene::error_at(place_of_key(study, key), key, std::move(found), std::move(allowed),
+                         std::move(suggestion));
+}
+
+/// A key of a table that was read by itself, named as of the whole file: `table`.key.
+inline scene::InputError in_table(scene::InputError error, const std::string& table) {
+  error.key = table + "." + error.key;
+  return error;
+}
+
+/// The tables [[name]] of a study file or of a file that it names; none where there are none. A kind that
+/// needs at least one says what stands in it: "with a name".
+scene::Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
+                                                           const std::string& file);
+scene::Expected<std::vector<const toml::table*>> some_tables_of(const toml::table& root,
+                                                                const std::string& name,
+                                                                const StudyFile& study,
+                                                                const std::string& content);
+
+/// The text of the file that a key names by its path from the study file's folder; `wanted` says which file
+/// that should be.
+scene::Expected<std::string> read_named_file(const StudyFile& study, const std::filesystem::path& folder,
+                                             const std::string& key, const std::string& name,
+                                             const std::string& wanted);
+
+/// A key of a table by its dotted name.
+struct Leaf {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+/// All keys of a table and of the tables in it, as people wrote them: toml++ sorts a table by key.
+std::vector<Leaf> leaves_as_written(const toml::table& table);
+
+/// Short names of scene keys that studies vary most, and the scene keys.
+struct NamedAxis {
+  std::string name;
+  std::string key;
+};
+const std::vector<NamedAxis>& named_axes();
+
+/// The short name of a scene key, or else its own.
+std::string name_of_axis(const std::string& scene_key);
+
+/// The scene key behind a short or full name: one that takes one number. Faults name `faulty_key`.
+scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const std::string& name,
+                                                  const std::string& faulty_key, const scene::Place& place);
+
+/// The value of a scene key that takes one number, SI.
+double number_in(const scene::SceneFile& file, const std::string& key);
+
+/// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values. A
+/// fault where one stands twice.
+Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
+               std::vector<double> values);
+
+/// A scene key that is to vary and is fixed elsewhere, or varies already; it was asked for at a place under a
+/// name.
+Fault check_free(const StudyFile& study, const std::string& scene_key, const scene::Place& place,
+                 const std::string& faulty_key);
+
+/// Axes that cannot have an effect: those of the analytic load under a measured curve.
+Fault check_load_axes(const StudyFile& study);
+
+/// A fault where a value (SI) stands twice, but for round-off.
+Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
+                  std::vector<double> values);
 
 /// A case of a valid scene, of another launch than the study's until somebody says so.
 StudyCase case_of(std::string label, scene::SceneFile scene);

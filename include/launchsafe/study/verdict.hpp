@@ -1,16 +1,77 @@
-// Safe, unsafe or indeterminate: the rules.
+// Safe, unsafe or indeterminate: what the input of a case says of all its verdicts, the rules, and the words.
+// What an input says is found once a case and never stored: a verdict that is read rests on what it says now.
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/study/bracket.hpp"
-#include "launchsafe/study/case_statements.hpp"
+#include "launchsafe/study/model_form.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace launchsafe::study {
+
+struct Study;
+struct StudyCase;
+
+/// Calibres of travel: no barrel is shorter.
+inline constexpr double fewest_calibres = 10.0;
+/// K, by which friction heats the bottom of a charge that was launched, at the least.
+inline constexpr double least_friction_rise = 1.0;
+
+/// Why a case that does not ignite is not safe for that, whatever it accepts.
+struct Optimistic {
+  enum class Why {
+    nothing,
+    film,          ///< air as a film that conserves energy is a bound on that side
+    cooling,       ///< `cooling` only averages or removes heat beside the calibrated model
+    short_travel,  ///< the launch ends after `number` calibres of travel
+    unheated       ///< friction heats the bottom by `number` K: it was not launched
+  };
+  Why why = Why::nothing;
+  std::vector<std::string> cooling = {};
+  double number = 0;
+  explicit operator bool() const { return why != Why::nothing; }
+};
+
+struct CaseStatements {
+  std::vector<std::string> uncovered_load;  ///< of run::uncovered_load
+  Optimistic optimistic;                    ///< by the input alone; a study without verdicts knows films only
+  std::string ring;  ///< that a measured curve rings, for people; empty for none; in detail with
+                     ///< a mode of the shell (run::ring_text)
+
+  bool closes = false;  ///< gaps are to be looked at as they close, too
+
+  // The rest is empty for a study without verdicts.
+  RecordDistance distance;                      ///< to the calibration
+  std::vector<scene::Implausible> implausible;  ///< of the case and of what its study states, accepted or not
+  std::vector<std::string> extrapolated;  ///< what lies beyond the calibration's domain at any gap, by name
+  /// m, up to which a gap lies within it.
+  double calibrated_gap = std::numeric_limits<double>::infinity();
+  bool calibrated_by_firings = false;  ///< so that nothing is known of a gap beyond
+  bool demonstration = false;          ///< of something that was invented
+
+  /// Of the study's record of other models; not known where there is none.
+  ModelFormShift model_form{std::nan(""), std::nan(""), {}};
+
+  /// What is implausible, and what is foreign to the calibration.
+  std::vector<scene::Implausible> to_be_accepted() const;
+  /// Whether something is not plausible, or foreign to the calibration, and nobody accepts it.
+  bool has_unaccepted() const;
+  /// Whether a gap (m) lies beyond those of the calibration.
+  bool is_beyond(double gap) const;
+};
+
+CaseStatements statements_of(const Study& study, const StudyCase& input);
+
+/// Of what its run shows: a bottom that friction hardly heats (`friction_rise`, of T max without a gap, K)
+/// was not launched.
+Optimistic optimistic_by_run(double friction_rise);
 
 enum class Verdict { safe, unsafe, indeterminate };
 std::string to_string(Verdict verdict);
@@ -32,7 +93,7 @@ struct Uncertainty {
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
   /// Of the launch: both may be wrong in the same direction.
   double inputs() const { return input + load_curve; }
-  /// As the shares of a critical gap are combined (see gap_share.hpp): `input` holds the random causes, and
+  /// As the shares of a critical gap are combined (see bracket.hpp): `input` holds the random causes, and
   /// the causes of knowledge are added to it.
   double total() const { return input + load_curve + computed() + fit + model_form; }
 };
@@ -104,7 +165,7 @@ enum class ReasonCode {
 /// In files: "below-bound".
 std::string to_string(ReasonCode code);
 
-/// A verdict and why; its words are in statement_text.hpp.
+/// A verdict and why; its words are in statement_text.cpp.
 struct Judgement {
   Verdict verdict = Verdict::indeterminate;
   ReasonCode code = ReasonCode::not_judged;
@@ -128,5 +189,29 @@ struct Judgement {
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
 /// which limiters acted says so.
 Judgement judge(const Evidence& evidence, const CriticalGap& critical);
+
+// Clauses of a reason; each is empty where there is nothing to say.
+
+/// Why a run is no basis, and what becomes of a gap when a launch that is cut short goes on until it is over.
+std::string validity_warnings_text(const Evidence& evidence);
+/// What of the input is not plausible, or foreign to the calibration, and not accepted.
+std::string unaccepted_text(const CaseStatements& input);
+/// What is not plausible, or foreign, and why it is meant.
+std::string accepted_text(const CaseStatements& input);
+/// Why no ignition shows nothing.
+std::string to_string(const Optimistic& optimistic);
+/// Limiters that acted.
+std::string limiters_text(const Evidence& evidence);
+/// What the noise of a measured curve counts.
+std::string noise_text(const Evidence& evidence);
+/// Models that could change the verdict.
+std::string models_text(const Evidence& evidence);
+/// What lies outside the calibration's domain.
+std::string extrapolated_text(const Evidence& evidence);
+
+/// What the rule says that gave the verdict.
+std::string cause_text(const Evidence& evidence, const Judgement& judgement);
+/// Why a verdict is what it is: the cause, and all that stands beside it.
+std::string reason_text(const Evidence& evidence, const Judgement& judgement);
 
 }  // namespace launchsafe::study
