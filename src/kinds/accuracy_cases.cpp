@@ -1,12 +1,11 @@
 // A study of kind accuracy as a file: its reference meshes, its settings, and the cases that follow from
 // both.
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
-#include "study_outcome.hpp"
-#include "study_scene.hpp"
 
 #include <fmt/format.h>
 

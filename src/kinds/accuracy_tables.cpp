@@ -1,5 +1,5 @@
 // The tables of an accuracy study.
-#include "kind_texts.hpp"
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"

@@ -1,17 +1,84 @@
 // What the tables and pages of studies share that answer all their cases.
 #pragma once
 
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace launchsafe::kinds {
+
+/// Adds a run that came to nothing, unless another shard runs it.
+inline void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
+                        const std::string& reason) {
+  if (!reason.empty() && outcome != study::RunOutcome::other_shard)
+    failures.push_back({label, reason, outcome});
+}
+
+/// Of a kind that has an answer for every case.
+template <class Result>
+std::vector<Failure> failures_of(const Result& result) {
+  std::vector<Failure> failures;
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    add_failure(failures, result.study.cases.label(i), result.answers[i].outcome, result.answers[i].failure);
+  return failures;
+}
+
+/// Whether a verdict or the critical gap of a case is indeterminate.
+template <class Answer>
+bool is_indeterminate(const Answer& answer) {
+  return answer.critical.kind == study::CriticalGapKind::indeterminate ||
+         std::ranges::any_of(answer.verdicts, [](const study::GapVerdict& row) {
+           return row.judgement.verdict == study::Verdict::indeterminate;
+         });
+}
+
+/// Kind::run from the function that runs a study of the kind, and the one that says what failed of its
+/// result. The report is that of the whole study: a shard and an interrupted study have none.
+template <auto run, auto failures>
+StudyOutcome outcome_of(const study::StudyFile& study, const study::StudyOptions& options) {
+  const auto result = run(study, options);
+  StudyOutcome outcome{result.interrupted, false, failures(result), result.timing, {}};
+  if constexpr (requires { result.any_indeterminate(); }) outcome.indeterminate = result.any_indeterminate();
+  if (!result.interrupted && options.shard.whole()) outcome.report = report_of(result);
+  return outcome;
+}
+
+/// What the texts under a name say, "accuracy.answer" those of "accuracy.answer.bound" too: in their order,
+/// each once for everything that it is said of; empty ones are left out.
+std::vector<std::string> said(const std::string& name, const report::Row& facts = report::Row::object());
+
+/// The same below each other, as part of a page: with a line break behind each.
+std::string said_below(const std::string& name, const report::Row& facts = report::Row::object());
+
+/// The panel of a fit, to be filled: src/kinds/templates/ask.html.
+const std::string& ask_template();
+
+/// Whether a gap of the study ignites in any case, so that T max jumps to that of a burning skin.
+inline bool any_ignites(const std::vector<study::CaseAnswer>& answers, std::size_t gap) {
+  return std::ranges::any_of(answers, [gap](const study::CaseAnswer& answer) {
+    return answer.verdicts.size() > gap && answer.verdicts[gap].ignition.has_value();
+  });
+}
+
+/// K, T max at a gap of the study; `inert`: of a skin that does not react. NaN of a case that failed.
+inline double temperature_of(const study::CaseAnswer& answer, std::size_t gap, bool inert) {
+  if (!answer.completed()) return study::not_a_number;
+  return inert ? answer.heated_temperature[gap] : answer.verdicts[gap].maximum.temperature;
+}
+
+inline bool is_bound(const study::CaseAnswer& answer) {
+  return answer.critical.kind == study::CriticalGapKind::all_safe ||
+         answer.critical.kind == study::CriticalGapKind::all_ignite;
+}
 
 /// How many cases and verdicts came out how.
 struct SweepCounts {

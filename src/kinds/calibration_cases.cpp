@@ -1,9 +1,9 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
-#include "calibration_numbers.hpp"
+#include "answer_tables.hpp"
+#include "calibration_parts.hpp"
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
-#include "study_outcome.hpp"
 
 #include <fmt/format.h>
 

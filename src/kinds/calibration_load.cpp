@@ -1,6 +1,4 @@
-#include "calibration_load.hpp"
-
-#include "calibration_numbers.hpp"
+#include "calibration_parts.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/run_cases.hpp"

@@ -1,9 +1,13 @@
-#include "calibration_numbers.hpp"
+#include "calibration_parts.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
 
 namespace launchsafe::kinds {
 
@@ -47,6 +51,116 @@ void add_misfits(std::vector<double>& misfits, const surface::SkinModel& model,
       temperature_weight);
   add(rise.begins, row.rise_begins, instant_weight);
   add(rise.ends, row.rise_ends, instant_weight);
+}
+
+constexpr double tightness = 1e-7;  ///< K, how well the fitted rows are met at least
+constexpr int most_rounds = 8;      ///< of the two fits in turn
+
+double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& trace, double gap) {
+  return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
+}
+
+/// Positive root of a function that changes sign once, sought from `start` by factors of 2 in both
+/// directions.
+std::optional<double> positive_root(const std::function<double(double)>& function, double start) {
+  const double at_start = function(start);
+  if (!std::isfinite(at_start)) return std::nullopt;
+  if (at_start == 0.0) return start;
+  double low = start, high = start, at_low = at_start, at_high = at_start;
+  for (int doubling = 0; doubling < 60 && !(at_low * at_high < 0.0); ++doubling) {
+    low *= 0.5;
+    const double below = function(low);
+    if (below * at_low <= 0.0) {
+      high = 2.0 * low;
+      at_high = at_low;
+      at_low = below;
+      break;
+    }
+    at_low = below;
+    high *= 2.0;
+    const double above = function(high);
+    if (above * at_high <= 0.0) {
+      low = 0.5 * high;
+      at_low = at_high;
+      at_high = above;
+      break;
+    }
+    at_high = above;
+  }
+  if (!(at_low * at_high <= 0.0)) return std::nullopt;
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      function, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(46), iterations);
+  return 0.5 * (left + right);
+}
+
+CalibratedConstants failed(CalibratedConstants result, std::string why) {
+  result.failure = std::move(why);
+  return result;
+}
+
+/// Alternates the two fits until both rows are met; empty when they are.
+std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
+                     const CalibrationTargets& targets, CalibratedConstants& result) {
+  const auto misfit = [&](const study::Reference& row) {
+    return maximum_at(model, trace, row.gap) - row.maximum_temperature;
+  };
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto localisation = positive_root(
+        [&](double value) {
+          model.surface.localisation = value;
+          return misfit(targets.zero_gap);
+        },
+        model.surface.localisation > 0 ? model.surface.localisation : 100.0);
+    if (!localisation) {
+      return fmt::format("no localisation gives {:.6g} K without a gap",
+                         targets.zero_gap.maximum_temperature);
+    }
+    model.surface.localisation = *localisation;
+    const auto exchange_time = positive_root(
+        [&](double value) {
+          model.surface.exchange_time = value;
+          return misfit(targets.wide_gap);
+        },
+        model.surface.exchange_time);
+    if (!exchange_time) {
+      return fmt::format("no exchange time gives {:.6g} K at {:.6g} cm", targets.wide_gap.maximum_temperature,
+                         100.0 * targets.wide_gap.gap);
+    }
+    model.surface.exchange_time = *exchange_time;
+    result.zero_gap_misfit = misfit(targets.zero_gap);
+    result.wide_gap_misfit = misfit(targets.wide_gap);
+    if (std::abs(result.zero_gap_misfit) <= tightness && std::abs(result.wide_gap_misfit) <= tightness)
+      return {};
+  }
+  return "the two fits do not settle";
+}
+
+/// Least squares of all numbers of the two rows from there on, with the load held; empty where it settled.
+std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace& trace,
+                            const CalibrationTargets& targets, CalibratedConstants& result) {
+  const scene::Surface start = model.surface;
+  const auto set = [&](const std::vector<double>& logarithms) {
+    model.surface.localisation = start.localisation * std::exp(logarithms[0]);
+    model.surface.exchange_time = start.exchange_time * std::exp(logarithms[1]);
+  };
+  const auto misfits = [&](const std::vector<std::vector<double>>& points) {
+    std::vector<std::vector<double>> all;
+    for (const std::vector<double>& point : points) {
+      set(point);
+      all.push_back(weighted_misfits(model, trace, targets));
+    }
+    return std::optional(all);
+  };
+  const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
+  if (std::string failure = text_of(fit); !failure.empty()) return failure;
+  set(fit.unknowns);
+  const auto misfit = [&](const study::Reference& row) {
+    return maximum_at(model, trace, row.gap) - row.maximum_temperature;
+  };
+  result.zero_gap_misfit = misfit(targets.zero_gap);
+  result.wide_gap_misfit = misfit(targets.wide_gap);
+  return {};
 }
 
 }  // namespace
@@ -113,6 +227,43 @@ std::string text_of(const math::NonlinearFit& fit) {
       return "the least-squares fit does not settle";
   }
   return {};
+}
+
+void Constants::put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const {
+  surface.localisation = localisation;
+  surface.exchange_time = exchange_time;
+  kinetics.ignition_temperature = ignition_temperature;
+}
+
+CalibratedConstants calibrate(const surface::SkinModel& given, const trace::BottomTrace& trace,
+                              const CalibrationTargets& targets) {
+  CalibratedConstants result;
+  surface::SkinModel model = untriggered(given);
+  if (std::string failure = fit_both(model, trace, targets, result); !failure.empty())
+    return failed(result, std::move(failure));
+  if (targets.load_fitted) {
+    if (std::string failure = fit_all_numbers(model, trace, targets, result); !failure.empty())
+      return failed(result, std::move(failure));
+  }
+  result.constants.localisation = model.surface.localisation;
+  result.constants.exchange_time = model.surface.exchange_time;
+  result.ignition_lowest = maximum_at(model, trace, targets.safe_gap);
+  result.ignition_highest = maximum_at(model, trace, targets.igniting_gap);
+  if (!(result.ignition_lowest < result.ignition_highest)) {
+    return failed(result, fmt::format("no ignition temperature separates {:.6g} K at {:.6g} cm from {:.6g} K "
+                                      "at {:.6g} cm",
+                                      result.ignition_lowest, 100.0 * targets.safe_gap,
+                                      result.ignition_highest, 100.0 * targets.igniting_gap));
+  }
+  constexpr double near = 1.0;  // K
+  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near)) {
+    return failed(result,
+                  fmt::format("at {:.6g} cm the reaction runs away by itself, and the rows say of the "
+                              "ignition temperature only that it is above {:.6g} K",
+                              100.0 * targets.igniting_gap, result.ignition_lowest));
+  }
+  result.constants.ignition_temperature = 0.5 * (result.ignition_lowest + result.ignition_highest);
+  return result;
 }
 
 }  // namespace launchsafe::kinds

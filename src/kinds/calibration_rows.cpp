@@ -1,5 +1,5 @@
 // What a calibrated model computes for the published rows, beside them.
-#include "calibration_numbers.hpp"
+#include "calibration_parts.hpp"
 #include "launchsafe/math/statistics.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
-#include "comparison_model_form.hpp"
-
-#include "kind_texts.hpp"
+#include "answer_tables.hpp"
+#include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"

@@ -1,7 +1,5 @@
 // The answer, the tables and the page of a comparison.
 #include "answer_tables.hpp"
-#include "comparison_model_form.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"

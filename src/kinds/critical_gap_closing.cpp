@@ -1,6 +1,6 @@
 // What a critical-gap study tells of gaps that close, beside the reservoir.
+#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/study/closing_gaps.hpp"

@@ -1,6 +1,6 @@
 // What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
+#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/kinetics_text.hpp"
 #include "launchsafe/report/quantities.hpp"

@@ -2,7 +2,6 @@
 #include "critical_gap_tables.hpp"
 
 #include "answer_tables.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -10,7 +9,6 @@
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "sweep_surrogate.hpp"
 
 #include <fmt/format.h>
 

@@ -3,6 +3,8 @@
 
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "launchsafe/study/surrogate.hpp"
 
 #include <optional>
 #include <string>
@@ -44,5 +46,17 @@ void add_runs(const CriticalGapResult& result, report::Report& report);
 std::vector<ResultTable> detail_results();
 /// What must be said where limiters acted in cases of a study in detail.
 std::string limiter_remark(const CriticalGapResult& result);
+
+/// Why the cases of a study, all combinations of its axes, are none that can be fitted and held against
+/// others.
+study::Fault check_sweep_surrogate(const study::StudyFile& study);
+
+/// T max of every gap and the critical gap, fitted. Held out are all cases with an inner value that is, in
+/// their order, the third, sixth, ... of its axis: they lie between values that are fitted.
+study::SurrogateRecord sweep_surrogate(const CriticalGapResult& result);
+
+/// A row for every output of the fit.
+report::Table surrogate_table(const study::SurrogateRecord& record);
+std::vector<report::Column> surrogate_columns();
 
 }  // namespace launchsafe::kinds

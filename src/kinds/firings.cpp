@@ -1,6 +1,4 @@
-#include "launchsafe/kinds/firings.hpp"
-
-#include "calibration_load.hpp"
+#include "calibration_parts.hpp"
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/run/model_version.hpp"

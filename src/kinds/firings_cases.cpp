@@ -1,6 +1,5 @@
 // Firings as a file: their keys, and the launches that follow.
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/firings.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"

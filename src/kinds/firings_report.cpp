@@ -1,10 +1,9 @@
 // Tables, page and files of a calibration on firings.
-#include "kind_texts.hpp"
-#include "launchsafe/kinds/firings.hpp"
+#include "answer_tables.hpp"
+#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "study_outcome.hpp"
 
 namespace launchsafe::kinds {
 

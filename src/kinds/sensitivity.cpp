@@ -1,44 +1,199 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
-#include "answer_values.hpp"
+#include "answer_tables.hpp"
+#include "launchsafe/kinds/shown_surrogate.hpp"
+#include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "sensitivity_chaos.hpp"
-#include "surrogate_text.hpp"
+#include "launchsafe/study/study_cases.hpp"
+#include "sensitivity_parts.hpp"
+#include "study_keys.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace launchsafe::kinds {
 
-using study::Study;
-
-bool SensitivityResult::any_indeterminate() const {
-  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); }) ||
-         !std::ranges::all_of(asked_errors(*this), &AskedError::reached);
-}
-
-std::vector<SensitivityInput> inputs_of(const Study& study) {
-  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
-  std::vector<SensitivityInput> inputs;
-  for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
-    inputs.push_back({axis, correlated && correlated->first == axis ? correlated->count : 1});
-  return inputs;
-}
-
-study::UncertainInputs uncertain_inputs(const Study& study) {
-  study::UncertainInputs inputs{.correlated = settings_of<SensitivitySettings>(study).correlated};
-  for (const study::Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
-  return inputs;
-}
-
-bool samples_inputs(const Study& study, std::size_t evaluation) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  if (!is_by_fit(study)) return evaluation % (inputs_of(study).size() + 2) < 2;
-  return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
-}
+using study::Fault, study::Study, study::StudyFile;
 
 namespace {
+
+using scene::Dimension;
+
+/// Whole numbers that a double holds exactly.
+constexpr double largest_seed = 9007199254740992.0;
+
+template <class Number>
+scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension dimension,
+                                                   scene::Limits limits, std::string sentence,
+                                                   Number SensitivitySettings::*member) {
+  return scene::number_key<SensitivitySettings>(std::move(name), dimension, limits, scene::Standing::assumed,
+                                                std::move(sentence), member);
+}
+
+std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
+  return {
+      scene::word_key(
+          "method", scene::Standing::assumed,
+          "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
+          "runs and held against others.",
+          {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
+          &SensitivitySettings::method),
+      sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
+                         "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
+      sensitivity_number("resamples", Dimension::count, scene::between(100, 1e6),
+                         "Resamples of the bootstrap.", &SensitivitySettings::resamples),
+      sensitivity_number("confidence", Dimension::number, scene::between(0.5, 0.999),
+                         "Confidence of the intervals.", &SensitivitySettings::confidence),
+      scene::word_key("design", scene::Standing::assumed,
+                      "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
+                      {{"scrambled-sobol", math::Design::scrambled_sobol},
+                       {"latin-hypercube", math::Design::latin_hypercube},
+                       {"monte-carlo", math::Design::monte_carlo}},
+                      &SensitivitySettings::design),
+      sensitivity_number(
+          "samples", Dimension::count, scene::between(2, 1e6),
+          "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
+          &SensitivitySettings::samples),
+      sensitivity_number("held_out", Dimension::count, scene::between(10, 1e6),
+                         "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
+                         &SensitivitySettings::held_out),
+      sensitivity_number("error_of_temperature", Dimension::temperature_difference, scene::above(0),
+                         "Of polynomial-chaos: runs are added where the fit is least sure until no "
+                         "prediction of T max has a larger error.",
+                         &SensitivitySettings::temperature_error),
+      sensitivity_number("error_of_critical_gap", Dimension::length, scene::above(0),
+                         "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
+      sensitivity_number("most_samples", Dimension::count, scene::between(2, 1e6),
+                         "With such an error: samples that are fitted at the most.",
+                         &SensitivitySettings::most_samples),
+      scene::flag_key("surrogate", scene::Standing::assumed,
+                      "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
+                      "polynomial-chaos always has one.",
+                      &SensitivitySettings::surrogate),
+  };
+}
+
+bool is_correlated(const study::Axis& axis) {
+  return axis.distribution->kind == math::Distribution::Kind::log_normal;
+}
+
+/// Beyond four deviations a normal without a range may still leave the limits of its key.
+Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const study::Axis& axis = study.study.axes[i];
+    const scene::KeyDescription& key = axis.key;
+    if (key.limits.contain(coordinates[i])) continue;
+    const std::string value = scene::format_quantity(coordinates[i], key.dimension);
+    if (is_correlated(axis))
+      return fault_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
+                      "the record of a calibration that knows it better: " + scene::allowed_text(key));
+    return fault_at(study, axis.values_key, fmt::format("a sample of {}", value),
+                    "a range that cuts the normal off: " + scene::allowed_text(key));
+  }
+  return std::nullopt;
+}
+
+std::string name_of_input(const Study& study, const SensitivityInput& input) {
+  return input.count > 1 ? "calibration" : study.axes[input.first].name;
+}
+
+/// A case for every point of the design.
+Fault add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
+  const study::UncertainInputs drawn = uncertain_inputs(study.study);
+  const std::vector<double> points = design_points(study.study);
+  const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
+  const auto coordinates = [&](std::size_t evaluation) {
+    return drawn.values_at(math::point_of_row(points, evaluation, axes));
+  };
+  for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
+    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
+  return add_varied_cases(study, count, coordinates,
+                          [&](std::size_t evaluation, const study::StudyCase&) { return label(evaluation); });
+}
+
+Fault make_saltelli(StudyFile& study) {
+  const Study& s = study.study;
+  const std::vector<SensitivityInput> each_input = inputs_of(s);
+  const int rows = settings_of<SensitivitySettings>(s).samples;
+  const std::size_t blocks = each_input.size() + 2;
+  if (Fault fault = check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
+                                fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())))
+    return fault;
+  return add_evaluations(study, [&](std::size_t evaluation) {
+    const std::size_t block = evaluation % blocks;
+    const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
+    return fmt::format("sample {} of {}", evaluation / blocks + 1,
+                       mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
+                       : block == math::SaltelliDesign::block_a ? "A"
+                                                                : "B");
+  });
+}
+
+/// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
+Fault check_fit_of_draws(const StudyFile& study) {
+  constexpr int fewest_held_out = 30, most_fitted = 2000;
+  const auto& own = settings_of<SensitivitySettings>(study.study);
+  const int fewest =
+      std::max(fewest_held_out, static_cast<int>(math::fewest_chaos_points(study.study.axes.size())));
+  if (!own.surrogate || (own.samples >= fewest && own.samples <= most_fitted)) return std::nullopt;
+  return fault_at(study, "surrogate",
+                  fmt::format("{} samples to be fitted, and as many held out", own.samples),
+                  fmt::format("{} to {} samples", fewest, most_fitted));
+}
+
+/// Errors are asked of a fit, and leave it room for more samples.
+Fault check_asked_errors(const StudyFile& study) {
+  const auto& own = settings_of<SensitivitySettings>(study.study);
+  const bool is_fit = is_by_fit(study.study);
+  for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
+    if (study.places.contains(key) && !is_fit)
+      return fault_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
+  const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
+  if (asks && own.most_samples < own.samples)
+    return fault_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
+                    fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
+                    "most_samples of at least samples");
+  if (!asks && study.places.contains("most_samples"))
+    return fault_at(study, "most_samples", "no error that is asked",
+                    "error_of_temperature or error_of_critical_gap beside it");
+  return std::nullopt;
+}
+
+/// The samples that a fit begins with, and those that it is held against.
+Fault make_chaos_samples(StudyFile& study) {
+  const Study& s = study.study;
+  const auto& own = settings_of<SensitivitySettings>(s);
+  const auto fitted = static_cast<std::size_t>(own.samples),
+             all = fitted + static_cast<std::size_t>(own.held_out);
+  if (Fault fault = check_count(study, "samples", static_cast<double>(all),
+                                fmt::format("{} samples and {} held out", own.samples, own.held_out)))
+    return fault;
+  const std::size_t fewest = math::fewest_chaos_points(s.axes.size());
+  if (fitted < fewest)
+    return fault_at(study, "samples", fmt::format("{} samples for a fit", fitted),
+                    fmt::format("at least {}: two an input, and 8", fewest));
+  return add_evaluations(study, [&](std::size_t evaluation) {
+    return evaluation < fitted ? fmt::format("sample {}", evaluation + 1)
+                               : fmt::format("held out {}", evaluation - fitted + 1);
+  });
+}
+
+Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
+  const std::vector<double>& gaps = study.study.gaps;
+  if (gaps.size() != 1) {
+    const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
+    return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
+                    fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+  }
+  if (Fault fault = check_asked_errors(study)) return fault;
+  if (is_by_fit(study.study)) return make_chaos_samples(study);
+  if (Fault fault = check_fit_of_draws(study)) return fault;
+  return make_saltelli(study);
+}
 
 double number_of(const OutputSensitivity& of, const study::CaseAnswer& answer,
                  const study::StudyCase& input) {
@@ -88,6 +243,48 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
 }
 
 }  // namespace
+
+Kind sensitivity_kind() {
+  return {
+      .traits = {.name = "sensitivity",
+                 .gives_verdicts = false,
+                 .bounds_critical_gaps = false,
+                 .keeps_answers = true},
+      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
+                      own_keys(sensitivity_keys())}),
+      .tables = {vary_table()},
+      .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
+      .make_cases = make_sensitivity_cases,
+      .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
+      .files = {{"histogram.svg"}, {"surrogate.json"}, {"ask.html"}, {"sensitivity_", ".svg"}},
+      .results = sensitivity_results,
+  };
+}
+
+bool SensitivityResult::any_indeterminate() const {
+  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); }) ||
+         !std::ranges::all_of(asked_errors(*this), &AskedError::reached);
+}
+
+std::vector<SensitivityInput> inputs_of(const Study& study) {
+  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
+  std::vector<SensitivityInput> inputs;
+  for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
+    inputs.push_back({axis, correlated && correlated->first == axis ? correlated->count : 1});
+  return inputs;
+}
+
+study::UncertainInputs uncertain_inputs(const Study& study) {
+  study::UncertainInputs inputs{.correlated = settings_of<SensitivitySettings>(study).correlated};
+  for (const study::Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
+  return inputs;
+}
+
+bool samples_inputs(const Study& study, std::size_t evaluation) {
+  const auto& own = settings_of<SensitivitySettings>(study);
+  if (!is_by_fit(study)) return evaluation % (inputs_of(study).size() + 2) < 2;
+  return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
+}
 
 OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput which) {
   OutputSensitivity output;

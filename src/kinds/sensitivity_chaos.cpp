@@ -1,9 +1,7 @@
-#include "sensitivity_chaos.hpp"
-
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "sensitivity_text.hpp"
+#include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,12 @@
 // The answer, the page and the files of a sensitivity study.
 #include "answer_tables.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "sensitivity_chaos.hpp"
-#include "sensitivity_samples.hpp"
-#include "sensitivity_text.hpp"
-#include "surrogate_text.hpp"
+#include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,7 @@
-#include "sensitivity_samples.hpp"
-
-#include "kind_texts.hpp"
+#include "answer_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "sensitivity_chaos.hpp"
-#include "sensitivity_text.hpp"
+#include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

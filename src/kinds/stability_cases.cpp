@@ -1,9 +1,8 @@
 // A study of kind stability as a file: its keys, and [[group]] with its cases.
+#include "answer_tables.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
-#include "study_outcome.hpp"
-#include "study_scene.hpp"
 
 #include <fmt/format.h>
 

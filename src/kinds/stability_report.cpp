@@ -1,6 +1,5 @@
 // The answer, the tables, the picture and the page of a stability study.
 #include "answer_tables.hpp"
-#include "kind_texts.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"

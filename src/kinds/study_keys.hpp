@@ -3,7 +3,11 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
+#include "launchsafe/study/accuracy_record.hpp"
 
+#include <limits>
+#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,5 +82,92 @@ StudyTable cited_limit_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
 study::Fault read_references(const StudySource& source, study::StudyFile& study);
+
+/// Scene keys with other values than the scene has: a table of the study file, by its name there. No node:
+/// none.
+struct OverrideTable {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+
+/// Reads and validates a study and its scene from its table; `file` is named in errors. A study with more
+/// cases is refused. Nothing is computed.
+scene::Expected<study::StudyFile> read_study_table(const StudySource& source, const std::string& file,
+                                                   std::size_t most_cases);
+
+/// Reads a scene by its path from the study file's folder; the fault of a missing one is at `key`.
+scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
+                                                   const std::filesystem::path& folder,
+                                                   const std::string& key, const scene::Place& place);
+
+/// Reads the scene that the study names, then the overrides, in their order, then the constants of a
+/// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
+/// becomes that of the study, if it names one.
+study::Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
+                          study::StudyFile& study, std::optional<study::AccuracyRecord>& record);
+
+/// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
+/// it states. Needs the overrides.
+study::Fault settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
+
+/// The keys of all entries, for documentation.
+StudyTable vary_table();
+
+/// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
+/// kind does not admit is a fault.
+study::Fault read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study);
+
+/// One of the variants of an entry as read, without its tables.
+struct VariantText {
+  std::string name, description, calibration;
+};
+std::vector<scene::Key<VariantText>> variant_keys();
+
+/// The tables of the entry with variants; none is a fault.
+scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
+                                                             const study::StudyFile& study);
+
+/// One entry as read.
+struct VaryText {
+  std::string name;
+  scene::KeyDescription key;   ///< of the scene
+  std::vector<double> values;  ///< SI
+  int count = 0;               ///< values in the range
+  /// SI; what is not given is infinite or NaN. `range` is its lower and upper end.
+  math::Distribution distribution{math::Distribution::Kind::uniform, -std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::infinity(), study::not_a_number,
+                                  study::not_a_number};
+};
+
+/// The keys of an entry that varies this key of a scene.
+std::vector<scene::Key<VaryText>> vary_keys(const scene::KeyDescription& scene_key);
+
+/// One entry while it is read.
+struct VaryReader {
+  study::StudyFile& study;
+  const toml::table& table;
+  std::size_t index;
+  VaryText text = {};
+  std::map<std::string, scene::Place> places = {};
+
+  bool given(const std::string& key) const { return places.contains(key); }
+  scene::Place place_of(const std::string& key) const;
+  /// The key of the study file by which places and faults are kept: "vary.0.range".
+  std::string study_key(const std::string& key) const;
+  scene::InputError fault(const std::string& key, std::string found, std::string allowed,
+                          std::string suggestion = {}) const;
+  /// The fault of a key that is missing and that an entry such as `what` needs.
+  scene::InputError missing(const std::string& key, const std::string& what) const;
+};
+
+/// Whether the distribution of an entry is whole and possible.
+study::Fault check_distribution(const VaryReader& reader);
+
+/// The entry that names the record of a calibration, by its path.
+struct VaryRecord {
+  std::string name;
+};
+std::vector<scene::Key<VaryRecord>> vary_record_keys();
+study::Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder);
 
 }  // namespace launchsafe::kinds

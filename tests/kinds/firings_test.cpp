@@ -1,7 +1,6 @@
 // Calibrations on firings of a made-up shell: its truth is known, so that what verdicts make of them can be
 // held against it.
-#include "launchsafe/kinds/firings.hpp"
-
+#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "study/synthetic_launch.hpp"
 

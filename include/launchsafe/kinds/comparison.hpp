@@ -70,4 +70,11 @@ std::vector<ResultTable> comparison_results();
 /// The row of the table of kinds.
 Kind comparison_kind();
 
+/// What is said, tabled, drawn and written of other models; nothing where a comparison is of no calibrated
+/// models.
+void add_model_form(const ComparisonResult& result, report::Report& report);
+
+/// What its tables hold, but for the pressures of a study.
+std::vector<ResultTable> model_form_results();
+
 }  // namespace launchsafe::kinds

@@ -4,6 +4,8 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/math/nonlinear_least_squares.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -39,5 +41,31 @@ std::vector<double> weighted_misfits(const surface::SkinModel& model, const trac
 
 /// Why a fit failed, a clause; empty where it did not.
 std::string text_of(const math::NonlinearFit& fit);
+
+/// Why constants must not be fitted to a run that completed, a clause: it has validity warnings, or its scene
+/// has values that are not plausible and that nobody accepted. Empty for a sound one.
+std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics);
+
+/// Fits peak time, width and steepness of the scene's bell, with localisation and exchange time, to all
+/// `weighted_misfits`, starting from the scene: one mechanical run on its mesh for every load that is tried,
+/// those of one Jacobian at once. `timing` counts them.
+FittedLoad fit_load(const study::StudyFile& study, const CalibrationTargets& targets,
+                    const study::StudyOptions& options, study::Timing& timing);
+
+/// A scene under that load. Only of one without a failure.
+scene::SceneFile with_load(const scene::SceneFile& scene, const FittedLoad& load);
+
+/// What the calibrated rows determine: the five, their standard deviations and correlations. No rows where no
+/// load was fitted.
+report::Table fitted_table(const CalibrationResult& result);
+std::vector<report::Column> fitted_columns();
+
+/// What was settled before, condition of the fit, and what a sixth unknown would do. Empty likewise.
+std::string fit_text(const CalibrationResult& result);
+
+/// The bound of the misfits, and what it rests on. Empty without any.
+std::string misfits_text(const CalibrationResult& result);
+
+nlohmann::ordered_json load_json(const CalibrationResult& result);
 
 }  // namespace launchsafe::kinds

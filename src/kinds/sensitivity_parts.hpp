@@ -1,0 +1,101 @@
+// What the tables, the page and the pictures of a sensitivity study share.
+#pragma once
+
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/math/statistics.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace launchsafe::kinds {
+
+/// How an output is shown.
+struct ShownOutput {
+  report::Column column;  ///< its name is also that of its picture's file
+  std::string phrase;     ///< "T max", "the margin": within a sentence
+
+  double value(double value_si) const { return report::shown_value(value_si, column.form); }
+};
+const ShownOutput& shown_output(SensitivityOutput output);
+
+/// An input as people read it.
+struct ShownInput {
+  std::string name;          ///< "peak pressure"
+  std::string distribution;  ///< "uniform from 400 to 600 MPa"
+};
+std::vector<ShownInput> shown_inputs(const study::Study& study);
+
+/// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
+std::string at_gap(const study::Study& study, SensitivityOutput output);
+
+/// "0.52 [0.4, 0.63]".
+std::string estimate_text(const math::Estimate& estimate);
+
+/// Method, design, N, evaluations, seed and confidence in a sentence or two.
+std::string method_text(const SensitivityResult& result);
+
+/// Points of the unit cube of the axes, row by row: those of a Saltelli design, or those that are fitted and
+/// then independent ones that are held out.
+std::vector<double> design_points(const study::Study& study);
+
+/// The fit of an output that has its values, to the evaluations that are fitted.
+study::SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// Fits an output, and finds its indices: of a polynomial by its terms, of a process by
+/// differences. Their intervals are widened by the share of the variance that the fit does not explain. None
+/// where nothing is predicted (study::fit_output).
+void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output);
+
+/// The values of an output of all cases, without indices and fit.
+OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput which);
+
+/// Adds launches to a result that has those of its design, until the errors that are asked are reached or
+/// there are as many as may be. None without an error that is asked, of a shard, or where runs are not stored
+/// and may not be computed.
+void add_launches(SensitivityResult& result, const study::StudyOptions& options);
+
+/// What was fitted, for `launchsafe ask`. Of a study that has its outputs.
+study::SurrogateRecord surrogate_record(const SensitivityResult& result);
+
+/// The draws of one output.
+struct OutputSample {
+  /// SI, ascending. A critical gap that is no number is minus infinity where the launch ignites without a
+  /// gap, and infinity where nothing ignites up to the end of the search: it has a rank and no value.
+  std::vector<double> values;
+  std::size_t missing = 0;  ///< draws of which nothing is known
+  std::size_t ignites_at_zero() const;
+  std::size_t none_ignites() const;
+  /// The smallest draw that at least this share (0 to 1) of them does not exceed; NaN without draws.
+  double quantile(double share) const;
+};
+OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output);
+
+/// The shares of the draws at which quantiles are told.
+inline constexpr std::array quantile_shares{0.025, 0.05, 0.5, 0.95, 0.975};
+
+/// How many draws ignite at the study's gap.
+struct IgnitionShare {
+  std::size_t igniting = 0, completed = 0, failed = 0;
+  /// Of the probability, 95 %: its ends hold whatever the failed draws would have done.
+  math::Interval interval{study::not_a_number, study::not_a_number};
+};
+IgnitionShare ignition_share(const SensitivityResult& result);
+
+/// The same as a sentence, with the lower quantile of the critical gap.
+std::string samples_text(const SensitivityResult& result);
+nlohmann::ordered_json ignition_json(const SensitivityResult& result);
+
+/// A row for every share, with the quantile of critical gap and T max.
+report::Table quantile_table(const SensitivityResult& result);
+/// A row for every interval of an output with the number of its draws, and rows for those without a number.
+report::Table histogram_table(const SensitivityResult& result);
+std::vector<report::Column> quantile_columns();
+std::vector<report::Column> histogram_columns();
+/// The histograms as steps; without panels where no output has two different numbers.
+report::Plot histogram_plot(const SensitivityResult& result);
+
+}  // namespace launchsafe::kinds
