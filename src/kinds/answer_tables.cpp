@@ -55,7 +55,7 @@ std::string failures_list(const std::vector<report::ShownKey>& keys, const Study
 std::string limited_text(const SweepCounts& counts, const std::string& noun) {
   if (counts.limited == 0) return {};
   return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",
-                     counted(counts.limited, noun), report::limiters_text(counts.limiters));
+                     report::counted(counts.limited, noun), report::limiters_text(counts.limiters));
 }
 
 std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {

@@ -1,4 +1,4 @@
-// What the tables and pages of studies share that answer all their cases.
+// What the outcomes, tables and pages of several kinds of study share.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -30,15 +30,6 @@ std::vector<Failure> failures_of(const Result& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     add_failure(failures, result.study.cases.label(i), result.answers[i].outcome, result.answers[i].failure);
   return failures;
-}
-
-/// Whether a verdict or the critical gap of a case is indeterminate.
-template <class Answer>
-bool is_indeterminate(const Answer& answer) {
-  return answer.critical.kind == study::CriticalGapKind::indeterminate ||
-         std::ranges::any_of(answer.verdicts, [](const study::GapVerdict& row) {
-           return row.judgement.verdict == study::Verdict::indeterminate;
-         });
 }
 
 /// Kind::run from the function that runs a study of the kind, and the one that says what failed of its
@@ -109,8 +100,6 @@ std::string failures_list(const std::vector<report::ShownKey>& keys, const study
 /// What must be said where limiters acted; else empty.
 std::string limited_text(const SweepCounts& counts, const std::string& noun);
 
-using report::counted;
-
 /// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
 /// left out.
 std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study);
@@ -127,10 +116,5 @@ struct AnsweredCase {
 std::vector<AnsweredCase> answered(const study::StudyFile& study,
                                    const std::vector<study::CaseAnswer>& answers);
 report::Quantities<AnsweredCase> answered_axes(const study::Study& study);
-
-/// Columns of a matrix on the page.
-inline constexpr std::size_t most_gaps = 30;
-/// What the matrix calls INDET.
-inline constexpr const char* indeterminate_note = "INDET.: indeterminate; verdicts.csv has the reasons.";
 
 }  // namespace launchsafe::kinds

@@ -311,9 +311,8 @@ scene::Scene calibrated_scene(const CalibrationResult& result, const Calibration
 }  // namespace
 
 CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& options) {
-  return run_timed<CalibrationResult>(
-      study, options, [&](CalibrationResult& result) { calibrate_study(result, options); },
-      [](CalibrationResult&) {});
+  return run_timed<CalibrationResult>(study, options,
+                                      [&](CalibrationResult& result) { calibrate_study(result, options); });
 }
 
 std::optional<study::CalibrationRecord> record_of(const CalibrationResult& result) {

@@ -1,4 +1,5 @@
-// What is published of a row as computed on a trace, for fits and for comparison.
+// What the sources of a calibration share: what is published of a row as computed on a trace, and the bell
+// that meets, with localisation and exchange time, what is published of the calibrated rows.
 #pragma once
 
 #include "launchsafe/kinds/calibration.hpp"
@@ -45,6 +46,9 @@ std::string text_of(const math::NonlinearFit& fit);
 /// Why constants must not be fitted to a run that completed, a clause: it has validity warnings, or its scene
 /// has values that are not plausible and that nobody accepted. Empty for a sound one.
 std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics);
+
+/// How the runs of a calibration went.
+report::Table run_table(const std::vector<CalibrationRun>& runs);
 
 /// Fits peak time, width and steepness of the scene's bell, with localisation and exchange time, to all
 /// `weighted_misfits`, starting from the scene: one mechanical run on its mesh for every load that is tried,

@@ -217,18 +217,14 @@ bool ComparisonResult::any_indeterminate() const {
 }
 
 ComparisonResult run_comparison(const study::StudyFile& study, const study::StudyOptions& options) {
-  return run_timed<ComparisonResult>(
-      study, options,
-      [&](ComparisonResult& result) {
-        result.answers.resize(study.cases.size());
-        run_every_case(study, options, result.timing,
-                       [&](std::size_t i, std::vector<study::FinishedRun>& runs) {
-                         ComparedCase& of = result.answers[i];
-                         of.variant = i / result.cases_per_variant();
-                         judge(result.variants()[of.variant], study.cases[i], runs, of);
-                       });
-      },
-      [](ComparisonResult&) {});
+  return run_timed<ComparisonResult>(study, options, [&](ComparisonResult& result) {
+    result.answers.resize(study.cases.size());
+    run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& runs) {
+      ComparedCase& of = result.answers[i];
+      of.variant = i / result.cases_per_variant();
+      judge(result.variants()[of.variant], study.cases[i], runs, of);
+    });
+  });
 }
 
 }  // namespace launchsafe::kinds

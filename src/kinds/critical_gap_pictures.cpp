@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -73,7 +73,7 @@ std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::
   for (const SweptAxis& axis : axes) {
     const bool is_shown = std::ranges::find(shown_axes, axis.index) != shown_axes.end();
     if (is_shown || axis.index >= input.coordinates.size()) continue;
-    fixed += fmt::format("{}{} {}", ", ", axis.key.heading, axis.key.text(input.coordinates[axis.index]));
+    fixed += fmt::format(", {} {}", axis.key.heading, axis.key.text(input.coordinates[axis.index]));
   }
   return fixed;
 }
@@ -93,70 +93,47 @@ std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind 
   return label;
 }
 
-/// What the marks of every kind mean, in the order of CriticalGapKind.
-std::array<std::string, 5> kind_labels(const std::vector<CaseAnswer>& answers) {
-  return {"computed value",
-          bound_label(answers, CriticalGapKind::all_safe, "above the searched gaps") + " (bound)",
-          bound_label(answers, CriticalGapKind::all_ignite, "ignites at every gap") + " (bound)",
-          "indeterminate or failed", "the first of several crossings"};
-}
-
 /// The kind as it is drawn: a value that is not finite is none.
 CriticalGapKind drawn_kind(const CriticalGap& gap) {
   const bool broken = gap.kind == CriticalGapKind::value && !std::isfinite(gap.value);
   return broken ? CriticalGapKind::indeterminate : gap.kind;
 }
 
-/// Where a gap stands, as shown: a bound at its end, what is not known at 0.
-double position_of(const CriticalGap& gap) {
-  switch (drawn_kind(gap)) {
-    case CriticalGapKind::value:
-      return shown_gap(gap.value);
-    case CriticalGapKind::all_safe:
-    case CriticalGapKind::several_crossings:
-      return shown_gap(gap.lower);
-    case CriticalGapKind::all_ignite:
-      return shown_gap(gap.upper);
-    case CriticalGapKind::indeterminate:
-      break;
-  }
-  return 0;
-}
-
-/// One mark for every kind, in the order of CriticalGapKind, in a colour that no line has.
-constexpr std::array<Mark, 5> kind_marks{Mark::circle, Mark::up_triangle, Mark::down_triangle, Mark::cross,
-                                         Mark::diamond};
-constexpr int kind_colour = 6;
-
-/// Critical gaps that are no values as marks along an axis, one series for every kind.
+/// Critical gaps that are no values as marks along an axis, one series for every kind, in a colour that no
+/// line has.
 class GapMarks {
  public:
   /// `answers`: all that the picture will have, which decide the labels.
   explicit GapMarks(const std::vector<CaseAnswer>& answers) {
-    const auto labels = kind_labels(answers);
-    for (std::size_t kind = 0; kind < labels.size(); ++kind)
-      series_.push_back(
-          {.label = labels[kind], .style = Style::points, .colour = kind_colour, .mark = kind_marks[kind]});
+    using enum CriticalGapKind;
+    const auto mark = [this](CriticalGapKind kind, std::string label, Mark mark) {
+      series_[kind] = {.label = std::move(label), .style = Style::points, .colour = 6, .mark = mark};
+    };
+    mark(all_safe, bound_label(answers, all_safe, "above the searched gaps") + " (bound)", Mark::up_triangle);
+    mark(all_ignite, bound_label(answers, all_ignite, "ignites at every gap") + " (bound)",
+         Mark::down_triangle);
+    mark(several_crossings, "the first of several crossings", Mark::diamond);
   }
 
-  /// `place`: on the axis.
+  /// `place`: on the axis. A bound stands at its end.
   void add(const CriticalGap& gap, double place) {
-    if (drawn_kind(gap) == CriticalGapKind::indeterminate)
+    const CriticalGapKind kind = drawn_kind(gap);
+    if (kind == CriticalGapKind::indeterminate)
       ++unknown_;
-    else if (drawn_kind(gap) != CriticalGapKind::value)
-      series_[static_cast<std::size_t>(drawn_kind(gap))].add(place, position_of(gap));
+    else if (kind != CriticalGapKind::value)
+      series_.at(kind).add(place, shown_gap(kind == CriticalGapKind::all_ignite ? gap.upper : gap.lower));
   }
 
   /// The kinds that occur, and how many there are of which nothing is known.
   void put_into(Plot& plot) {
     if (unknown_ > 0)
       plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown_, "case"));
-    for (Series& series : series_)
+    for (auto& [kind, series] : series_)
       if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
 
  private:
-  std::vector<Series> series_;
+  std::map<CriticalGapKind, Series> series_;
   std::int64_t unknown_ = 0;
 };
 

@@ -142,21 +142,18 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
       std::ranges::find_if(result.details, [](const CaseOutcome& each) { return each.input.own_conditions; });
   if (own == result.details.end()) return;
   const bool foreign = misses_calibrated_rows(*own);
-  Series published{.label = "published"};
-  std::map<std::string, Series> by_use;
-  for (const Use use : {Use::fitted, Use::chosen_by, Use::held_out})
-    by_use[to_string(use)] = {.label = "published, " + to_string(use)};
-  by_use.at(to_string(Use::held_out)).mark = Mark::open_circle;
-  by_use.at(to_string(Use::chosen_by)).mark = Mark::open_triangle;
-  by_use.at(to_string(Use::fitted)).mark = published.mark = Mark::open_square;
+  std::map<std::string, Series> by_label{
+      {"published", {.mark = Mark::open_square}},
+      {"published, " + to_string(Use::chosen_by), {.mark = Mark::open_triangle}},
+      {"published, " + to_string(Use::fitted), {.mark = Mark::open_square}},
+      {"published, " + to_string(Use::held_out), {.mark = Mark::open_circle}}};
   for (const study::Reference& reference : result.study.study.references) {
     if (!std::isfinite(reference.maximum_temperature)) continue;
-    Series& series = foreign ? published : by_use.at(report::used_for(reference));
-    series.add(shown_gap(reference.gap), reference.maximum_temperature);
+    by_label.at(foreign ? "published" : "published, " + report::used_for(reference))
+        .add(shown_gap(reference.gap), reference.maximum_temperature);
   }
-  std::vector<Series> all{published};
-  for (auto& [use, series] : by_use) all.push_back(std::move(series));
-  for (Series& series : all) {
+  for (auto& [label, series] : by_label) {
+    series.label = label;
     series.style = Style::points;
     series.colour = 6;
     if (!series.x.empty()) plot.series.push_back(std::move(series));

@@ -119,8 +119,8 @@ Row crack_facts(const CriticalGapResult& result, const Effect& below) {
           {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
 }
 
-/// Rows of a table on the page; the files have all.
-constexpr std::size_t most_rows = 200;
+/// Rows of a table on the page, and columns of a matrix; the files have all.
+constexpr std::size_t most_rows = 200, most_gaps = 30;
 
 /// The largest gap that the searches which met no ignition came to, m.
 double end_of_search(const CriticalGapResult& result) {
@@ -130,11 +130,6 @@ double end_of_search(const CriticalGapResult& result) {
       end = answer.critical.lower;
   }
   return end;
-}
-
-std::string uncertainty_text(const CriticalGapResult& result) {
-  return report::uncertainty_remark(result.study) +
-         (result.details.empty() ? " " + said_below("critical_gap.traces") : "\n");
 }
 
 /// The verdicts as a matrix, or where they are.
@@ -206,16 +201,11 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-/// The row of the only case; null where there are several, each with its own critical gap.
-nlohmann::ordered_json only_critical_gap(const CriticalGapResult& result, const Table& gaps) {
-  if (result.answers.size() != 1) return nullptr;
-  return json_of_row(gaps, 0);
-}
-
 nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Table& gaps) {
   nlohmann::ordered_json members{
       {"axes", report::axes_json(result.study.study)},
-      {"critical_gap", only_critical_gap(result, gaps)},
+      // Of the only case; where there are several, each has its own.
+      {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
       {"early_time_ms", report::shown_value(result.study.study.early_time, report::quantity::time(2).form)},
       {"counts", counts_json(counts_of(result.answers))},
       {"notes", report::mesh_notes(result.study)}};
@@ -297,7 +287,8 @@ report::Report report_of(const CriticalGapResult& result) {
   else
     report.items.push_back(matrix_item(result));
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
-  report.items.push_back(Statement{uncertainty_text(result)});
+  report.items.push_back(Statement{report::uncertainty_remark(result.study) +
+                                   (in_detail ? "\n" : " " + said_below("critical_gap.traces"))});
   if (!in_detail) report.items.push_back(Statement{report::station_note(result.study) + "\n"});
   report.items.push_back(Statement{limiter_remark(result)});
   report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});

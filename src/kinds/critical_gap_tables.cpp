@@ -25,6 +25,12 @@ namespace quantity = report::quantity;
 
 namespace {
 
+/// A case with its answer, and what a study in detail knows besides; null in others.
+struct JudgedCase {
+  AnsweredCase answered;
+  const study::CaseOutcome* detail;
+};
+
 /// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
 Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
   Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch, others;
@@ -261,7 +267,7 @@ Table verdict_matrix(const CriticalGapResult& result) {
   Table table = table_of("Verdicts by gap", matrix_quantities(result.study.study),
                          answered(result.study, result.answers));
   if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
-    table.notes.emplace_back(indeterminate_note);
+    table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
   return table;
 }
 

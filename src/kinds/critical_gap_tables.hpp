@@ -1,4 +1,4 @@
-// What the tables and the page of a critical-gap study share.
+// What the sources of a critical-gap study share.
 #pragma once
 
 #include "answer_tables.hpp"
@@ -11,12 +11,6 @@
 #include <vector>
 
 namespace launchsafe::kinds {
-
-/// A case with its answer, and what a study in detail knows besides; null in others.
-struct JudgedCase {
-  AnsweredCase answered;
-  const study::CaseOutcome* detail;
-};
 
 /// What the coupled runs did: "0.038 cm does not ignite; 0.0381 cm ignites".
 std::string confirmation_text(const study::CaseOutcome& outcome);

@@ -29,10 +29,10 @@ bool are_alike(const Firing& a, const Firing& b) {
 }
 
 void run_conditions(FiringResult& result, const StudyOptions& options) {
-  for (const study::StudyCase& input : result.study.cases) result.conditions.push_back({input, {}, {}, {}});
+  for (const study::StudyCase& input : result.study.cases) result.conditions.push_back({input});
   study::run_every_case(
       result.study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
-        FiredCondition& condition = result.conditions[i];
+        CalibrationRun& condition = result.conditions[i];
         condition.outcome = finished.front().outcome;
         condition.failure = finished.front().failure;
         condition.mechanics = finished.front().result.mechanics;
@@ -54,7 +54,7 @@ void count_rounds(FiringRow& row, const std::vector<Firing>& firings) {
 }
 
 /// K, of T max of a skin that does not react.
-double rise_of(const FiredCondition& condition, double gap) {
+double rise_of(const CalibrationRun& condition, double gap) {
   const surface::SkinModel model = study::without_reaction(surface::skin_model(condition.input.scene.scene));
   const auto skin = surface::integrate_skin(model, condition.mechanics.trace, gap);
   return surface::maximum_at_stations(skin, condition.mechanics.trace).temperature -
@@ -62,7 +62,7 @@ double rise_of(const FiredCondition& condition, double gap) {
 }
 
 /// How much the heat of rounds differs as their pressures and temperatures do.
-double log_heat_spread(const FiredCondition& condition, const Firing& firing) {
+double log_heat_spread(const CalibrationRun& condition, const Firing& firing) {
   return std::hypot(study::heat_exponent * firing.pressure_spread / firing.pressure,
                     firing.temperature_spread / rise_of(condition, firing.gap));
 }
@@ -85,7 +85,7 @@ std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::F
   std::vector<std::optional<surface::IgnitionBoundary>> boundaries(result.rows.size());
   tbb::parallel_for(std::size_t{0}, result.rows.size(), [&](std::size_t i) {
     FiringRow& row = result.rows[i];
-    const FiredCondition& condition = result.conditions[row.condition];
+    const CalibrationRun& condition = result.conditions[row.condition];
     row.log_heat_spread = log_heat_spread(condition, row.firing);
     boundaries[i] = surface::IgnitionBoundary::find(surface::skin_model(condition.input.scene.scene),
                                                     condition.mechanics.trace, row.firing.gap,
@@ -168,7 +168,7 @@ std::vector<NextFiring> next_firings(const FiringResult& result, const Posterior
     for (const double times : {0.5, 1.0, 1.5, 2.0}) gaps.push_back(times * largest.gap);
   std::vector<NextFiring> next;
   for (std::size_t place = 0; place < result.conditions.size(); ++place) {
-    const FiredCondition& condition = result.conditions[place];
+    const CalibrationRun& condition = result.conditions[place];
     const FiringRow& row = *std::ranges::find(result.rows, place, &FiringRow::condition);
     const surface::SkinModel model = surface::skin_model(condition.input.scene.scene);
     for (const double gap : gaps) {
@@ -213,7 +213,7 @@ study::CalibrationEvidence evidence_of(const FiringResult& result, const scene::
   double factor = 1.0;
   for (const Posterior* posterior : {&firings.posterior, &firings.of_doubled_prior})
     factor = std::max(factor, study::heat_factor(*posterior, launches[place].boundary, constants));
-  FiredCondition condition = result.conditions[result.rows[place].condition];
+  CalibrationRun condition = result.conditions[result.rows[place].condition];
   scene::Scene& scene = condition.input.scene.scene;
   scene.surface.localisation = calibrated.surface.localisation;
   scene.surface.exchange_time = calibrated.surface.exchange_time;
@@ -223,7 +223,7 @@ study::CalibrationEvidence evidence_of(const FiringResult& result, const scene::
 
 void calibrate_on_firings(FiringResult& result) {
   const auto failed = std::ranges::find_if(result.conditions,
-                                           [](const FiredCondition& each) { return !each.failure.empty(); });
+                                           [](const CalibrationRun& each) { return !each.failure.empty(); });
   if (failed != result.conditions.end()) {
     result.failure = failed->input.label + ": " + failed->failure;
     return;

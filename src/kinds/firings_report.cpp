@@ -1,5 +1,6 @@
 // Tables, page and files of a calibration on firings.
 #include "answer_tables.hpp"
+#include "calibration_parts.hpp"
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -104,13 +105,6 @@ Row facts_of(const FiringResult& result) {
   return facts;
 }
 
-report::Table run_table_of(const FiringResult& result) {
-  std::vector<report::NamedRun> runs;
-  for (const FiredCondition& each : result.conditions)
-    runs.push_back({each.input.label, each.failure, &each.mechanics, {}});
-  return run_table(runs);
-}
-
 }  // namespace
 
 std::string answer(const FiringResult& result) {
@@ -134,7 +128,7 @@ report::Report report_of(const FiringResult& result) {
   add("What one more round would tell", next_quantities(), result.next, "", "next_firings",
       "calibration.note.next");
   report.items.push_back(report::Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(report::ReportTable{run_table_of(result), "", "runs", report::Shown::page});
+  report.items.push_back(report::ReportTable{run_table(result.conditions), "", "runs", report::Shown::page});
   report.items.push_back(report::Statement{report::timing_sentence(result.timing)});
   report.json = study_json(result.study, report,
                            {{"failure", result.failure}, {"timing", report::timing_json(result.timing)}});

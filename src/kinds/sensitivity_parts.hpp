@@ -1,13 +1,12 @@
-// What the tables, the page and the pictures of a sensitivity study share.
+// What the sources of a sensitivity study share: how things are called; its points, fits and added launches;
+// and what the samples say of the outputs themselves. Only the samples of Saltelli's matrices A and B are
+// draws from the distributions of the inputs; the mixed ones are made for differences.
 #pragma once
 
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/math/statistics.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -61,33 +60,11 @@ void add_launches(SensitivityResult& result, const study::StudyOptions& options)
 /// What was fitted, for `launchsafe ask`. Of a study that has its outputs.
 study::SurrogateRecord surrogate_record(const SensitivityResult& result);
 
-/// The draws of one output.
-struct OutputSample {
-  /// SI, ascending. A critical gap that is no number is minus infinity where the launch ignites without a
-  /// gap, and infinity where nothing ignites up to the end of the search: it has a rank and no value.
-  std::vector<double> values;
-  std::size_t missing = 0;  ///< draws of which nothing is known
-  std::size_t ignites_at_zero() const;
-  std::size_t none_ignites() const;
-  /// The smallest draw that at least this share (0 to 1) of them does not exceed; NaN without draws.
-  double quantile(double share) const;
-};
-OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output);
-
-/// The shares of the draws at which quantiles are told.
-inline constexpr std::array quantile_shares{0.025, 0.05, 0.5, 0.95, 0.975};
-
-/// How many draws ignite at the study's gap.
-struct IgnitionShare {
-  std::size_t igniting = 0, completed = 0, failed = 0;
-  /// Of the probability, 95 %: its ends hold whatever the failed draws would have done.
-  math::Interval interval{study::not_a_number, study::not_a_number};
-};
-IgnitionShare ignition_share(const SensitivityResult& result);
-
+/// How many draws ignite at the study's gap, and between what, with 95 %, the probability lies: its ends hold
+/// whatever the failed draws would have done.
+nlohmann::ordered_json ignition_json(const SensitivityResult& result);
 /// The same as a sentence, with the lower quantile of the critical gap.
 std::string samples_text(const SensitivityResult& result);
-nlohmann::ordered_json ignition_json(const SensitivityResult& result);
 
 /// A row for every share, with the quantile of critical gap and T max.
 report::Table quantile_table(const SensitivityResult& result);

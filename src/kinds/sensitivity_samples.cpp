@@ -1,4 +1,5 @@
 #include "answer_tables.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "sensitivity_parts.hpp"
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -20,12 +22,49 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double ignition_level = 0.95;
+/// The shares of the draws at which quantiles are told.
+constexpr std::array quantile_shares{0.025, 0.05, 0.5, 0.95, 0.975};
 
 /// Its place in the order of the draws; NaN where nothing is known.
 double ranked(const OutputSensitivity& output, const study::CaseAnswer& answer, double value) {
   if (output.output != SensitivityOutput::critical_gap || !answer.completed()) return value;
   if (answer.critical.kind == study::CriticalGapKind::all_ignite) return -infinite;
   return answer.critical.kind == study::CriticalGapKind::all_safe ? infinite : value;
+}
+
+/// The draws of one output.
+struct OutputSample {
+  /// SI, ascending. A critical gap that is no number is minus infinity where the launch ignites without a
+  /// gap, and infinity where nothing ignites up to the end of the search: it has a rank and no value.
+  std::vector<double> values;
+  std::size_t missing = 0;  ///< draws of which nothing is known
+  std::size_t count(double value) const {
+    return static_cast<std::size_t>(std::ranges::count(values, value));
+  }
+  std::size_t ignites_at_zero() const { return count(-infinite); }
+  std::size_t none_ignites() const { return count(infinite); }
+  /// The smallest draw that at least this share (0 to 1) of them does not exceed; NaN without draws.
+  double quantile(double share) const {
+    if (values.empty()) return not_a_number;
+    constexpr double round_off = 1e-9;
+    const auto size = static_cast<double>(values.size());
+    const double rank = std::clamp(std::ceil(share * size - round_off), 1.0, size);
+    return values[static_cast<std::size_t>(rank) - 1];
+  }
+};
+
+OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  OutputSample sample;
+  for (std::size_t i = 0; i < output.values.size(); ++i) {
+    if (!samples_inputs(result.study.study, i)) continue;
+    const double value = ranked(output, result.answers[i], output.values[i]);
+    if (std::isnan(value))
+      ++sample.missing;
+    else
+      sample.values.push_back(value);
+  }
+  std::ranges::sort(sample.values);
+  return sample;
 }
 
 const OutputSensitivity* output_of(const SensitivityResult& result, SensitivityOutput which) {
@@ -134,57 +173,25 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
 
 }  // namespace
 
-std::size_t OutputSample::ignites_at_zero() const {
-  return static_cast<std::size_t>(std::ranges::count(values, -infinite));
-}
-std::size_t OutputSample::none_ignites() const {
-  return static_cast<std::size_t>(std::ranges::count(values, infinite));
-}
-
-double OutputSample::quantile(double share) const {
-  if (values.empty()) return not_a_number;
-  constexpr double round_off = 1e-9;
-  const double rank = std::ceil(share * static_cast<double>(values.size()) - round_off);
-  return values[static_cast<std::size_t>(std::clamp(rank, 1.0, static_cast<double>(values.size()))) - 1];
-}
-
-OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output) {
-  OutputSample sample;
-  for (std::size_t i = 0; i < output.values.size(); ++i) {
-    if (!samples_inputs(result.study.study, i)) continue;
-    const double value = ranked(output, result.answers[i], output.values[i]);
-    if (std::isnan(value))
-      ++sample.missing;
-    else
-      sample.values.push_back(value);
-  }
-  std::ranges::sort(sample.values);
-  return sample;
-}
-
-IgnitionShare ignition_share(const SensitivityResult& result) {
-  IgnitionShare share;
+nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
+  std::size_t igniting = 0, completed = 0, failed = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
-    ++(answer.completed() ? share.completed : share.failed);
-    if (answer.completed() && answer.verdicts.front().ignition) ++share.igniting;
+    ++(answer.completed() ? completed : failed);
+    if (answer.completed() && answer.verdicts.front().ignition) ++igniting;
   }
-  const std::size_t all = share.completed + share.failed;
-  if (all == 0) return share;
-  share.interval = {math::clopper_pearson(share.igniting, all, ignition_level).lower,
-                    math::clopper_pearson(share.igniting + share.failed, all, ignition_level).upper};
-  return share;
-}
-
-nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
-  const IgnitionShare share = ignition_share(result);
-  return {{"igniting", share.igniting},
-          {"completed", share.completed},
-          {"failed", share.failed},
+  const std::size_t all = completed + failed;
+  const auto interval = [&](std::size_t count) {
+    return all == 0 ? math::Interval{not_a_number, not_a_number}
+                    : math::clopper_pearson(count, all, ignition_level);
+  };
+  return {{"igniting", igniting},
+          {"completed", completed},
+          {"failed", failed},
           {"confidence", ignition_level},
-          {"probability_from", report::number(share.interval.lower)},
-          {"probability_to", report::number(share.interval.upper)}};
+          {"probability_from", report::number(interval(igniting).lower)},
+          {"probability_to", report::number(interval(igniting + failed).upper)}};
 }
 
 std::string samples_text(const SensitivityResult& result) {

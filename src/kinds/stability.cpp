@@ -253,7 +253,7 @@ StabilityResult run_stability(const StudyFile& study, const study::StudyOptions&
         result.rows.push_back({asked, {}, not_a_number, {}, {}, judge_reader(asked)});
     }
   };
-  return run_timed<StabilityResult>(study, options, compute, [](StabilityResult&) {});
+  return run_timed<StabilityResult>(study, options, compute);
 }
 
 }  // namespace launchsafe::kinds

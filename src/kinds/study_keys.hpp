@@ -1,12 +1,11 @@
-// Keys of study files that several kinds share, and the tables of published results.
+// What reads the study files of several kinds: keys, tables of published results, the scene that cases start
+// from, and [[vary]].
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 
-#include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -126,48 +125,5 @@ std::vector<scene::Key<VariantText>> variant_keys();
 /// The tables of the entry with variants; none is a fault.
 scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
                                                              const study::StudyFile& study);
-
-/// One entry as read.
-struct VaryText {
-  std::string name;
-  scene::KeyDescription key;   ///< of the scene
-  std::vector<double> values;  ///< SI
-  int count = 0;               ///< values in the range
-  /// SI; what is not given is infinite or NaN. `range` is its lower and upper end.
-  math::Distribution distribution{math::Distribution::Kind::uniform, -std::numeric_limits<double>::infinity(),
-                                  std::numeric_limits<double>::infinity(), study::not_a_number,
-                                  study::not_a_number};
-};
-
-/// The keys of an entry that varies this key of a scene.
-std::vector<scene::Key<VaryText>> vary_keys(const scene::KeyDescription& scene_key);
-
-/// One entry while it is read.
-struct VaryReader {
-  study::StudyFile& study;
-  const toml::table& table;
-  std::size_t index;
-  VaryText text = {};
-  std::map<std::string, scene::Place> places = {};
-
-  bool given(const std::string& key) const { return places.contains(key); }
-  scene::Place place_of(const std::string& key) const;
-  /// The key of the study file by which places and faults are kept: "vary.0.range".
-  std::string study_key(const std::string& key) const;
-  scene::InputError fault(const std::string& key, std::string found, std::string allowed,
-                          std::string suggestion = {}) const;
-  /// The fault of a key that is missing and that an entry such as `what` needs.
-  scene::InputError missing(const std::string& key, const std::string& what) const;
-};
-
-/// Whether the distribution of an entry is whole and possible.
-study::Fault check_distribution(const VaryReader& reader);
-
-/// The entry that names the record of a calibration, by its path.
-struct VaryRecord {
-  std::string name;
-};
-std::vector<scene::Key<VaryRecord>> vary_record_keys();
-study::Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder);
 
 }  // namespace launchsafe::kinds

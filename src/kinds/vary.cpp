@@ -1,3 +1,5 @@
+// [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, with a range
+// and a count, or with a distribution; or a calibration whose constants vary together; or named variants.
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
@@ -9,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <utility>
 
 namespace launchsafe::kinds {
@@ -21,6 +25,18 @@ using math::Distribution;
 using scene::Dimension, scene::KeyDescription, scene::Place;
 
 constexpr const char *table_name = "vary", *variants_key = "variants", *calibration_key = "calibration";
+
+/// One entry as read.
+struct VaryText {
+  std::string name;
+  scene::KeyDescription key;   ///< of the scene
+  std::vector<double> values;  ///< SI
+  int count = 0;               ///< values in the range
+  /// SI; what is not given is infinite or NaN. `range` is its lower and upper end.
+  math::Distribution distribution{math::Distribution::Kind::uniform, -std::numeric_limits<double>::infinity(),
+                                  std::numeric_limits<double>::infinity(), study::not_a_number,
+                                  study::not_a_number};
+};
 
 std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& scene_key) {
   using Kind = Distribution::Kind;
@@ -42,6 +58,140 @@ std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& sc
                         &Distribution::deviation),
   };
 }
+
+/// The keys of an entry that varies this key of a scene.
+std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
+  return keys::joined<VaryText>(
+      {{scene::required(scene::text_key(
+            "key", scene::Standing::input,
+            "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+            "peak_pressure", &VaryText::name)),
+        scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
+                        "Its values, in a unit of the key; every combination with other keys is a case.",
+                        &VaryText::values),
+        scene::number_key("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
+                          "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
+       keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
+}
+
+/// The entry that names the record of a calibration, by its path.
+struct VaryRecord {
+  std::string name;
+};
+
+std::vector<scene::Key<VaryRecord>> vary_record_keys() {
+  return {scene::text_key("calibration", scene::Standing::input,
+                          "Instead of the other keys: the calibration.json whose fitted constants vary "
+                          "together, by the covariance of its fit; of kind sensitivity.",
+                          "../reports/calibrate_table8/calibration.json", &VaryRecord::name)};
+}
+
+/// One entry while it is read.
+struct VaryReader {
+  study::StudyFile& study;
+  const toml::table& table;
+  std::size_t index;
+  VaryText text = {};
+  std::map<std::string, Place> places = {};
+
+  bool given(const std::string& key) const { return places.contains(key); }
+  Place place_of(const std::string& key) const {
+    return given(key) ? places.at(key) : scene::place_of(table, study.file);
+  }
+  /// The key of the study file by which places and faults are kept: "vary.0.range".
+  std::string study_key(const std::string& key) const {
+    return fmt::format("{}.{}.{}", table_name, index, key);
+  }
+  scene::InputError fault(const std::string& key, std::string found, std::string allowed,
+                          std::string suggestion = {}) const {
+    return scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
+                           std::move(suggestion));
+  }
+  /// The fault of a key that is missing and that an entry such as `what` needs.
+  scene::InputError missing(const std::string& key, const std::string& what) const {
+    return fault(key, fmt::format("nothing; {} needs it", what),
+                 scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
+  }
+};
+
+// --- distributions ---
+
+/// Deviations of a normal that is not cut off which must lie within the limits of its key.
+constexpr double deviations_within_limits = 4.0;
+
+std::string to_string(Distribution::Kind kind) {
+  constexpr std::array words{"uniform", "log-uniform", "normal"};
+  return words.at(static_cast<std::size_t>(kind));
+}
+
+/// Keys that the distribution needs, and those that would silently do nothing.
+Fault check_given(const VaryReader& reader) {
+  const bool normal = reader.text.distribution.kind == Distribution::Kind::normal;
+  const std::string what = fmt::format("a {} distribution", to_string(reader.text.distribution.kind));
+  if (!normal && !reader.given("range")) return reader.missing("range", what);
+  for (const char* key : {"mean", "deviation"}) {
+    if (normal && !reader.given(key)) return reader.missing(key, what);
+    if (!normal && reader.given(key)) {
+      return reader.fault(
+          key, "a key of distribution \"normal\"",
+          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.distribution.kind)));
+    }
+  }
+  return std::nullopt;
+}
+
+std::string range_text(double lower, double upper, Dimension dimension) {
+  return fmt::format("{} to {}", scene::format_quantity(lower, dimension),
+                     scene::format_quantity(upper, dimension));
+}
+
+/// The range to write for a normal that needs one; empty where the limits leave none.
+std::string suggested_range(const VaryText& text) {
+  const double reach = deviations_within_limits * text.distribution.deviation;
+  const double lower = std::max(text.distribution.centre - reach, text.key.limits.lowest);
+  const double upper = std::min(text.distribution.centre + reach, text.key.limits.highest);
+  if (!(lower < upper) || !text.key.limits.contain(lower) || !text.key.limits.contain(upper)) return {};
+  return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
+}
+
+/// A normal without a range must in practice stay within the limits of its key.
+Fault check_reach(const VaryReader& reader) {
+  const VaryText& text = reader.text;
+  if (text.distribution.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
+  const double reach = deviations_within_limits * text.distribution.deviation;
+  const double lower = text.distribution.centre - reach, upper = text.distribution.centre + reach;
+  if (text.key.limits.contain(lower) && text.key.limits.contain(upper)) return std::nullopt;
+  return reader.fault(
+      "deviation",
+      fmt::format("values of {} within {:g} deviations, outside the limits of {}",
+                  range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
+      "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
+}
+
+/// Whether the distribution of an entry is whole and possible.
+Fault check_distribution(const VaryReader& reader) {
+  if (Fault fault = check_given(reader)) return fault;
+  const VaryText& text = reader.text;
+  if (text.distribution.kind == Distribution::Kind::log_uniform && !(text.distribution.lower > 0.0)) {
+    return reader.fault(
+        "range",
+        fmt::format("{}, whose lower end has no logarithm",
+                    range_text(text.distribution.lower, text.distribution.upper, text.key.dimension)),
+        "a range above 0 for distribution \"log-uniform\"");
+  }
+  if (Fault fault = check_reach(reader)) return fault;
+  if (math::is_valid(text.distribution)) return std::nullopt;
+  return reader.fault(
+      "range",
+      fmt::format(
+          "{}, where a normal of mean {} and deviation {} has no share",
+          range_text(text.distribution.lower, text.distribution.upper, text.key.dimension),
+          scene::format_quantity(text.distribution.centre, text.key.dimension),
+          scene::format_quantity(text.distribution.deviation, scene::difference_of(text.key.dimension))),
+      "a range near the mean");
+}
+
+// --- entries ---
 
 /// The scene key that an entry names, which the dimension of its other keys follows from.
 scene::Expected<KeyDescription> read_scene_key(VaryReader& reader, const Varied& admitted) {
@@ -132,58 +282,6 @@ Fault check_variants(const VaryReader& reader, const Varied& admitted) {
   return std::nullopt;
 }
 
-/// Deviations of a normal that is not cut off which must lie within the limits of its key.
-constexpr double deviations_within_limits = 4.0;
-
-std::string to_string(Distribution::Kind kind) {
-  constexpr std::array words{"uniform", "log-uniform", "normal"};
-  return words.at(static_cast<std::size_t>(kind));
-}
-
-/// Keys that the distribution needs, and those that would silently do nothing.
-Fault check_given(const VaryReader& reader) {
-  const bool normal = reader.text.distribution.kind == Distribution::Kind::normal;
-  const std::string what = fmt::format("a {} distribution", to_string(reader.text.distribution.kind));
-  if (!normal && !reader.given("range")) return reader.missing("range", what);
-  for (const char* key : {"mean", "deviation"}) {
-    if (normal && !reader.given(key)) return reader.missing(key, what);
-    if (!normal && reader.given(key)) {
-      return reader.fault(
-          key, "a key of distribution \"normal\"",
-          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.distribution.kind)));
-    }
-  }
-  return std::nullopt;
-}
-
-std::string range_text(double lower, double upper, Dimension dimension) {
-  return fmt::format("{} to {}", scene::format_quantity(lower, dimension),
-                     scene::format_quantity(upper, dimension));
-}
-
-/// The range to write for a normal that needs one; empty where the limits leave none.
-std::string suggested_range(const VaryText& text) {
-  const double reach = deviations_within_limits * text.distribution.deviation;
-  const double lower = std::max(text.distribution.centre - reach, text.key.limits.lowest);
-  const double upper = std::min(text.distribution.centre + reach, text.key.limits.highest);
-  if (!(lower < upper) || !text.key.limits.contain(lower) || !text.key.limits.contain(upper)) return {};
-  return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
-}
-
-/// A normal without a range must in practice stay within the limits of its key.
-Fault check_reach(const VaryReader& reader) {
-  const VaryText& text = reader.text;
-  if (text.distribution.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
-  const double reach = deviations_within_limits * text.distribution.deviation;
-  const double lower = text.distribution.centre - reach, upper = text.distribution.centre + reach;
-  if (text.key.limits.contain(lower) && text.key.limits.contain(upper)) return std::nullopt;
-  return reader.fault(
-      "deviation",
-      fmt::format("values of {} within {:g} deviations, outside the limits of {}",
-                  range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
-      "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
-}
-
 // --- the constants of a calibration, together ---
 
 /// Whether the study's scene and keys allow constants of a record to vary.
@@ -223,21 +321,38 @@ scene::Expected<study::CalibrationRecord> read_covariance(VaryReader& reader,
   return record;
 }
 
-}  // namespace
-
-std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
-  return keys::joined<VaryText>(
-      {{scene::required(scene::text_key(
-            "key", scene::Standing::input,
-            "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-            "peak_pressure", &VaryText::name)),
-        scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
-                        "Its values, in a unit of the key; every combination with other keys is a case.",
-                        &VaryText::values),
-        scene::number_key("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
-                          "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
-       keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
+Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
+  VaryRecord named;
+  auto read = scene::read_table(reader.table, vary_record_keys(), {}, reader.study.file, named);
+  if (!read) return study::in_table(read.error(), "vary");
+  reader.places = std::move(*read);
+  const Place place = reader.place_of("calibration");
+  const std::string study_key = reader.study_key("calibration");
+  reader.study.places[study_key] = place;
+  if (Fault fault = check_place_of_record(reader)) return fault;
+  const auto record = read_covariance(reader, folder, named.name);
+  if (!record) return record.error();
+  constexpr std::size_t count = study::fitted_keys.size();
+  auto factor = math::covariance_factor(record->covariance, count);
+  if (!factor)
+    return reader.fault("calibration", "a record whose covariance is not positive definite",
+                        "the record of a calibration whose fit is not singular");
+  study::Study& study = reader.study.study;
+  settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string key_name = study::fitted_keys[i];
+    if (Fault fault = check_free(reader.study, key_name, place, "vary.calibration")) return fault;
+    const auto key = varied_key(reader.study, key_name, "vary.calibration", place);
+    if (!key) return key.error();
+    const double median =
+        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record->calibration.scene));
+    const double deviation = std::sqrt(record->covariance[i * count + i]);
+    study.axes.push_back({key_name, study_key, *key, {}, Distribution::log_normal(median, deviation)});
+  }
+  return std::nullopt;
 }
+
+}  // namespace
 
 std::vector<scene::Key<VariantText>> variant_keys() {
   using scene::Standing;
@@ -252,26 +367,6 @@ std::vector<scene::Key<VariantText>> variant_keys() {
                       "set, and what it accepts in accept.",
                       "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
   };
-}
-
-Place VaryReader::place_of(const std::string& key) const {
-  const auto found = places.find(key);
-  return found == places.end() ? scene::place_of(table, study.file) : found->second;
-}
-
-std::string VaryReader::study_key(const std::string& key) const {
-  return fmt::format("{}.{}.{}", table_name, index, key);
-}
-
-scene::InputError VaryReader::fault(const std::string& key, std::string found, std::string allowed,
-                                    std::string suggestion) const {
-  return scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
-                         std::move(suggestion));
-}
-
-scene::InputError VaryReader::missing(const std::string& key, const std::string& what) const {
-  return fault(key, fmt::format("nothing; {} needs it", what),
-               scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
 }
 
 StudyTable vary_table() {
@@ -317,66 +412,6 @@ scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& 
   if (!variants.empty()) return variants;
   return scene::error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
                          "a [[vary]] with variants, each with a name and what it changes");
-}
-
-Fault check_distribution(const VaryReader& reader) {
-  if (Fault fault = check_given(reader)) return fault;
-  const VaryText& text = reader.text;
-  if (text.distribution.kind == Distribution::Kind::log_uniform && !(text.distribution.lower > 0.0)) {
-    return reader.fault(
-        "range",
-        fmt::format("{}, whose lower end has no logarithm",
-                    range_text(text.distribution.lower, text.distribution.upper, text.key.dimension)),
-        "a range above 0 for distribution \"log-uniform\"");
-  }
-  if (Fault fault = check_reach(reader)) return fault;
-  if (math::is_valid(text.distribution)) return std::nullopt;
-  return reader.fault(
-      "range",
-      fmt::format(
-          "{}, where a normal of mean {} and deviation {} has no share",
-          range_text(text.distribution.lower, text.distribution.upper, text.key.dimension),
-          scene::format_quantity(text.distribution.centre, text.key.dimension),
-          scene::format_quantity(text.distribution.deviation, scene::difference_of(text.key.dimension))),
-      "a range near the mean");
-}
-
-std::vector<scene::Key<VaryRecord>> vary_record_keys() {
-  return {scene::text_key("calibration", scene::Standing::input,
-                          "Instead of the other keys: the calibration.json whose fitted constants vary "
-                          "together, by the covariance of its fit; of kind sensitivity.",
-                          "../reports/calibrate_table8/calibration.json", &VaryRecord::name)};
-}
-
-Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
-  VaryRecord named;
-  auto read = scene::read_table(reader.table, vary_record_keys(), {}, reader.study.file, named);
-  if (!read) return study::in_table(read.error(), "vary");
-  reader.places = std::move(*read);
-  const Place place = reader.place_of("calibration");
-  const std::string study_key = reader.study_key("calibration");
-  reader.study.places[study_key] = place;
-  if (Fault fault = check_place_of_record(reader)) return fault;
-  const auto record = read_covariance(reader, folder, named.name);
-  if (!record) return record.error();
-  constexpr std::size_t count = study::fitted_keys.size();
-  auto factor = math::covariance_factor(record->covariance, count);
-  if (!factor)
-    return reader.fault("calibration", "a record whose covariance is not positive definite",
-                        "the record of a calibration whose fit is not singular");
-  study::Study& study = reader.study.study;
-  settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string key_name = study::fitted_keys[i];
-    if (Fault fault = check_free(reader.study, key_name, place, "vary.calibration")) return fault;
-    const auto key = varied_key(reader.study, key_name, "vary.calibration", place);
-    if (!key) return key.error();
-    const double median =
-        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record->calibration.scene));
-    const double deviation = std::sqrt(record->covariance[i * count + i]);
-    study.axes.push_back({key_name, study_key, *key, {}, Distribution::log_normal(median, deviation)});
-  }
-  return std::nullopt;
 }
 
 }  // namespace launchsafe::kinds

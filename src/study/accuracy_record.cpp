@@ -193,6 +193,14 @@ std::string beyond(double recorded, double value, const char* unit, const char* 
                      unit, value, unit, most);
 }
 
+/// How far `value` may be from the truth: it is so far from the finest mesh's, that within the reference's
+/// uncertainty of the limit, and that within its inexactness of the truth. NaN where one of them is not
+/// known.
+double bound_against(const ReferenceValue& reference, double value) {
+  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return std::abs(value - reference.values.front()) + reference.limit.uncertainty + reference.inexactness;
+}
+
 }  // namespace
 
 ReferenceValue reference_value(std::vector<double> values, const std::vector<double>& sizes) {
@@ -207,11 +215,6 @@ ReferenceValue reference_value(std::vector<double> values, const std::vector<dou
 double error_against(const ReferenceValue& reference, double value) {
   if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
   return value - reference.limit.value;
-}
-
-double bound_against(const ReferenceValue& reference, double value) {
-  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return std::abs(value - reference.values.front()) + reference.limit.uncertainty + reference.inexactness;
 }
 
 double larger_bound(double a, double b) {

@@ -106,8 +106,6 @@ GapBounds bounds_of(double safe, double igniting, const std::vector<GapShare>& s
   return {not_negative(safe - down), igniting + up};
 }
 
-CriticalGap::CriticalGap() : value(std::numeric_limits<double>::quiet_NaN()), lower(value), upper(value) {}
-
 std::string to_string(CriticalGapKind kind) {
   constexpr std::array words{"value", "all-safe", "all-ignite", "indeterminate", "several-crossings"};
   return words.at(static_cast<std::size_t>(kind));

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
 
 namespace launchsafe::study {
@@ -13,13 +15,117 @@ namespace {
 
 using keys::ActsOn;
 
+/// A curve by its regressors at a gap in cm.
+using Regressors = std::function<std::vector<double>(double)>;
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+Line line_through(double intercept, double slope, const std::vector<double>& gaps_cm,
+                  const std::vector<double>& temperatures) {
+  Line line{intercept, slope, {}, 0};
+  for (std::size_t i = 0; i < gaps_cm.size(); ++i)
+    line.residuals.push_back(temperatures[i] - (intercept + slope * gaps_cm[i]));
+  line.root_mean_square = root_mean_square(line.residuals);
+  return line;
+}
+
+std::vector<double> straight(double gap_cm) { return math::polynomial_row(gap_cm, 1); }
+
+/// K, each row less what the others predict for it; NaN where they are too few.
+std::vector<double> left_out_errors(const math::LeastSquares& fit, const Regressors& regressors,
+                                    const std::vector<double>& gaps_cm) {
+  std::vector<double> errors(gaps_cm.size(), not_a_number);
+  for (std::size_t i = 0; fit.degrees_of_freedom > 0 && i < gaps_cm.size(); ++i)
+    errors[i] = fit.residuals[i] / (1.0 - fit.leverage(regressors(gaps_cm[i])));
+  return errors;
+}
+
+double corrected_akaike(double misfit, double rows, double coefficients) {
+  const double unknowns = coefficients + 1, spare = rows - unknowns - 1;
+  return spare > 0 ? rows * std::log(misfit * misfit) + 2 * unknowns + 2 * unknowns * (unknowns + 1) / spare
+                   : not_a_number;
+}
+
+/// Nothing where the regressors depend on each other, or there are fewer rows than coefficients.
+std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regressors,
+                                     const std::vector<double>& gaps_cm,
+                                     const std::vector<double>& temperatures) {
+  std::vector<std::vector<double>> rows;
+  for (const double gap : gaps_cm) rows.push_back(regressors(gap));
+  const auto fit = math::least_squares(rows, temperatures);
+  if (!fit) return std::nullopt;
+  FittedCurve curve{name, static_cast<int>(fit->coefficients.size())};
+  curve.left_out = root_mean_square(left_out_errors(*fit, regressors, gaps_cm));
+  // Of a curve with as many coefficients as rows what remains is round-off.
+  if (fit->degrees_of_freedom > 0) curve.root_mean_square = root_mean_square(fit->residuals);
+  curve.corrected_akaike =
+      corrected_akaike(root_mean_square(fit->residuals), static_cast<double>(gaps_cm.size()),
+                       static_cast<double>(curve.coefficients));
+  return curve;
+}
+
+void find_ignition(const math::LeastSquares& line, double ignition_temperature, GapFit& fit) {
+  const double slope = line.coefficients[1];
+  if (!(slope > 0.0)) return;
+  const double gap_cm = (ignition_temperature - line.coefficients[0]) / slope;
+  fit.reaches_ignition = 0.01 * gap_cm;
+  fit.reaches_ignition_half_width = 0.01 * line.prediction_half_width(straight(gap_cm), 0.95) / slope;
+}
+
 /// Whether a key acts on the skin of a given trace, or in proportion to what the trace holds.
 bool is_of_skin(const std::string& key) {
   constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
   return std::ranges::find(felt, scene::role_of(key).acts_on) != felt.end();
 }
 
+/// K from there to ignition with all skin_keys as calibrated; infinite where there are none, minus
+/// infinite where it ignites.
+double margin_as_calibrated(const std::vector<AsCalibrated>& all, double ignition_temperature) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const AsCalibrated& each : all)
+    if (each.key.empty()) return each.ignites ? -infinity : ignition_temperature - each.temperature;
+  return infinity;
+}
+
 }  // namespace
+
+std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures,
+                               const materials::KineticsParameters& kinetics,
+                               const ReferenceLine& published) {
+  std::vector<double> gaps_cm;
+  for (const double gap : gaps) gaps_cm.push_back(100.0 * gap);
+  const auto fitted = math::fit_line(gaps_cm, temperatures);
+  if (!fitted) return std::nullopt;
+  GapFit fit{.gaps = gaps, .temperatures = temperatures, .least_squares = *fitted};
+  const double slope = fitted->coefficients[1];
+  fit.ordinary = line_through(fitted->coefficients[0], slope, gaps_cm, temperatures);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (gaps[i] == 0.0) fit.mixed = line_through(temperatures[i], slope, gaps_cm, temperatures);
+  }
+  if (published.given())
+    fit.published = line_through(published.intercept, published.slope, gaps_cm, temperatures);
+  fit.left_out = left_out_errors(*fitted, straight, gaps_cm);
+  if (fitted->degrees_of_freedom < 1) return fit;
+  const double ignition = kinetics.ignition_temperature;
+  find_ignition(*fitted, ignition, fit);
+  const std::pair<const char*, Regressors> curves[] = {
+      {"straight line", straight},
+      {"parabola", [](double at) { return math::polynomial_row(at, 2); }},
+      // Relative to the heat of reaction at ignition.
+      {"line and Arrhenius term", [&](double at) {
+         std::vector<double> row = straight(at);
+         row.push_back(std::exp(kinetics.activation_temperature * (1.0 / ignition - 1.0 / fitted->at(row))));
+         return row;
+       }}};
+  for (const auto& [name, regressors] : curves)
+    if (auto curve = fit_curve(name, regressors, gaps_cm, temperatures))
+      fit.curves.push_back(std::move(*curve));
+  return fit;
+}
 
 std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted) {
   std::vector<std::string> keys;
@@ -63,13 +169,6 @@ std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::
     all.push_back({key, surface::maximum_at_stations(skin, trace).temperature, skin.ignition.has_value()});
   }
   return all;
-}
-
-double margin_as_calibrated(const std::vector<AsCalibrated>& all, double ignition_temperature) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  for (const AsCalibrated& each : all)
-    if (each.key.empty()) return each.ignites ? -infinity : ignition_temperature - each.temperature;
-  return infinity;
 }
 
 std::string to_string(surface::IgnitionCause cause) {

@@ -38,6 +38,13 @@ surface::SkinModel at_temperature(surface::SkinModel skin, End end) {
   return skin;
 }
 
+/// The skin with more heat from the air and from friction by these factors.
+surface::SkinModel heated_more(surface::SkinModel skin, double friction, double air) {
+  skin.surface.localisation *= friction;
+  skin.surface.air.density *= air;  // the heat that an exchange carries goes with it
+  return skin;
+}
+
 /// Adds the causes of one case.
 class Causes {
  public:
@@ -172,12 +179,6 @@ OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const
 }
 
 }  // namespace
-
-surface::SkinModel heated_more(surface::SkinModel skin, double friction, double air) {
-  skin.surface.localisation *= friction;
-  skin.surface.air.density *= air;  // the heat that an exchange carries goes with it
-  return skin;
-}
 
 std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& outcome, End end) {
   Causes causes(study, outcome, end);

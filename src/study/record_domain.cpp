@@ -256,12 +256,9 @@ std::string name_for_people(const std::string& key) {
   return key;
 }
 
-}  // namespace
-
-std::vector<Difference> differences(const Scene& scene, const Scene& recorded) {
-  return Comparison(scene, recorded).found;
-}
-
+/// What a record does with a difference: nothing, as it does not matter to it or as the record judges it by
+/// its own numbers; it carries its errors over; it says nothing.
+enum class Effect { none, carried, foreign };
 Effect effect_on(RecordKind record, const Difference& difference) {
   const keys::Role role = difference.key.role();
   const bool of_accuracy = record == RecordKind::accuracy, of_firings = record == RecordKind::firings;
@@ -292,6 +289,12 @@ Effect effect_on(RecordKind record, const Difference& difference) {
       break;
   }
   return Effect::foreign;
+}
+
+}  // namespace
+
+std::vector<Difference> differences(const Scene& scene, const Scene& recorded) {
+  return Comparison(scene, recorded).found;
 }
 
 std::vector<std::string> RecordDistance::names() const {

@@ -316,6 +316,14 @@ int jobs_of(const StudyOptions& options) { return options.jobs > 0 ? options.job
 
 bool stop_requested(const StudyOptions& options) { return options.stop != nullptr && options.stop->load(); }
 
+void run_each(std::vector<PlannedRun> runs, const StudyOptions& options, ProgressTracker& tracker,
+              Timing& timing, const std::function<void(std::size_t, const FinishedRun&)>& on_done) {
+  std::vector<CaseRuns> cases;
+  for (PlannedRun& each : runs) cases.push_back({{}, {std::move(each)}, options.shard.index});
+  run_cases(cases, options, tracker, timing,
+            [&](std::size_t i, std::vector<FinishedRun>& finished) { on_done(i, finished.front()); });
+}
+
 void run_every_case(const StudyFile& study, const StudyOptions& options, Timing& timing,
                     const std::function<void(std::size_t, std::vector<FinishedRun>&)>& on_done) {
   ProgressTracker tracker(options.progress);

@@ -108,6 +108,22 @@ std::vector<double> values_at(const std::vector<Axis>& axes, std::size_t place) 
   return values;
 }
 
+/// "496 MPa, 30 µm, 1 mm", peak pressure, crack radius and flaw size, where nothing else varies; otherwise
+/// every axis by its name: "peak_pressure 496 MPa, load.steepness 1.4".
+std::string case_label(const Study& study, const StudyCase& made) {
+  const bool of_launch = std::ranges::all_of(study.axes, [](const Axis& axis) {
+    return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
+  });
+  if (of_launch)
+    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
+                       1e3 * made.flaw_size);
+  std::string text;
+  for (std::size_t i = 0; i < study.axes.size(); ++i)
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
+                        scene::format_value(study.axes[i].key, made.coordinates[i]));
+  return text;
+}
+
 }  // namespace
 
 std::string to_string(scene::FrictionClosure closure) { return std::string(scene::word_of(closure)); }
@@ -195,12 +211,7 @@ StudyCase case_of(std::string label, SceneFile scene) {
 
 scene::Scene closing_scene(const StudyCase& input) {
   scene::Scene scene = input.scene.scene;
-  if (!input.closing) return scene;
-  scene.surface.model = input.closing->model;
-  scene.surface.base = input.closing->base;
-  scene.surface.roughness = input.closing->roughness;
-  scene.surface.release = input.closing->release;
-  scene.surface.release_duration = input.closing->release_duration;
+  if (input.closing) scene.surface = *input.closing;
   return scene;
 }
 
@@ -232,20 +243,6 @@ Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf&
   study.cases.make_with(
       [start](const std::vector<double>& coordinates) { return known_case(*start, coordinates); });
   return std::nullopt;
-}
-
-std::string case_label(const Study& study, const StudyCase& made) {
-  const bool of_launch = std::ranges::all_of(study.axes, [](const Axis& axis) {
-    return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
-  });
-  if (of_launch)
-    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
-                       1e3 * made.flaw_size);
-  std::string text;
-  for (std::size_t i = 0; i < study.axes.size(); ++i)
-    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
-                        scene::format_value(study.axes[i].key, made.coordinates[i]));
-  return text;
 }
 
 Fault make_factorial(StudyFile& study, const std::function<std::string(const StudyCase&)>& label_of) {

@@ -1,4 +1,4 @@
-#include "launchsafe/study/fit.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 
 #include <gtest/gtest.h>
 

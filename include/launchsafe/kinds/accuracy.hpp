@@ -122,9 +122,6 @@ double relative_difference(const PressureTrace& p, const PressureTrace& q);
 /// Runs a study of kind accuracy.
 AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// The row of the table of kinds.
-Kind accuracy_kind();
-
 /// The answer in a few lines: how wrong the own setting of the first variant is, what the cheapest good
 /// settings are.
 std::string answer(const AccuracyResult& result);
@@ -138,9 +135,6 @@ report::Table setting_table(const AccuracyResult& result);
 report::Table reference_table(const AccuracyResult& result);
 /// The same for every station: T max.
 report::Table point_table(const AccuracyResult& result);
-
-/// What these tables hold, but for the gaps, times and meshes of a study.
-std::vector<ResultTable> accuracy_results();
 
 /// Error of T max against processor time: bound and distance, and the front of the settings that no other one
 /// beats, which alone are named.

@@ -26,12 +26,12 @@ struct FiringSettings {
   study::FiringPrior prior_about(const surface::SurfaceConstants& centre) const;
 };
 
-/// The launch of one peak pressure and temperature.
-struct FiredCondition {
+/// The mechanical run of one mesh, or of one peak pressure and temperature.
+struct CalibrationRun {
   study::StudyCase input;
-  run::MechanicsResult mechanics;
+  run::MechanicsResult mechanics = {};
   study::RunOutcome outcome = study::RunOutcome::ran;
-  std::string failure;  ///< why it is no evidence; empty where it is
+  std::string failure = {};  ///< why it is no evidence, with no mechanics to calibrate on; empty where it is
 };
 
 /// The probability that a round ignites by the posterior: its mean, and where its middle 90 % lie.
@@ -70,7 +70,7 @@ struct NextFiring {
 
 struct FiringResult {
   study::StudyFile study;
-  std::vector<FiredCondition> conditions;
+  std::vector<CalibrationRun> conditions;
   std::vector<FiringRow> rows;
   std::vector<ConstantRange> constants;
   std::vector<NextFiring> next;  ///< that which tells most first
@@ -242,14 +242,6 @@ struct Convergence {
   double exchange_time_change = study::not_a_number;
 };
 
-/// The mechanical run of one mesh.
-struct CalibrationRun {
-  study::StudyCase input;
-  run::MechanicsResult mechanics;
-  study::RunOutcome outcome = study::RunOutcome::ran;
-  std::string failure;  ///< why there are no mechanics to calibrate on; empty where there are
-};
-
 /// What the evidence says.
 struct Recommendation {
   std::optional<std::size_t> row;  ///< of `rows`: closure that misses least, on the mesh of the scene
@@ -280,14 +272,8 @@ CalibrationResult run_calibration(const study::StudyFile& study, const study::St
 /// Nothing of a calibration that was interrupted.
 std::optional<study::CalibrationRecord> record_of(const CalibrationResult& result);
 
-/// The row of the table of kinds.
-Kind calibration_kind();
-
 /// What the evidence supports, and which constants the scene should hold.
 std::string answer(const CalibrationResult& result);
-
-/// What the tables of the report hold.
-std::vector<ResultTable> calibration_results();
 
 /// The recommended constants beside those of the scene file.
 report::Table constants_table(const CalibrationResult& result);

@@ -64,12 +64,6 @@ std::string answer(const ComparisonResult& result);
 /// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const ComparisonResult& result);
 
-/// What its tables hold, but for the axes of a study.
-std::vector<ResultTable> comparison_results();
-
-/// The row of the table of kinds.
-Kind comparison_kind();
-
 /// What is said, tabled, drawn and written of other models; nothing where a comparison is of no calibrated
 /// models.
 void add_model_form(const ComparisonResult& result, report::Report& report);

@@ -11,11 +11,6 @@
 
 namespace launchsafe::kinds {
 
-/// Of so many cases at the most a study is in detail (Study::in_detail): histories are kept, the longer
-/// launch is run, and coupled runs confirm the critical gap unless the study says otherwise. A study of more
-/// cases keeps their answers alone, unless it asks for confirmation.
-inline constexpr std::size_t most_cases_in_detail = 6;
-
 /// What a study file of this kind says besides.
 struct CriticalGapSettings {
   bool confirm = true;     ///< coupled runs on both sides of the bracket
@@ -36,13 +31,6 @@ struct CriticalGapResult {
 /// the reason, and the others go on. Apart from the timing the result depends on the study alone, whatever
 /// was stored before.
 CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::StudyOptions& options = {});
-
-/// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 µm, 1 mm, coupled at 0.04 cm". Journals
-/// of stored studies name it so.
-std::string label_with_skin(const study::CaseOutcome& outcome, double gap);
-
-/// The row of the table of kinds.
-Kind critical_gap_kind();
 
 /// The answer in a few lines. In detail, of every case: "Critical gap 0.0395 cm ...", a bound, or why there
 /// is none; otherwise values and bounds, the smallest critical gap and where it is, verdicts, failures.
@@ -72,9 +60,6 @@ struct GapPictures {
   std::vector<std::string> remarks;  ///< combinations that have no picture
 };
 GapPictures gap_pictures(const CriticalGapResult& result);
-
-/// What the tables hold, but for the axes of a study.
-std::vector<ResultTable> critical_gap_results();
 
 /// The whole report. Of a study that is not in detail nothing in it differs between two runs: no times,
 /// rates, dates or hosts.

@@ -7,10 +7,13 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
+#include <any>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace launchsafe::kinds {
@@ -80,15 +83,35 @@ struct Kind {
   std::vector<ResultTable> (*results)();
 };
 
-/// What a study asks of one kind alone: CriticalGapSettings and the like; the defaults where it asks nothing.
+/// What a study asks of its kind alone: CriticalGapSettings and the like; the defaults where it asks nothing.
 /// The second is for changing it.
 template <class Settings>
-const Settings& settings_of(const study::Study& study);
+const Settings& settings_of(const study::Study& study) {
+  static const Settings defaults;
+  const auto* own = std::any_cast<Settings>(std::as_const(study.settings).get());
+  return own ? *own : defaults;
+}
 template <class Settings>
-Settings& settings_of(study::Study& study);
+Settings& settings_of(study::Study& study) {
+  if (study.settings.use_count() != 1 || !std::any_cast<Settings>(study.settings.get()))
+    study.settings = std::make_shared<std::any>(settings_of<Settings>(std::as_const(study)));
+  return *std::any_cast<Settings>(study.settings.get());
+}
 
-/// Every kind of study there is.
+/// Every kind of study there is: each is a row, with what its tables hold but for what a study asks.
 const std::vector<Kind>& kinds();
+Kind critical_gap_kind();
+std::vector<ResultTable> critical_gap_results();
+Kind calibration_kind();
+std::vector<ResultTable> calibration_results();
+Kind sensitivity_kind();
+std::vector<ResultTable> sensitivity_results();
+Kind accuracy_kind();
+std::vector<ResultTable> accuracy_results();
+Kind stability_kind();
+std::vector<ResultTable> stability_results();
+Kind comparison_kind();
+std::vector<ResultTable> comparison_results();
 /// The kind of a study that was read.
 const Kind& kind_of(const study::Study& study);
 /// The kind of that name; a name that no kind has is a programming error.

@@ -111,9 +111,6 @@ std::vector<AskedError> asked_errors(const SensitivityResult& result);
 
 SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// The row of the table of kinds.
-Kind sensitivity_kind();
-
 /// Which inputs matter, as far as the intervals tell them apart; what cannot be told; what failed.
 std::string answer(const SensitivityResult& result);
 
@@ -126,9 +123,6 @@ report::Table sensitivity_table(const SensitivityResult& result);
 report::Table output_table(const SensitivityResult& result);
 /// A row for every evaluation: its inputs, outputs and failure.
 report::Table evaluation_table(const SensitivityResult& result);
-
-/// What the tables hold, but for the inputs of a study.
-std::vector<ResultTable> sensitivity_results();
 
 /// First and total order of every input with their intervals.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);

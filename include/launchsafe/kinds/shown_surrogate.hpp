@@ -1,4 +1,4 @@
-// How an output of a fit is called.
+// What tables and pages say of a fit, and its panel.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"

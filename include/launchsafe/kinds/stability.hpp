@@ -110,12 +110,6 @@ struct StabilityResult {
 /// came later than it must, or nothing left to compare with. Held: everything else.
 StabilityResult run_stability(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// What the tables of the report hold.
-std::vector<ResultTable> stability_results();
-
-/// The row of the table of kinds.
-Kind stability_kind();
-
 /// How many cases came out how; and every one that is WRONG, not as expected or not computed, by name.
 std::string answer(const StabilityResult& result);
 

@@ -27,10 +27,6 @@ struct ReferenceValue {
 ReferenceValue reference_value(std::vector<double> values, const std::vector<double>& sizes);
 /// `value` minus the limit; NaN where there is none.
 double error_against(const ReferenceValue& reference, double value);
-/// How far `value` may be from the truth: it is so far from the finest mesh's, that within the reference's
-/// uncertainty of the limit, and that within its inexactness of the truth. NaN where one of them is not
-/// known.
-double bound_against(const ReferenceValue& reference, double value);
 /// The larger of two; NaN, which is no bound, wins.
 double larger_bound(double a, double b);
 

@@ -114,16 +114,15 @@ std::string to_string(const GapReason& reason);
 /// A critical gap. What a kind does not have is NaN: a bound has no value.
 struct CriticalGap {
   CriticalGapKind kind = CriticalGapKind::indeterminate;
-  double value;                       ///< m, middle of the bracket
-  double lower;                       ///< m, does not ignite
-  double upper;                       ///< m, ignites
-  GapReason reason = {};              ///< why it is no value
-  std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
-  GapBounds bounds = {};              ///< that follow; NaN until the shares are known
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< m, middle of the bracket
+  double lower = value;                                     ///< m, does not ignite
+  double upper = value;                                     ///< m, ignites
+  GapReason reason = {};                                    ///< why it is no value
+  std::vector<GapShare> shares = {};                        ///< what makes it uncertain; once known
+  GapBounds bounds = {};                                    ///< that follow; NaN until the shares are known
   /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
   /// rests; NaN otherwise.
   GapOrBound indicative = std::numeric_limits<double>::quiet_NaN();
-  CriticalGap();
 };
 
 /// Takes the shares, and draws the bounds from them. Nothing can be said of one that is indeterminate.

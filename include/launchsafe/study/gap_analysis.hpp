@@ -87,7 +87,4 @@ std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& o
 std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome,
                                           const GapVerdict& row, End end);
 
-/// The skin with more heat from the air and from friction by these factors.
-surface::SkinModel heated_more(surface::SkinModel skin, double friction, double air);
-
 }  // namespace launchsafe::study

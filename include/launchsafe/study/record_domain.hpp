@@ -28,11 +28,6 @@ std::vector<Difference> differences(const scene::Scene& scene, const scene::Scen
 
 enum class RecordKind { calibration, firings, accuracy, model_form };
 
-/// What a record does with a difference: nothing, as it does not matter to it or as the record judges it by
-/// its own numbers; it carries its errors over; it says nothing.
-enum class Effect { none, carried, foreign };
-Effect effect_on(RecordKind record, const Difference& difference);
-
 /// How far a scene lies outside of a record.
 struct RecordDistance {
   /// What nothing carries the record over, each with what the scene says of it: keys of the scene, and

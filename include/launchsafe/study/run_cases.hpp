@@ -96,6 +96,10 @@ void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, 
 void run_every_case(const StudyFile& study, const StudyOptions& options, Timing& timing,
                     const std::function<void(std::size_t member, std::vector<FinishedRun>& runs)>& on_done);
 
+/// `run_cases` with runs that are judged each by itself.
+void run_each(std::vector<PlannedRun> runs, const StudyOptions& options, ProgressTracker& tracker,
+              Timing& timing, const std::function<void(std::size_t run, const FinishedRun&)>& on_done);
+
 /// Why a run that is not stored must not be begun; empty for one that may.
 std::string refusal_of(const scene::Scene& scene, const StudyOptions& options);
 /// Relative cost of a run from the start: predicted particle updates, with all that may follow ignitions; >
@@ -109,15 +113,17 @@ bool stop_requested(const StudyOptions& options);
 
 /// The result of a study and what it cost: `compute` runs its cases; `conclude` draws from them what the kind
 /// is after, unless the study was interrupted.
-template <class Result, class Compute, class Conclude>
-Result run_timed(const StudyFile& study, const StudyOptions& options, Compute compute, Conclude conclude) {
+template <class Result>
+Result run_timed(const StudyFile& study, const StudyOptions& options,
+                 const std::function<void(Result&)>& compute,
+                 const std::function<void(Result&)>& conclude = {}) {
   const auto start = std::chrono::steady_clock::now();
   Result result;
   result.study = study;
   result.timing.jobs = jobs_of(options);
   compute(result);
   result.interrupted = stop_requested(options);
-  if (!result.interrupted) conclude(result);
+  if (!result.interrupted && conclude) conclude(result);
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -129,10 +129,6 @@ using CoordinatesOf = std::function<std::vector<double>(std::size_t index)>;
 Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
                        const LabelOf& label_of);
 
-/// "496 MPa, 30 µm, 1 mm", peak pressure, crack radius and flaw size, where nothing else varies; otherwise
-/// every axis by its name: "peak_pressure 496 MPa, load.steepness 1.4".
-std::string case_label(const Study& study, const StudyCase& made);
-
 /// The full factorial of Study::axes, the last one fastest. `label_of`: instead of `case_label`.
 Fault make_factorial(StudyFile& study,
                      const std::function<std::string(const StudyCase& made)>& label_of = {});

@@ -9,6 +9,7 @@
 #include "launchsafe/study/model_form.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
+#include <any>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -189,14 +190,12 @@ struct StatedUncertainty {
   std::string because;  ///< the source, in words
 };
 
-/// What kinds of study ask each by itself. The module that has the kinds says what that is, and gives access
-/// to it; here it is carried along.
-struct KindSettings;
-
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
-  std::shared_ptr<KindSettings> settings;  ///< shared by copies until one is changed; null: the defaults
+  /// What its kind alone asks. The module that has the kinds says what that is, and gives access to it
+  /// (`kinds::settings_of`). Shared by copies until one is changed; null: the defaults.
+  std::shared_ptr<std::any> settings;
   std::string title;
   bool demonstration = false;  ///< its shell, its launch or its firings are invented
   std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
