@@ -23,7 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string remark_of(const CalibrationRow& row) {
+std::string calibration_remark(const CalibrationRow& row) {
   if (!row.failure.empty()) return row.failure;
   return row.calibratable ? std::string{}
                           : "not calibratable at gap 0; with the scene's exchange time and T1";
@@ -76,7 +76,7 @@ Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
         {{"spread_rms", "RMS of spreads", fixed(2, kelvin), "The same over the spreads."},
          &CalibrationRow::spread_root_mean_square},
         {quantity::selection_rms(), &CalibrationRow::selection_root_mean_square},
-        {{"remark", "remark", text(), "What is to be known of the row."}, remark_of}}});
+        {{"remark", "remark", text(), "What is to be known of the row."}, calibration_remark}}});
 }
 
 /// What is printed on stdout.

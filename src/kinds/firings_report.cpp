@@ -50,7 +50,7 @@ Quantities<FiringRow> row_quantities() {
        &FiringRow::predicted, &IgnitionProbability::highest}};
 }
 
-Quantities<ConstantRange> constant_quantities() {
+Quantities<ConstantRange> range_quantities() {
   const auto column = [](const char* name, const char* heading, const char* meaning) {
     return Column{name, heading, keys::significant(4), meaning};
   };
@@ -123,7 +123,7 @@ report::Report report_of(const FiringResult& result) {
   };
   add("Firings, and the probability that such a round ignites", row_quantities(), result.rows, "firings.csv",
       "firings", "calibration.note.firings");
-  add("The constants before and after the firings", constant_quantities(), result.constants, "", "posterior",
+  add("The constants before and after the firings", range_quantities(), result.constants, "", "posterior",
       "calibration.note.posterior");
   add("What one more round would tell", next_quantities(), result.next, "", "next_firings",
       "calibration.note.next");
@@ -137,7 +137,7 @@ report::Report report_of(const FiringResult& result) {
 
 std::vector<ResultTable> firing_results() {
   return {{"firings", "firings.csv", keys::described(row_quantities())},
-          {"posterior", "", keys::described(constant_quantities())},
+          {"posterior", "", keys::described(range_quantities())},
           {"next_firings", "", keys::described(next_quantities())}};
 }
 
