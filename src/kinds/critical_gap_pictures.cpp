@@ -106,8 +106,8 @@ class GapMarks {
   /// `answers`: all that the picture will have, which decide the labels.
   explicit GapMarks(const std::vector<CaseAnswer>& answers) {
     using enum CriticalGapKind;
-    const auto mark = [this](CriticalGapKind kind, std::string label, Mark mark) {
-      series_[kind] = {.label = std::move(label), .style = Style::points, .colour = 6, .mark = mark};
+    const auto mark = [this](CriticalGapKind kind, std::string label, Mark look) {
+      series_[kind] = {.label = std::move(label), .style = Style::points, .colour = 6, .mark = look};
     };
     mark(all_safe, bound_label(answers, all_safe, "above the searched gaps") + " (bound)", Mark::up_triangle);
     mark(all_ignite, bound_label(answers, all_ignite, "ignites at every gap") + " (bound)",
