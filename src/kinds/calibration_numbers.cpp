@@ -60,6 +60,16 @@ double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& tra
   return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
+double misfit_of(const surface::SkinModel& model, const trace::BottomTrace& trace, const Reference& row) {
+  return maximum_at(model, trace, row.gap) - row.maximum_temperature;
+}
+
+void find_misfits(const surface::SkinModel& model, const trace::BottomTrace& trace,
+                  const CalibrationTargets& targets, CalibratedConstants& result) {
+  result.zero_gap_misfit = misfit_of(model, trace, targets.zero_gap);
+  result.wide_gap_misfit = misfit_of(model, trace, targets.wide_gap);
+}
+
 /// Positive root of a function that changes sign once, sought from `start` by factors of 2 in both
 /// directions.
 std::optional<double> positive_root(const std::function<double(double)>& function, double start) {
@@ -102,34 +112,25 @@ CalibratedConstants failed(CalibratedConstants result, std::string why) {
 /// Alternates the two fits until both rows are met; empty when they are.
 std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
                      const CalibrationTargets& targets, CalibratedConstants& result) {
-  const auto misfit = [&](const study::Reference& row) {
-    return maximum_at(model, trace, row.gap) - row.maximum_temperature;
+  const auto meet = [&](double& constant, const Reference& row) {
+    const auto root = positive_root(
+        [&](double value) {
+          constant = value;
+          return misfit_of(model, trace, row);
+        },
+        constant);
+    if (root) constant = *root;
+    return root.has_value();
   };
   for (int round = 0; round < most_rounds; ++round) {
-    const auto localisation = positive_root(
-        [&](double value) {
-          model.surface.localisation = value;
-          return misfit(targets.zero_gap);
-        },
-        model.surface.localisation > 0 ? model.surface.localisation : 100.0);
-    if (!localisation) {
+    if (model.surface.localisation <= 0) model.surface.localisation = 100.0;
+    if (!meet(model.surface.localisation, targets.zero_gap))
       return fmt::format("no localisation gives {:.6g} K without a gap",
                          targets.zero_gap.maximum_temperature);
-    }
-    model.surface.localisation = *localisation;
-    const auto exchange_time = positive_root(
-        [&](double value) {
-          model.surface.exchange_time = value;
-          return misfit(targets.wide_gap);
-        },
-        model.surface.exchange_time);
-    if (!exchange_time) {
+    if (!meet(model.surface.exchange_time, targets.wide_gap))
       return fmt::format("no exchange time gives {:.6g} K at {:.6g} cm", targets.wide_gap.maximum_temperature,
                          100.0 * targets.wide_gap.gap);
-    }
-    model.surface.exchange_time = *exchange_time;
-    result.zero_gap_misfit = misfit(targets.zero_gap);
-    result.wide_gap_misfit = misfit(targets.wide_gap);
+    find_misfits(model, trace, targets, result);
     if (std::abs(result.zero_gap_misfit) <= tightness && std::abs(result.wide_gap_misfit) <= tightness)
       return {};
   }
@@ -155,11 +156,7 @@ std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace&
   const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
   if (std::string failure = text_of(fit); !failure.empty()) return failure;
   set(fit.unknowns);
-  const auto misfit = [&](const study::Reference& row) {
-    return maximum_at(model, trace, row.gap) - row.maximum_temperature;
-  };
-  result.zero_gap_misfit = misfit(targets.zero_gap);
-  result.wide_gap_misfit = misfit(targets.wide_gap);
+  find_misfits(model, trace, targets, result);
   return {};
 }
 

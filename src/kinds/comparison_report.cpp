@@ -148,6 +148,17 @@ Table stations_side_by_side(const ComparisonResult& result) {
   return table;
 }
 
+/// What each variant does otherwise.
+std::string variants_text(const ComparisonResult& result) {
+  Row variants = Row::array();
+  for (const Variant& each : result.variants())
+    variants.push_back({{"name", each.name},
+                        {"description", each.description},
+                        {"changes", each.changes},
+                        {"failure", each.calibration ? each.calibration->failure : ""}});
+  return said_below("comparison.variants", {{"variants", variants}});
+}
+
 }  // namespace
 
 std::string answer(const ComparisonResult& result) {
@@ -173,21 +184,6 @@ std::string answer(const ComparisonResult& result) {
   facts["unknown"] = unknown;
   return answer_of(said("comparison.answer", facts), result.study);
 }
-
-namespace {
-
-/// What each variant does otherwise.
-std::string variants_text(const ComparisonResult& result) {
-  Row variants = Row::array();
-  for (const Variant& each : result.variants())
-    variants.push_back({{"name", each.name},
-                        {"description", each.description},
-                        {"changes", each.changes},
-                        {"failure", each.calibration ? each.calibration->failure : ""}});
-  return said_below("comparison.variants", {{"variants", variants}});
-}
-
-}  // namespace
 
 report::Report report_of(const ComparisonResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};

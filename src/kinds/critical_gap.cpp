@@ -66,13 +66,6 @@ void take_longer_launch(const study::Study& study, const FinishedRun& run, CaseO
   evaluate_longer_launch(study, mechanics, outcome);
 }
 
-Confirmation expectation(double gap, bool ignition) {
-  Confirmation confirmation;
-  confirmation.gap = gap;
-  confirmation.expected_ignition = ignition;
-  return confirmation;
-}
-
 void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confirmation& confirmation) {
   confirmation.ran = true;
   confirmation.outcome = run.outcome;
@@ -134,8 +127,8 @@ class FollowingRuns {
   /// Coupled runs on both sides of its bracket.
   void add_confirmations(CaseOutcome& outcome) {
     if (outcome.critical.kind != study::CriticalGapKind::value) return;
-    outcome.confirmations = {expectation(outcome.critical.lower, false),
-                             expectation(outcome.critical.upper, true)};
+    outcome.confirmations = {{.gap = outcome.critical.lower},
+                             {.gap = outcome.critical.upper, .expected_ignition = true}};
     for (std::size_t side = 0; side < 2; ++side) {
       const double gap = outcome.confirmations[side].gap;
       CaseRun run = study::skin_run(outcome.input.scene.scene, gap, label_with_skin(outcome, gap));

@@ -142,14 +142,9 @@ scene::Expected<const Kind*> read_kind(const toml::table& root, const std::strin
   return &kind_named(std::get<std::string>(*value));
 }
 
-/// A key of the file, or a table that is read apart from the keys.
-struct Named {
-  std::string name;
-  const toml::node* node = nullptr;
-};
-
-std::vector<Named> names_in(const toml::table& root) {
-  std::vector<Named> names;
+/// The keys of the file, and the tables that are read apart from the keys.
+std::vector<study::Leaf> names_in(const toml::table& root) {
+  std::vector<study::Leaf> names;
   for (const auto& [key, node] : root) {
     const std::string name(key.str());
     const toml::table* table = node.as_table();
@@ -165,9 +160,9 @@ std::vector<Named> names_in(const toml::table& root) {
 
 /// The first key or table of another kind, which would silently do nothing.
 Fault check_kind(const toml::table& root, const Kind& kind, const std::string& file) {
-  const Named* first = nullptr;
-  const std::vector<Named> names = names_in(root);
-  for (const Named& each : names) {
+  const study::Leaf* first = nullptr;
+  const std::vector<study::Leaf> names = names_in(root);
+  for (const study::Leaf& each : names) {
     if (kinds_with(each.name).empty() || has(kind, each.name)) continue;
     if (!first || each.node->source().begin.line < first->node->source().begin.line) first = &each;
   }
@@ -225,11 +220,6 @@ InputError unnumbered(InputError error, const std::string& file) {
   });
   if (number) error.key.erase(first, second - first);
   return error;
-}
-
-/// " (kind critical-gap, comparison)": the kinds that have a key.
-std::string kinds_text(const std::string& name) {
-  return fmt::format(" (kind {})", fmt::join(kinds_with(name), ", "));
 }
 
 }  // namespace
@@ -324,7 +314,8 @@ std::vector<scene::DocumentedKey> describe_study_keys() {
   std::set<std::string> known;
   const auto add = [&](scene::DocumentedKey key, const std::string& owner) {
     if (!known.insert(key.description.name).second) return;
-    if (!owner.empty()) key.description.sentence += kinds_text(owner);
+    if (!owner.empty())
+      key.description.sentence += fmt::format(" (kind {})", fmt::join(kinds_with(owner), ", "));
     documented.push_back(std::move(key));
   };
   for (const auto& key : common_keys()) add({key, default_text(key, key.default_value())}, {});

@@ -68,12 +68,18 @@ std::vector<std::size_t> begins_of(const Study& study) {
   return begins;
 }
 
+/// How many axes each input has.
+std::vector<std::size_t> columns_of(const Study& study) {
+  std::vector<std::size_t> columns;
+  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
+  return columns;
+}
+
 /// By differences, as of launches, of as many predictions as it takes.
 math::SobolIndices process_indices(const Study& study, const Surrogate& surrogate,
                                    const math::SobolOptions& options) {
   constexpr std::size_t rows = 1024;
-  std::vector<std::size_t> columns;
-  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
+  const std::vector<std::size_t> columns = columns_of(study);
   const math::SaltelliDesign design =
       math::saltelli_design(math::Design::scrambled_sobol, rows, columns, options.seed);
   std::vector<double> values;
@@ -155,10 +161,8 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
 std::vector<double> design_points(const Study& study) {
   const auto& own = settings_of<SensitivitySettings>(study);
   if (!is_by_fit(study)) {
-    std::vector<std::size_t> columns;
-    for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
     const auto rows = static_cast<std::size_t>(own.samples);
-    const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns, own.seed);
+    const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns_of(study), own.seed);
     std::vector<double> points;
     for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation) {
       const std::vector<double> point = design.point(evaluation);

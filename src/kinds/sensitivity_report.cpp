@@ -49,61 +49,6 @@ Row method_facts(const SensitivityResult& result) {
           {"confidence", own.confidence}};
 }
 
-}  // namespace
-
-const ShownOutput& shown_output(SensitivityOutput output) {
-  static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin),
-         report::quantity::temperature_max().meaning},
-        "T max"},
-       {report::quantity::critical_gap(), "the critical gap"},
-       {{"margin", "margin", keys::significant(6, keys::kelvin), "Ignition temperature less T max."},
-        "the margin"}}};
-  return all.at(static_cast<std::size_t>(output));
-}
-
-std::vector<ShownInput> shown_inputs(const study::Study& study) {
-  const auto keys = report::shown_axes(study);
-  std::vector<ShownInput> inputs;
-  for (const SensitivityInput& input : inputs_of(study)) {
-    const auto text = [&](std::size_t axis) {
-      return distribution_text(keys[axis], *study.axes[axis].distribution);
-    };
-    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
-    if (input.count == 1) continue;
-    shown = {"constants of the calibration", "together"};
-    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
-      shown.distribution +=
-          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
-  }
-  return inputs;
-}
-
-std::string at_gap(const study::Study& study, SensitivityOutput output) {
-  if (output == SensitivityOutput::critical_gap) return {};
-  return " at a gap of " + report::centimetres(study.gaps.front());
-}
-
-std::string estimate_text(const math::Estimate& estimate) {
-  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
-                     significant(estimate.upper, 3));
-}
-
-std::string method_text(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
-  Row facts = method_facts(result);
-  facts.update({{"is_fit", is_by_fit(result.study.study)},
-                {"held_out", own.held_out},
-                {"added", added_launches(result)},
-                {"design", text_of(own.design)},
-                {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
-                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
-                {"correlated", own.correlated.has_value()}});
-  return said("sensitivity.method", facts).front();
-}
-
-namespace {
-
 /// Below this share of the variance with all interactions an input does not matter.
 constexpr double negligible_share = 0.05;
 
@@ -206,6 +151,57 @@ nlohmann::ordered_json method_json(const SensitivityResult& result) {
 }
 
 }  // namespace
+
+const ShownOutput& shown_output(SensitivityOutput output) {
+  static const std::array<ShownOutput, 3> all{
+      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin),
+         report::quantity::temperature_max().meaning},
+        "T max"},
+       {report::quantity::critical_gap(), "the critical gap"},
+       {{"margin", "margin", keys::significant(6, keys::kelvin), "Ignition temperature less T max."},
+        "the margin"}}};
+  return all.at(static_cast<std::size_t>(output));
+}
+
+std::vector<ShownInput> shown_inputs(const study::Study& study) {
+  const auto keys = report::shown_axes(study);
+  std::vector<ShownInput> inputs;
+  for (const SensitivityInput& input : inputs_of(study)) {
+    const auto text = [&](std::size_t axis) {
+      return distribution_text(keys[axis], *study.axes[axis].distribution);
+    };
+    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
+    if (input.count == 1) continue;
+    shown = {"constants of the calibration", "together"};
+    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
+      shown.distribution +=
+          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
+  }
+  return inputs;
+}
+
+std::string at_gap(const study::Study& study, SensitivityOutput output) {
+  if (output == SensitivityOutput::critical_gap) return {};
+  return " at a gap of " + report::centimetres(study.gaps.front());
+}
+
+std::string estimate_text(const math::Estimate& estimate) {
+  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
+                     significant(estimate.upper, 3));
+}
+
+std::string method_text(const SensitivityResult& result) {
+  const auto& own = settings_of<SensitivitySettings>(result.study.study);
+  Row facts = method_facts(result);
+  facts.update({{"is_fit", is_by_fit(result.study.study)},
+                {"held_out", own.held_out},
+                {"added", added_launches(result)},
+                {"design", text_of(own.design)},
+                {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
+                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
+                {"correlated", own.correlated.has_value()}});
+  return said("sensitivity.method", facts).front();
+}
 
 std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;

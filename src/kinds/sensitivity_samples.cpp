@@ -171,6 +171,42 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   return panel;
 }
 
+/// What a share of the draws is at or below.
+struct QuantileRow {
+  double share;
+  double gap;  ///< m; infinite where it is a bound
+  std::string gap_reads_as;
+  double temperature;  ///< K
+};
+
+report::Quantities<QuantileRow> quantile_quantities() {
+  return {
+      {{"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws."},
+       &QuantileRow::share},
+      {for_programs(quantity::critical_gap()), &QuantileRow::gap},
+      {quantity::critical_gap_reads_as(), &QuantileRow::gap_reads_as},
+      {quantity::temperature_max(), [](const QuantileRow& row) { return report::known(row.temperature); }}};
+}
+
+/// An interval of a histogram, or what has no number; numbers are in the unit of the row.
+struct HistogramRow {
+  const ShownOutput* shown;
+  double from, to;
+  std::string reads_as;
+  std::int64_t draws;
+};
+
+report::Quantities<HistogramRow> histogram_quantities() {
+  using keys::significant, keys::text;
+  return {{quantity::output(), &HistogramRow::shown, &ShownOutput::column, &Column::name},
+          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
+          {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
+          {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
+          {{"reads_as", "without a number", text(), "What those have that have no number."},
+           &HistogramRow::reads_as},
+          {{"draws", "draws", keys::count(), "Draws of the interval."}, &HistogramRow::draws}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
@@ -214,46 +250,6 @@ std::string samples_text(const SensitivityResult& result) {
   }
   return said("sensitivity.samples", facts).front();
 }
-
-namespace {
-
-/// What a share of the draws is at or below.
-struct QuantileRow {
-  double share;
-  double gap;  ///< m; infinite where it is a bound
-  std::string gap_reads_as;
-  double temperature;  ///< K
-};
-
-report::Quantities<QuantileRow> quantile_quantities() {
-  return {
-      {{"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws."},
-       &QuantileRow::share},
-      {for_programs(quantity::critical_gap()), &QuantileRow::gap},
-      {quantity::critical_gap_reads_as(), &QuantileRow::gap_reads_as},
-      {quantity::temperature_max(), [](const QuantileRow& row) { return report::known(row.temperature); }}};
-}
-
-/// An interval of a histogram, or what has no number; numbers are in the unit of the row.
-struct HistogramRow {
-  const ShownOutput* shown;
-  double from, to;
-  std::string reads_as;
-  std::int64_t draws;
-};
-
-report::Quantities<HistogramRow> histogram_quantities() {
-  using keys::significant, keys::text;
-  return {{quantity::output(), &HistogramRow::shown, &ShownOutput::column, &Column::name},
-          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
-          {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
-          {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
-          {{"reads_as", "without a number", text(), "What those have that have no number."},
-           &HistogramRow::reads_as},
-          {{"draws", "draws", keys::count(), "Draws of the interval."}, &HistogramRow::draws}};
-}
-
-}  // namespace
 
 std::vector<Column> quantile_columns() { return keys::described(quantile_quantities()); }
 std::vector<Column> histogram_columns() { return keys::described(histogram_quantities()); }

@@ -112,18 +112,9 @@ std::string to_string(CriticalGapKind kind) {
 }
 
 GapOrBound gap_or_bound(const CriticalGap& gap) {
-  switch (gap.kind) {
-    case CriticalGapKind::value:
-      return gap.value;
-    case CriticalGapKind::all_safe:
-      return no_ignition;
-    case CriticalGapKind::all_ignite:
-      return 0.0;
-    case CriticalGapKind::indeterminate:
-    case CriticalGapKind::several_crossings:
-      break;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+  if (gap.kind == CriticalGapKind::value) return gap.value;
+  if (gap.kind == CriticalGapKind::all_safe) return no_ignition;
+  return gap.kind == CriticalGapKind::all_ignite ? 0.0 : std::numeric_limits<double>::quiet_NaN();
 }
 
 CriticalGap find_critical_gap(const State& state, double largest, double tolerance) {
@@ -185,20 +176,12 @@ GapOrBound smallest_igniting_gap(const State& state, double begin, double end, d
 
 void set_shares(CriticalGap& gap, std::vector<GapShare> shares) {
   gap.shares = std::move(shares);
-  switch (gap.kind) {
-    case CriticalGapKind::value:
-      gap.bounds = bounds_of(gap.lower, gap.upper, gap.shares);
-      return;
-    case CriticalGapKind::all_safe:
-      gap.bounds = {bounds_of(gap.lower, gap.lower, gap.shares).at_least, no_ignition};
-      return;
-    case CriticalGapKind::all_ignite:
-      gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
-      return;
-    case CriticalGapKind::indeterminate:
-    case CriticalGapKind::several_crossings:
-      gap.bounds = {};
-  }
+  gap.bounds = {};
+  if (gap.kind == CriticalGapKind::value) gap.bounds = bounds_of(gap.lower, gap.upper, gap.shares);
+  if (gap.kind == CriticalGapKind::all_safe)
+    gap.bounds = {bounds_of(gap.lower, gap.lower, gap.shares).at_least, no_ignition};
+  if (gap.kind == CriticalGapKind::all_ignite)
+    gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
 }
 
 }  // namespace launchsafe::study

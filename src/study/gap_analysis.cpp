@@ -229,6 +229,61 @@ std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
   return warnings;
 }
 
+/// Without a trace there is no heat, and a study without verdicts does not ask whether anything was launched.
+CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
+  constexpr double unasked = std::numeric_limits<double>::infinity();
+  const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
+  CaseStatements input = statements_of(study, outcome.input);
+  if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
+  return {outcome.completed(),
+          outcome.failure,
+          outcome.result.mechanics.limiters,
+          validity_warnings_of(outcome),
+          asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
+          std::move(input)};
+}
+
+void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
+  using Code = GapReason::Code;
+  if (!outcome.completed() || !outcome.evidence->validity_warnings.empty()) {
+    outcome.critical = indeterminate(outcome.completed() ? Code::validity_warning : Code::failed, outcome);
+    return;
+  }
+  const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
+  const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
+  outcome.critical = find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, largest_gap(study),
+                                       study.tolerance);
+  if (outcome.evidence->input.has_unaccepted()) {
+    const GapOrBound indicative = gap_or_bound(outcome.critical);
+    outcome.critical = indeterminate(Code::unaccepted, outcome);
+    outcome.critical.indicative = indicative;
+  }
+}
+
+/// At the largest gap that does not ignite; without one, without a gap.
+double heat_factor_of(const Study& study, const CaseOutcome& outcome) {
+  const CriticalGap& critical = outcome.critical;
+  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
+  return heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
+                     bounded ? critical.lower : 0.0);
+}
+
+void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
+  const scene::Scene& scene = outcome.input.scene.scene;
+  const LoadCurveErrors load_curve = load_curve_errors(scene.load);
+  for (const double gap : study.gaps) {
+    if (!has_trace(outcome)) {
+      GapVerdict row;
+      row.gap = gap;
+      outcome.verdicts.push_back(std::move(row));
+    } else {
+      outcome.result.gaps.push_back(run::evaluate_gap(scene, outcome.result.mechanics.trace, gap));
+      outcome.verdicts.push_back(row_of(study, outcome, load_curve, outcome.result.gaps.back()));
+    }
+  }
+  attach_references(study, outcome.input, outcome.verdicts);
+}
+
 }  // namespace
 
 void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows) {
@@ -296,65 +351,6 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
   }
   return stations;
 }
-
-namespace {
-
-/// Without a trace there is no heat, and a study without verdicts does not ask whether anything was launched.
-CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
-  constexpr double unasked = std::numeric_limits<double>::infinity();
-  const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
-  CaseStatements input = statements_of(study, outcome.input);
-  if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
-  return {outcome.completed(),
-          outcome.failure,
-          outcome.result.mechanics.limiters,
-          validity_warnings_of(outcome),
-          asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
-          std::move(input)};
-}
-
-void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  using Code = GapReason::Code;
-  if (!outcome.completed() || !outcome.evidence->validity_warnings.empty()) {
-    outcome.critical = indeterminate(outcome.completed() ? Code::validity_warning : Code::failed, outcome);
-    return;
-  }
-  const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
-  const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
-  outcome.critical = find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, largest_gap(study),
-                                       study.tolerance);
-  if (outcome.evidence->input.has_unaccepted()) {
-    const GapOrBound indicative = gap_or_bound(outcome.critical);
-    outcome.critical = indeterminate(Code::unaccepted, outcome);
-    outcome.critical.indicative = indicative;
-  }
-}
-
-/// At the largest gap that does not ignite; without one, without a gap.
-double heat_factor_of(const Study& study, const CaseOutcome& outcome) {
-  const CriticalGap& critical = outcome.critical;
-  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
-  return heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
-                     bounded ? critical.lower : 0.0);
-}
-
-void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const LoadCurveErrors load_curve = load_curve_errors(scene.load);
-  for (const double gap : study.gaps) {
-    if (!has_trace(outcome)) {
-      GapVerdict row;
-      row.gap = gap;
-      outcome.verdicts.push_back(std::move(row));
-    } else {
-      outcome.result.gaps.push_back(run::evaluate_gap(scene, outcome.result.mechanics.trace, gap));
-      outcome.verdicts.push_back(row_of(study, outcome, load_curve, outcome.result.gaps.back()));
-    }
-  }
-  attach_references(study, outcome.input, outcome.verdicts);
-}
-
-}  // namespace
 
 void evaluate(const Study& study, CaseOutcome& outcome) {
   if (has_trace(outcome))

@@ -6,6 +6,7 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <exception>
 #include <iterator>
@@ -14,7 +15,6 @@
 #include <stdexcept>
 
 namespace launchsafe::study {
-
 namespace {
 
 constexpr std::size_t most_reasons = 20, most_gaps = 40;  ///< that are told apart
@@ -23,119 +23,6 @@ constexpr double too_early = 2.0;                         ///< s of work from wh
 double seconds_on_steady_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-}  // namespace
-
-std::string to_string(Phase phase) {
-  switch (phase) {
-    case Phase::launches:
-      return "launches";
-    case Phase::following_runs:
-      return "runs that follow";
-    case Phase::closing_gaps:
-      return "closing gaps";
-    case Phase::report:
-      return "report";
-  }
-  return {};
-}
-
-ProgressTracker::ProgressTracker(ProgressCallback callback, Clock clock)
-    : callback_(std::move(callback)), clock_(clock ? std::move(clock) : seconds_on_steady_clock) {}
-
-void ProgressTracker::begin(Phase phase) {
-  const std::lock_guard lock(mutex_);
-  progress_.phase = phase;
-}
-
-void ProgressTracker::expect(std::ptrdiff_t tasks, double cost) {
-  const std::lock_guard lock(mutex_);
-  progress_.total = static_cast<std::size_t>(
-      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(progress_.total) + tasks));
-  cost_ += cost;
-}
-
-void ProgressTracker::expect_cases(std::size_t cases) {
-  const std::lock_guard lock(mutex_);
-  progress_.cases += cases;
-}
-
-void ProgressTracker::cases_ended(std::size_t cases, const std::string& failure) {
-  const std::lock_guard lock(mutex_);
-  progress_.cases_done += cases;
-  if (!failure.empty()) {
-    progress_.cases_failed += cases;
-    const bool is_told_apart =
-        progress_.failures.size() < most_reasons || progress_.failures.contains(failure);
-    progress_.failures[is_told_apart ? failure : "other reasons"] += cases;
-  }
-  report();
-}
-
-void ProgressTracker::found(FoundGap gap) {
-  const std::lock_guard lock(mutex_);
-  ++progress_.gaps_found;
-  progress_.largest_gap = std::max(progress_.largest_gap, gap.upper);
-  std::vector<FoundGap>& gaps = progress_.smallest_gaps;
-  if (gaps.size() == most_gaps && gap.lower >= gaps.back().lower) return;
-  gaps.insert(std::ranges::upper_bound(gaps, gap.lower, {}, &FoundGap::lower), std::move(gap));
-  if (gaps.size() > most_gaps) gaps.pop_back();
-}
-
-void ProgressTracker::started() {
-  const std::lock_guard lock(mutex_);
-  const double now = clock_();
-  if (first_start_ < 0) {
-    first_start_ = now;
-    cases_before_ = progress_.cases_done;
-  }
-  busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
-  busy_since_ = now;
-  ++progress_.running;
-  most_running_ = std::max(most_running_, progress_.running);
-  report();
-}
-
-void ProgressTracker::advanced(double cost) {
-  const std::lock_guard lock(mutex_);
-  cost_done_ += cost;
-  report();
-}
-
-void ProgressTracker::finished() {
-  const std::lock_guard lock(mutex_);
-  const double now = clock_();
-  busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
-  busy_since_ = now;
-  --progress_.running;
-  ++progress_.done;
-  report();
-}
-
-/// The time that tasks took for their work, for the work that is left, on as many threads as there are tasks
-/// for.
-double ProgressTracker::seconds_left(double now) const {
-  const double busy = busy_ + static_cast<double>(progress_.running) * (now - busy_since_);
-  const double left = std::max(0.0, cost_ - cost_done_);
-  const std::size_t tasks_left = progress_.total - std::min(progress_.total, progress_.done);
-  if (!(cost_done_ > 0) || (busy < too_early && left > 0)) return -1.0;
-  const std::size_t at_a_time =
-      std::clamp<std::size_t>(tasks_left, 1, std::max<std::size_t>(most_running_, 1));
-  return busy * left / cost_done_ / static_cast<double>(at_a_time);
-}
-
-void ProgressTracker::report() {
-  if (!callback_) return;
-  const double now = clock_();
-  progress_.fraction = cost_ > 0 ? std::clamp(cost_done_ / cost_, 0.0, 1.0) : 0.0;
-  progress_.seconds_left = seconds_left(now);
-  const double elapsed = first_start_ < 0 ? 0.0 : now - first_start_;
-  if (elapsed > 0)
-    progress_.cases_per_second = static_cast<double>(progress_.cases_done - cases_before_) / elapsed;
-  callback_(progress_);
-}
-
-namespace {
 
 /// One task from start to end, whatever it throws.
 void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracker& tracker) {
@@ -253,6 +140,106 @@ TaskOutcome refusal(const Task& task, double limit, ProgressTracker& tracker) {
 }
 
 }  // namespace
+
+std::string to_string(Phase phase) {
+  constexpr std::array words{"launches", "runs that follow", "closing gaps", "report"};
+  return words.at(static_cast<std::size_t>(phase));
+}
+
+ProgressTracker::ProgressTracker(ProgressCallback callback, Clock clock)
+    : callback_(std::move(callback)), clock_(clock ? std::move(clock) : seconds_on_steady_clock) {}
+
+void ProgressTracker::begin(Phase phase) {
+  const std::lock_guard lock(mutex_);
+  progress_.phase = phase;
+}
+
+void ProgressTracker::expect(std::ptrdiff_t tasks, double cost) {
+  const std::lock_guard lock(mutex_);
+  progress_.total = static_cast<std::size_t>(
+      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(progress_.total) + tasks));
+  cost_ += cost;
+}
+
+void ProgressTracker::expect_cases(std::size_t cases) {
+  const std::lock_guard lock(mutex_);
+  progress_.cases += cases;
+}
+
+void ProgressTracker::cases_ended(std::size_t cases, const std::string& failure) {
+  const std::lock_guard lock(mutex_);
+  progress_.cases_done += cases;
+  if (!failure.empty()) {
+    progress_.cases_failed += cases;
+    const bool is_told_apart =
+        progress_.failures.size() < most_reasons || progress_.failures.contains(failure);
+    progress_.failures[is_told_apart ? failure : "other reasons"] += cases;
+  }
+  report();
+}
+
+void ProgressTracker::found(FoundGap gap) {
+  const std::lock_guard lock(mutex_);
+  ++progress_.gaps_found;
+  progress_.largest_gap = std::max(progress_.largest_gap, gap.upper);
+  std::vector<FoundGap>& gaps = progress_.smallest_gaps;
+  if (gaps.size() == most_gaps && gap.lower >= gaps.back().lower) return;
+  gaps.insert(std::ranges::upper_bound(gaps, gap.lower, {}, &FoundGap::lower), std::move(gap));
+  if (gaps.size() > most_gaps) gaps.pop_back();
+}
+
+void ProgressTracker::started() {
+  const std::lock_guard lock(mutex_);
+  const double now = clock_();
+  if (first_start_ < 0) {
+    first_start_ = now;
+    cases_before_ = progress_.cases_done;
+  }
+  busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
+  busy_since_ = now;
+  ++progress_.running;
+  most_running_ = std::max(most_running_, progress_.running);
+  report();
+}
+
+void ProgressTracker::advanced(double cost) {
+  const std::lock_guard lock(mutex_);
+  cost_done_ += cost;
+  report();
+}
+
+void ProgressTracker::finished() {
+  const std::lock_guard lock(mutex_);
+  const double now = clock_();
+  busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
+  busy_since_ = now;
+  --progress_.running;
+  ++progress_.done;
+  report();
+}
+
+/// The time that tasks took for their work, for the work that is left, on as many threads as there are tasks
+/// for.
+double ProgressTracker::seconds_left(double now) const {
+  const double busy = busy_ + static_cast<double>(progress_.running) * (now - busy_since_);
+  const double left = std::max(0.0, cost_ - cost_done_);
+  const std::size_t tasks_left = progress_.total - std::min(progress_.total, progress_.done);
+  if (!(cost_done_ > 0) || (busy < too_early && left > 0)) return -1.0;
+  const std::size_t at_a_time =
+      std::clamp<std::size_t>(tasks_left, 1, std::max<std::size_t>(most_running_, 1));
+  return busy * left / cost_done_ / static_cast<double>(at_a_time);
+}
+
+void ProgressTracker::report() {
+  if (!callback_) return;
+  const double now = clock_();
+  progress_.fraction = cost_ > 0 ? std::clamp(cost_done_ / cost_, 0.0, 1.0) : 0.0;
+  progress_.seconds_left = seconds_left(now);
+  const double elapsed = first_start_ < 0 ? 0.0 : now - first_start_;
+  if (elapsed > 0)
+    progress_.cases_per_second = static_cast<double>(progress_.cases_done - cases_before_) / elapsed;
+  callback_(progress_);
+}
 
 std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop) {

@@ -179,14 +179,7 @@ void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
   object.value("gap_m", record.gap, scene::between(0, 0.01));
   describe_inputs(object, record);
   if (object.reading() && object.reader().fault()) return;
-  const auto correlated = [&](RecordObject& own, SurrogateRecord& whole) { describe_correlated(own, whole); };
-  if (object.reading()) {
-    RecordObject own(object["correlated"], "correlated", object.reader());
-    if (object.reader().has_keys(own.json(), "correlated", {"first", "count", "covariance_factor"}))
-      correlated(own, record);
-  } else {
-    object["correlated"] = json_by(correlated, record);
-  }
+  object.part("correlated", record, describe_correlated);
   object.value("drawn", record.drawn);
   const std::size_t inputs = record.keys.size();
   object.value("points", record.points, scene::between(0.0, 1.0), inputs, inputs * most_launches);

@@ -154,11 +154,11 @@ struct Confirmation {
   bool ran = false;
   bool completed = false;
   bool ignited = false;
-  double maximum_temperature = not_a_number;         ///< K, of the hottest station
-  double difference = not_a_number;                  ///< K, coupled minus traced; NaN where either ignited
-  RunOutcome outcome = RunOutcome::ran;              ///< of its run
-  std::string failure;                               ///< why it did not complete
-  std::optional<run::CombustionHistory> combustion;  ///< of one that ignited, with two-way coupling
+  double maximum_temperature = not_a_number;  ///< K, of the hottest station
+  double difference = not_a_number;           ///< K, coupled minus traced; NaN where either ignited
+  RunOutcome outcome = RunOutcome::ran;       ///< of its run
+  std::string failure = {};                   ///< why it did not complete
+  std::optional<run::CombustionHistory> combustion = {};  ///< of one that ignited, with two-way coupling
   bool agrees() const { return completed && ignited == expected_ignition; }
 };
 
