@@ -1,8 +1,14 @@
-// Files that launchsafe init and launchsafe emit write, as they are in the source. Names in double braces
-// stand for values; see report/page_texts.hpp.
+// What --help says below the options, and files that launchsafe init and launchsafe emit write, as they are
+// in the source. Names in double braces stand for values; see report/page_texts.hpp.
 #pragma once
 
+#include <map>
+#include <string>
+
 namespace launchsafe::app {
+
+/// By command, "run.txt"; "launchsafe.txt" is that of all.
+const std::map<std::string, std::string>& help_texts();
 
 extern const char* const scene_template;
 extern const char* const study_template;

@@ -1,4 +1,4 @@
-#include "command_help.hpp"
+#include "built_in_texts.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
 #include "launchsafe/scene/input_error.hpp"
@@ -17,12 +17,22 @@ namespace launchsafe::app {
 
 namespace {
 
+constexpr const char* description =
+    "launchsafe: how thick may the gap under an explosive charge be before a launch can ignite it?\n"
+    "Simulates shells under launch loads by the material point method.";
+
+/// What the help of a command says below its options.
+std::string footer_of(const std::string& command) {
+  const std::string& text = help_texts().at(command + ".txt");
+  return "\n" + text.substr(0, text.size() - 1);
+}
+
 /// A subcommand and what its options write to while CLI11 parses, which becomes the request.
 template <class Arguments>
 std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, const char* name,
-                                             const char* meaning, const char* examples) {
+                                             const char* meaning) {
   CLI::App& command = *app.add_subcommand(name, meaning);
-  command.footer(examples);
+  command.footer(footer_of(name));
   const auto arguments = std::make_shared<Arguments>();
   command.callback([&line, arguments, name] {
     line.request = *arguments;
@@ -47,15 +57,15 @@ CLI::Option* add_optional(CLI::App& command, const char* name, Value& value, con
 
 void add_run(CLI::App& app, CommandLine& line) {
   auto [command, run] = add_command<RunArguments>(
-      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out", run_footer);
+      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out");
   add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
   add_folder(command, run.output, "Folder to write the HDF5 case file to");
   add_longest_run(command, run.longest_run);
 }
 
 void add_study(CLI::App& app, CommandLine& line) {
-  auto [command, study] = add_command<StudyArguments>(
-      app, line, "study", "Run a study: many cases, a verdict for every gap", study_footer);
+  auto [command, study] =
+      add_command<StudyArguments>(app, line, "study", "Run a study: many cases, a verdict for every gap");
   add_required(command, "study", study.study, "STUDY.toml", "Study file");
   add_folder(command, study.output,
              "Folder for cases, tables and report; what is stored there is used again");
@@ -72,7 +82,7 @@ void add_study(CLI::App& app, CommandLine& line) {
 
 void add_merge(CLI::App& app, CommandLine& line) {
   auto [command, merge] = add_command<MergeArguments>(
-      app, line, "merge", "Make one report of the shards of a study; runs nothing", merge_footer);
+      app, line, "merge", "Make one report of the shards of a study; runs nothing");
   add_required(command, "study", merge.study, "STUDY.toml", "Study file");
   add_folder(command, merge.output, "Folder for cases, tables and report")->required();
   add_optional(command, "folder", merge.folders, "FOLDER...",
@@ -84,7 +94,7 @@ void add_merge(CLI::App& app, CommandLine& line) {
 
 void add_status(CLI::App& app, CommandLine& line) {
   auto [command, status] = add_command<StatusArguments>(
-      app, line, "status", "Say how far a study is: done, failed, left, when it will end", status_footer);
+      app, line, "status", "Say how far a study is: done, failed, left, when it will end");
   add_required(command, "folder", status.folders, "DIR...",
                "Folder of a study or of its shards, or those of shards that have one each");
   command.add_flag("--watch", status.watch, "Look again every few seconds until it has ended");
@@ -92,7 +102,7 @@ void add_status(CLI::App& app, CommandLine& line) {
 
 void add_emit(CLI::App& app, CommandLine& line) {
   auto [command, emit] = add_command<EmitArguments>(
-      app, line, "emit", "Write batch scripts that run a study on a cluster, in shards", emit_footer);
+      app, line, "emit", "Write batch scripts that run a study on a cluster, in shards");
   add_required(command, "engine", emit.engine, "slurm", "What the scripts are for: slurm")
       ->check(CLI::IsMember({"slurm"}));
   add_required(command, "study", emit.study, "STUDY.toml", "Study file");
@@ -108,7 +118,7 @@ void add_emit(CLI::App& app, CommandLine& line) {
 
 void add_ask(CLI::App& app, CommandLine& line) {
   auto [command, ask] = add_command<AskArguments>(
-      app, line, "ask", "Ask the fit of a study about a launch that nobody computed", ask_footer);
+      app, line, "ask", "Ask the fit of a study about a launch that nobody computed");
   add_required(command, "study", ask.study, "STUDY_DIR",
                "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
   add_optional(command, "--set", ask.settings, "KEY=VALUE",
@@ -127,16 +137,15 @@ void add_ask(CLI::App& app, CommandLine& line) {
 }
 
 void add_verify(CLI::App& app, CommandLine& line) {
-  auto [command, verify] = add_command<VerifyArguments>(
-      app, line, "verify", "Test an installed program against known numbers", verify_footer);
+  auto [command, verify] =
+      add_command<VerifyArguments>(app, line, "verify", "Test an installed program against known numbers");
   add_optional(command, "--filter", verify.filter, "TEXT",
                "Only checks with this in their name, case ignored");
 }
 
 void add_explain(CLI::App& app, CommandLine& line) {
   auto [command, explain] = add_command<ExplainArguments>(
-      app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost",
-      explain_footer);
+      app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost");
   add_optional(
       command, "file", explain.file, "SCENE.toml|STUDY.toml|MATERIALS.toml",
       "Scene, study or file of materials; with --keys, --results or --materials the beginning of names, such "
@@ -167,7 +176,7 @@ void add_explain(CLI::App& app, CommandLine& line) {
 
 void add_plot(CLI::App& app, CommandLine& line) {
   auto [command, plot] = add_command<PlotArguments>(
-      app, line, "plot", "Draw a case: histories, profiles, and fields over the section", plot_footer);
+      app, line, "plot", "Draw a case: histories, profiles, and fields over the section");
   add_required(command, "case", plot.file, "CASE.h5", "Case file");
   add_folder(command, plot.output, "Folder for the pictures; CASE_pictures beside the file unless given");
   add_optional(
@@ -182,7 +191,7 @@ void add_plot(CLI::App& app, CommandLine& line) {
 
 void add_init(CLI::App& app, CommandLine& line) {
   auto [command, init] = add_command<InitArguments>(
-      app, line, "init", "Write a scene and a study of a shell of your own to start from", init_footer);
+      app, line, "init", "Write a scene and a study of a shell of your own to start from");
   const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
     constexpr double smallest = 0.02, largest = 0.5;
     calibre = parse_scene_quantity<scene::Dimension::length>(text).value_or(0.0);
@@ -202,8 +211,7 @@ void add_init(CLI::App& app, CommandLine& line) {
 
 void add_import_curve(CLI::App& app, CommandLine& line) {
   auto [command, import] = add_command<ImportCurveArguments>(
-      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units, noise",
-      import_curve_footer);
+      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units, noise");
   add_required(command, "record", import.record, "RECORD.csv",
                "Record of a gauge, with a header that names quantities and units");
   add_place(command, "-o,--output", import.output, "FILE.csv", "file",
@@ -222,8 +230,8 @@ void add_import_curve(CLI::App& app, CommandLine& line) {
 }
 
 void add_report(CLI::App& app, CommandLine& line) {
-  auto [command, report] = add_command<ReportArguments>(
-      app, line, "report", "Make the safety report of studies that were run", report_footer);
+  auto [command, report] =
+      add_command<ReportArguments>(app, line, "report", "Make the safety report of studies that were run");
   add_required(command, "study", report.studies, "STUDY_DIR...",
                "Folders of studies, at most one of each kind");
   add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures")
@@ -239,12 +247,6 @@ void add_report(CLI::App& app, CommandLine& line) {
                "Who approves it: a line each for name, date and signature");
   add_place(command, "--templates", report.templates, "DIR", "folder",
             "Folder of templates in place of those built in: letterhead, language");
-}
-
-std::string text_of_success(const CLI::App& app, const CLI::Success& success) {
-  std::ostringstream text;
-  app.exit(success, text, text);
-  return text.str();
 }
 
 /// Whether --json is on a command line that is not read to its end.
@@ -309,7 +311,7 @@ std::string contradiction(const Other&) {
 
 void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
-  app.footer(footer);
+  app.footer(footer_of("launchsafe"));
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
   for (const auto add : {add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify,
                          add_explain, add_plot, add_init, add_import_curve, add_report})
@@ -330,7 +332,9 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     app.parse(argument_count, arguments);
   } catch (const CLI::Success& success) {
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&success) != nullptr;
-    line.request = Information{version ? std::string{} : text_of_success(app, success), version};
+    std::ostringstream help;
+    app.exit(success, help, help);
+    line.request = Information{version ? std::string{} : help.str(), version};
     line.json = asks_for_json(argument_count, arguments);
     return line;
   } catch (const CLI::ParseError& error) {
