@@ -44,10 +44,6 @@ struct AskedInput {
   double value() const { return values.front(); }
 };
 
-std::string value_text(const AskedInput& input) {
-  return scene::format_quantity(input.value(), input.key.dimension);
-}
-
 /// The inputs with their values in the study's scene.
 Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record) {
   const auto file = scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
@@ -189,7 +185,8 @@ report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInp
   report::Table table = report::table_of("Predicted", launch_quantities(inputs, outputs), launches);
   std::vector<std::string> unset;
   for (const AskedInput& each : inputs)
-    if (!each.is_set) unset.push_back(each.key.name + " = " + value_text(each));
+    if (!each.is_set)
+      unset.push_back(each.key.name + " = " + scene::format_quantity(each.value(), each.key.dimension));
   if (!unset.empty())
     table.notes.push_back(fmt::format("As in the study's scene: {}.", fmt::join(unset, ", ")));
   for (const SurrogateOutput& output : record.outputs)

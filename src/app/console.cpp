@@ -30,8 +30,6 @@ nlohmann::ordered_json or_null(const Part& part) {
   return part == Part{} ? nlohmann::ordered_json() : nlohmann::ordered_json(part);
 }
 
-bool is_closed(int descriptor) { return ::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF; }
-
 /// Writes all of the text: 0, or the number of the error that kept the rest from being written. `wait`: where
 /// the descriptor is a full pipe that does not block.
 int write_to(int descriptor, std::string_view text, bool wait) {
@@ -164,7 +162,7 @@ ExitCode fail_at_once(const char* message) {
 
 void reserve_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (!is_closed(descriptor)) continue;
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;  // it is open
     // The lowest free number is given away first, which is this one.
     const int mode = descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY;
     if (::open("/dev/null", mode) < 0) ::open("/", O_RDONLY | O_DIRECTORY);

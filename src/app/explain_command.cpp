@@ -148,7 +148,7 @@ ExitCode explain_study(const std::filesystem::path& path, Console& console) {
 }  // namespace
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
-  if (explains_program(arguments)) return explain_program(arguments, console);
+  if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
   const scene::InputContent content = content_of(arguments.file);
   if (content != scene::InputContent::study && content != scene::InputContent::materials)
     return explain_scene(arguments, console);

@@ -184,12 +184,6 @@ std::string self_heating_text(const NamedMaterial& material) {
   return "; " + report::runaway_text(charge.kinetics, charge.specific_heat);
 }
 
-const char* calibration_text(const NamedMaterial& material) {
-  return is_calibrated(material) ? "the constants of the 155 mm shell were calibrated with it"
-                                 : "never calibrated: no verdict that rests on it is SAFE until somebody "
-                                   "accepts it as it is, or calibrates it";
-}
-
 /// The value of a key, which has a name of its own in a material.
 struct Number {
   std::string key, name, value;
@@ -218,12 +212,16 @@ Json json_of(const NamedMaterial& material) {
   for (const auto& [key, given] : material.values)
     numbers.push_back({key, scene::key_in_material(material.law, key),
                        scene::format_value(*scene::find_key(scene::scene_keys(), key), given.value)});
+  const bool calibrated = is_calibrated(material);
+  const char* calibration = calibrated
+                                ? "the constants of the 155 mm shell were calibrated with it"
+                                : "never calibrated: no verdict that rests on it is SAFE until somebody "
+                                  "accepts it as it is, or calibrates it";
   return {{"name", material.name},
           {"title", material.title},
-          {"what", fmt::format("law {}; {}{}", material.law, calibration_text(material),
-                               self_heating_text(material))},
+          {"what", fmt::format("law {}; {}{}", material.law, calibration, self_heating_text(material))},
           {"law", material.law},
-          {"calibrated", is_calibrated(material)},
+          {"calibrated", calibrated},
           {"numbers", numbers_json(material.sources, numbers)}};
 }
 
@@ -305,10 +303,6 @@ ExitCode explain_materials(const std::string& word, Console& console) {
 }
 
 }  // namespace
-
-bool explains_program(const ExplainArguments& arguments) {
-  return arguments.lists() || !arguments.schema.empty();
-}
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(arguments.file.string(), console);

@@ -5,8 +5,6 @@
 
 namespace launchsafe::app {
 
-/// Whether nothing is asked of a scene or a study.
-bool explains_program(const ExplainArguments& arguments);
 /// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
 /// Prints the materials of a file.

@@ -4,10 +4,10 @@
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/grid_intervals.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/scheduler.hpp"
@@ -118,12 +118,6 @@ nlohmann::ordered_json intervals_json(const std::vector<scene::GridInterval>& in
   return json;
 }
 
-/// The intervals of the grid between edges of bodies, and cells and particles of every body.
-std::string grid_text(const scene::Scene& scene) {
-  return "Grid\n" +
-         indented(report::to_text(interval_table(scene)) + "\n" + report::to_text(body_table(scene)));
-}
-
 std::string kilohertz(double frequency) { return fmt::format("{:.3g} kHz", 1e-3 * frequency); }
 
 /// The same in SI, and every line of the grid.
@@ -155,12 +149,6 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
                                       {"value", term.value},
                                       {"bound", term.bound}};
   }
-  return json;
-}
-
-nlohmann::ordered_json particles_json(const scene::Plan& plan) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  for (const scene::MaterialParticles& each : plan.by_material) json[each.material] = each.particles;
   return json;
 }
 
@@ -225,7 +213,9 @@ nlohmann::ordered_json rings_json(const scene::Load& load, const scene::Scene& s
 }
 
 std::string scene_text(const scene::Scene& scene, double update_rate) {
-  std::string text = scene::to_text(scene::make_plan(scene), scene, update_rate) + "\n" + grid_text(scene);
+  std::string text =
+      scene::to_text(scene::make_plan(scene), scene, update_rate) + "\nGrid\n" +
+      indented(report::to_text(interval_table(scene)) + "\n" + report::to_text(body_table(scene)));
   text += rings_text(scene.load, scene);
   if (scene.output.asks_for_snapshots())
     text += fmt::format("\nSnapshots\n  {}\n", run::to_text(run::snapshot_size(scene)));
@@ -278,12 +268,14 @@ nlohmann::ordered_json plausibility_json(const scene::Scene& scene) {
 nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
   const auto refusal = run::out_of_reach(scene, reach_here());
+  nlohmann::ordered_json particles = nlohmann::ordered_json::object();
+  for (const scene::MaterialParticles& each : plan.by_material) particles[each.material] = each.particles;
   return {{"title", scene.title},
           {"load", load_json(scene)},
           {"rings_of_the_record", rings_json(scene.load, scene)},
           {"interfaces", interfaces_json(scene)},
           {"physics", physics_json(plan)},
-          {"particles", particles_json(plan)},
+          {"particles", particles},
           {"cells", plan.cells},
           {"grid", grid_json(scene)},
           {"time_step_s", plan.time_step},

@@ -22,10 +22,6 @@ namespace {
 
 using study::Forecast, study::ForecastRun;
 
-std::string state_of(const ForecastRun& run) {
-  return run.stored || run.given_up ? run.why : "to run: " + run.why;
-}
-
 report::Table run_table(const std::vector<ForecastRun>& runs) {
   using keys::fixed;
   const report::Quantities<ForecastRun> quantities{
@@ -36,7 +32,8 @@ report::Table run_table(const std::vector<ForecastRun>& runs) {
       {report::quantity::memory(), &ForecastRun::memory},
       {{"time", "time", fixed(1, keys::second), "Time that it takes, as estimated."}, &ForecastRun::time},
       {{"shard", "shard", keys::count(), "Shard that runs it."}, &ForecastRun::shard},
-      {{"state", "state", keys::text(), "Whether it is stored, or why it runs."}, state_of}};
+      {{"state", "state", keys::text(), "Whether it is stored, or why it runs."},
+       [](const ForecastRun& run) { return run.stored || run.given_up ? run.why : "to run: " + run.why; }}};
   return report::table_of({}, quantities, runs);
 }
 

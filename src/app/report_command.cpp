@@ -12,11 +12,6 @@
 namespace launchsafe::app {
 namespace {
 
-store::Result<report::PageTemplates> templates_of(const ReportArguments& arguments) {
-  if (!arguments.templates) return report::built_in_templates();
-  return report::read_templates(*arguments.templates, report::built_in_templates());
-}
-
 /// What manifest.json of the report says: the studies that it is of, and what was asked of them.
 store::StudyRecord record_of(const report::SafetyEvidence& evidence, const ReportArguments& arguments) {
   const report::DocumentHead& document = arguments.document;
@@ -48,7 +43,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
     return console.refuse(
         fmt::format("report: --output names {}, which holds a study; allowed: another folder",
                     arguments.output.string()));
-  const auto templates = templates_of(arguments);
+  store::Result<report::PageTemplates> templates = report::built_in_templates();
+  if (arguments.templates) templates = report::read_templates(*arguments.templates, *templates);
   if (!templates) return console.refuse(templates.error().message);
   const auto evidence = report::read_safety_evidence(arguments.studies);
   if (!evidence) return console.refuse(evidence.error().message);

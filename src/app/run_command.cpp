@@ -44,13 +44,10 @@ std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
   return trace.stations[index].name;
 }
 
-std::string_view cause_of(const surface::Ignition& ignition) {
-  return ignition.cause == surface::IgnitionCause::trigger ? "T1 reached" : "Arrhenius runaway";
-}
-
 std::string ignition_text(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
   if (!ignition) return "none";
-  return fmt::format("{} at {}, {}", cause_of(*ignition),
+  const bool by_trigger = ignition->cause == surface::IgnitionCause::trigger;
+  return fmt::format("{} at {}, {}", by_trigger ? "T1 reached" : "Arrhenius runaway",
                      report::in_words(ignition->time, keys::fixed(3, keys::millisecond)),
                      place_of(trace, ignition->station));
 }

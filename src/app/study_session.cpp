@@ -32,20 +32,6 @@ bool report_stands(const std::filesystem::path& folder, const StudyRecord& recor
          store::read_as_written(folder, record.files);
 }
 
-ExitCode exit_code_of(const kinds::StudyOutcome& result) {
-  if (!result.failures.empty()) return ExitCode::cases_failed;
-  return result.indeterminate ? ExitCode::indeterminate : ExitCode::done;
-}
-
-nlohmann::ordered_json shard_json(const kinds::StudyOutcome& result, const study::Shard& shard) {
-  return {{"shard", shard.index},
-          {"shards", shard.count},
-          {"mechanical_runs", result.timing.runs},
-          {"reused", result.timing.reused},
-          {"wall_time_s", result.timing.wall_time},
-          {"failed", result.failures.size()}};
-}
-
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
@@ -188,7 +174,12 @@ ExitCode StudySession::deliver(const kinds::StudyOutcome& result, const study::S
 
 ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const study::Shard& shard) {
   const std::vector<kinds::Failure>& failures = result.failures;
-  console_.print_json(shard_json(result, shard));
+  console_.print_json({{"shard", shard.index},
+                       {"shards", shard.count},
+                       {"mechanical_runs", result.timing.runs},
+                       {"reused", result.timing.reused},
+                       {"wall_time_s", result.timing.wall_time},
+                       {"failed", failures.size()}});
   console_.failures(failures);
   console_.remark(report::timing_text(result.timing));
   console_.remark(fmt::format(
@@ -203,8 +194,9 @@ ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
   if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
   console_.failures(result.failures);
   console_.remark(report::timing_text(result.timing));
-  const ExitCode written = write_files(result);
-  return written == ExitCode::done ? exit_code_of(result) : written;
+  if (const ExitCode written = write_files(result); written != ExitCode::done) return written;
+  if (!result.failures.empty()) return ExitCode::cases_failed;
+  return result.indeterminate ? ExitCode::indeterminate : ExitCode::done;
 }
 
 StudyRecord StudySession::record() const {

@@ -111,9 +111,8 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
                     fmt::format("an entry for each property, with the value that is accepted, such as "
                                 "accept = [{}]; launchsafe explain prints them ready to copy",
                                 entry_to_write(foreign_shell, "...")));
-  const auto key =
-      std::find_if(known.begin(), known.end(), [&](const auto& each) { return each.name == name; });
-  if (key == known.end()) {
+  const KeyDescription* key = find_named(known, name);
+  if (key == nullptr) {
     std::vector<std::string> names;
     for (const KeyDescription& each : known) names.push_back(each.name);
     InputError error = unknown_key(places.at("key"), name, names);

@@ -1,5 +1,6 @@
 #include "launchsafe/scene/chamber.hpp"
 
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +14,6 @@
 
 namespace launchsafe::scene {
 namespace {
-
-std::vector<double> distinct(std::vector<double> places, double tolerance) {
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end(),
-                           [tolerance](double a, double b) { return b - a <= tolerance; }),
-               places.end());
-  return places;
-}
 
 struct Cell {
   int column = 0, row = 0;
@@ -142,18 +135,13 @@ std::vector<ChamberFace> faces_at(const CutPlane& plane, const std::vector<Cell>
   return joined;
 }
 
-std::vector<Cell> open_cells_of(const CutPlane& plane, int column) {
-  std::vector<Cell> cells;
-  for (int row = 0; row < plane.rows(); ++row) cells.push_back({column, row});
-  return cells;
-}
-
 }  // namespace
 
 Chamber chamber_of(const Scene& scene) {
   if (scene.bodies.empty()) return {};
   const CutPlane plane(scene);
-  const std::vector<Cell> behind = open_cells_of(plane, plane.columns() - 1);
+  std::vector<Cell> behind;
+  for (int row = 0; row < plane.rows(); ++row) behind.push_back({plane.columns() - 1, row});
   std::vector<Cell> gas = behind;
   Chamber chamber;
   const auto ring = ring_of_band(plane, scene.load.obturation, length_tolerance(scene));

@@ -1,5 +1,4 @@
-#include "launchsafe/scene/gauge_record.hpp"
-
+#include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"

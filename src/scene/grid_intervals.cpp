@@ -1,4 +1,4 @@
-#include "launchsafe/scene/grid_intervals.hpp"
+#include "launchsafe/scene/mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -138,11 +138,6 @@ InputError unreadable(const Place& place, int reason) {
   return error;
 }
 
-InputError too_large(const Place& place, std::size_t largest) {
-  return error_at(place, {}, fmt::format("a file of more than {} MiB", largest >> 20),
-                  fmt::format("a file of at most {} MiB", largest >> 20));
-}
-
 struct Wording {
   const char *found, *allowed;
 };
@@ -168,6 +163,16 @@ std::string_view without_blanks_around(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+std::vector<std::string_view> parts_of_list(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    parts.push_back(without_blanks_around(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 std::string lower_case(std::string_view text) {
@@ -228,7 +233,9 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
     if (count < 0) return unreadable(place, errno);
     if (count == 0) return text;
     text.append(part.data(), static_cast<std::size_t>(count));
-    if (text.size() > largest) return too_large(place, largest);
+    if (text.size() > largest)
+      return error_at(place, {}, fmt::format("a file of more than {} MiB", largest >> 20),
+                      fmt::format("a file of at most {} MiB", largest >> 20));
   }
 }
 

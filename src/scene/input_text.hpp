@@ -6,11 +6,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace launchsafe::scene {
 
 /// Without blanks, tabs and line ends at its ends.
 std::string_view without_blanks_around(std::string_view text);
+
+/// "a, b" as its parts between commas, without blanks around them; at least one, which may be empty.
+std::vector<std::string_view> parts_of_list(std::string_view text);
 
 /// With small letters (ASCII).
 std::string lower_case(std::string_view text);

@@ -28,11 +28,10 @@ std::optional<InputError> check_body(const SceneFile& file, const Interface& fac
   const Scene& scene = file.scene;
   const std::vector<std::string> touching = bodies_at_the_charge(scene);
   if (std::find(touching.begin(), touching.end(), faces.body) != touching.end()) return std::nullopt;
-  const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                 [&](const Body& each) { return each.name == faces.body; });
-  const char* what = body == scene.bodies.end() ? "which no body is called"
-                     : is_charge(scene, *body)  ? "which is a charge itself"
-                                                : "which does not touch the charge";
+  const Body* body = find_named(scene.bodies, faces.body);
+  const char* what = body == nullptr           ? "which no body is called"
+                     : is_charge(scene, *body) ? "which is a charge itself"
+                                               : "which does not touch the charge";
   const std::string nearest = nearest_of(faces.body, touching);
   return fault_of(file, faces, "", fmt::format("\"{}\", {}", faces.body, what),
                   touching.empty() ? "no interface: no body touches a charge"
@@ -277,7 +276,7 @@ Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const
                                                   const std::vector<NamedContact>& known) {
   std::vector<NamedContact> contacts;
   const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
-    if (std::any_of(known.begin(), known.end(), [&](const NamedContact& each) { return each.name == name; }))
+    if (find_named(known, name) != nullptr)
       return error_at(place_of(table, file), "contact", fmt::format("a contact called \"{}\"", name),
                       "a name that no other contact has");
     auto contact = read_contact(name, table, file);

@@ -1,8 +1,9 @@
 // Files of materials and contacts, those that ship, decompositions of explosives, and where values come from.
-#include "built_in_materials.hpp"
+#include "input_text.hpp"
 #include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/named_material.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 
@@ -14,11 +15,6 @@
 
 namespace launchsafe::scene {
 namespace {
-
-bool is_shipped(const std::string& text) {
-  const std::vector<BuiltInText>& texts = built_in_materials();
-  return std::any_of(texts.begin(), texts.end(), [&](const BuiltInText& each) { return each.text == text; });
-}
 
 /// What `read(table, file, those of the files before)` finds in all of them. A fault is one of the program
 /// itself, which tests find.
@@ -48,28 +44,17 @@ std::vector<Named> named_in(const toml::table& root, const char* what, const std
   return own;
 }
 
-/// "a, b" as its parts.
-std::vector<std::string> parts_of_list(const std::string& text) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::size_t first = text.find_first_not_of(" \t", begin);
-    if (first < end) {
-      const std::size_t last = text.find_last_not_of(" \t", end - 1);
-      parts.push_back(text.substr(first, last - first + 1));
-    }
-    begin = end + 1;
-  }
-  return parts;
-}
-
 Key<Source> keys_of_source_key() {
   KeyDescription described =
       keys::description("keys", KeyKind::text, Standing::input, "Keys whose values have this source.");
   described.example = "density, specific_heat";
   return keys::bound_key<Source>(
       std::move(described), &Source::keys,
-      [](auto& keys, const Value& value) { keys = parts_of_list(std::get<std::string>(value)); },
+      [](auto& keys, const Value& value) {
+        keys.clear();
+        for (const std::string_view part : parts_of_list(std::get<std::string>(value)))
+          if (!part.empty()) keys.emplace_back(part);
+      },
       [](const auto& keys) { return fmt::format("{}", fmt::join(keys, ", ")); });
 }
 
@@ -122,7 +107,8 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   const auto table = parse_toml(*text, file.string());
   if (!table) return table.error();
   if (auto error = check_content(*table, file.string(), InputContent::materials)) return *error;
-  if (is_shipped(*text))
+  const auto& shipped = built_in_materials();
+  if (std::ranges::find(shipped, *text, &BuiltInText::text) != shipped.end())
     return NamedMaterials{named_in(*table, "material", shipped_materials()),
                           named_in(*table, "contact", shipped_contacts()),
                           named_in(*table, "decomposition", shipped_decompositions())};
@@ -173,11 +159,8 @@ Expected<std::vector<Decomposition>> read_decompositions(const toml::table& root
 
 materials::KineticsParameters flame_kinetics(const Scene& scene) {
   materials::KineticsParameters kinetics = scene.charge().kinetics;
-  const auto& all = shipped_decompositions();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Decomposition& each) {
-    return each.name == scene.combustion.kinetics;
-  });
-  if (found == all.end()) return kinetics;
+  const Decomposition* found = find_named(shipped_decompositions(), scene.combustion.kinetics);
+  if (found == nullptr) return kinetics;
   kinetics.name = found->name;
   kinetics.activation_temperature = found->kinetics.activation_temperature;
   kinetics.frequency = found->kinetics.frequency;

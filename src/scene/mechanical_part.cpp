@@ -51,8 +51,7 @@ class Unfelt {
 /// What no body is made of stands at its default.
 void settle_materials(Scene& part, const Unfelt& unfelt) {
   for (Material& material : part.materials) {
-    const bool used = std::any_of(part.bodies.begin(), part.bodies.end(),
-                                  [&](const Body& body) { return body.material == material.name; });
+    const bool used = is_used(part, material.name);
     std::visit(
         [&]<class Law>(Law& law) {
           static const std::vector<Key<Law>> keys = Law::parameters();

@@ -81,9 +81,7 @@ double position_of(const CellDensity& density, double from, double to, double ce
 }
 
 std::vector<double> lines_through(std::vector<double> edges, double tolerance, const CellDensity& density) {
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end(), [&](double a, double b) { return b - a <= tolerance; }),
-              edges.end());
+  edges = distinct(std::move(edges), tolerance);
   std::vector<double> lines{edges.front()};
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
     const double from = edges[e], to = edges[e + 1], all = density.cells(from, to);
@@ -197,6 +195,13 @@ double cell_before(const std::vector<double>& lines, double place) {
 }
 
 }  // namespace
+
+std::vector<double> distinct(std::vector<double> places, double tolerance) {
+  std::ranges::sort(places);
+  const auto rest = std::ranges::unique(places, [&](double a, double b) { return b - a <= tolerance; });
+  places.erase(rest.begin(), rest.end());
+  return places;
+}
 
 GridLines grid_lines(const Scene& scene) {
   std::vector<double> x, r, refined_x = scene.numerics.refined_x, refined_r = scene.numerics.refined_r;

@@ -34,12 +34,6 @@ std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
   return keys;
 }
 
-const NamedMaterial* find_named(const std::vector<NamedMaterial>& materials, const std::string& name) {
-  const auto found = std::find_if(materials.begin(), materials.end(),
-                                  [&](const NamedMaterial& each) { return each.name == name; });
-  return found == materials.end() ? nullptr : &*found;
-}
-
 Expected<std::string> read_law(const toml::table& table, const Place& place, const std::string& file) {
   const KeyDescription& key = *find_key(material_keys(), "law");
   const toml::node* node = table.get("law");
@@ -88,8 +82,7 @@ Expected<NamedMaterial> read_material(const std::string& name, const toml::table
 
 std::optional<InputError> check_name(const toml::node& node, const std::string& name, const std::string& file,
                                      const std::vector<NamedMaterial>& known) {
-  const std::vector<std::string> laws = words_of_laws();
-  const bool is_law = std::find(laws.begin(), laws.end(), name) != laws.end();
+  const bool is_law = find_named(usual_materials(), name) != nullptr;
   const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
@@ -162,12 +155,10 @@ class Completion {
         return fault(fmt::format("\"{}\", which is like this material", material.like),
                      "a material with numbers of its own");
       const NamedMaterial* other = find_named(known_, material.like);
-      const auto own = std::find_if(materials_.begin(), materials_.end(),
-                                    [&](const NamedMaterial& each) { return each.name == material.like; });
-      if (other == nullptr && own != materials_.end()) {
-        if (auto error = complete(static_cast<std::size_t>(own - materials_.begin()), depth + 1))
-          return error;
-        other = &*own;
+      const NamedMaterial* own = find_named(materials_, material.like);
+      if (other == nullptr && own != nullptr) {
+        if (auto error = complete(static_cast<std::size_t>(own - materials_.data()), depth + 1)) return error;
+        other = own;
       }
       if (other == nullptr || other->law != material.law)
         return fault(fmt::format("\"{}\"", material.like),

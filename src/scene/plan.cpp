@@ -32,6 +32,13 @@ Term switched(Switch user, bool needed, std::string reason, double value, double
   return {in, forced, std::move(reason), value, bound};
 }
 
+Term in(double value, std::string reason, double bound = 0.0) {
+  return {true, false, std::move(reason), value, bound};
+}
+Term out(double value, std::string reason, double bound = 0.0) {
+  return {false, false, std::move(reason), value, bound};
+}
+
 /// Verdicts rest on the charge's temperature; heat in the rest only softens it a little.
 Material material_to_conduct(const Scene& scene) {
   std::vector<Material> used = used_materials(scene);
@@ -55,7 +62,7 @@ Term plan_conduction(const Scene& scene, const CellRange& cells) {
 }
 
 Term plan_bulk_reaction(const Scene& scene) {
-  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
+  if (!has_charge(scene)) return out(0.0, "no charge");
   const double temperature = bulk_temperature_bound(scene);
   const double heating =
       materials::arrhenius_heating(scene.charge().kinetics, scene.charge().specific_heat, temperature) *
@@ -71,73 +78,66 @@ Term plan_bulk_reaction(const Scene& scene) {
 
 Term plan_surface(const Scene& scene) {
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
-  if (!has_charge(scene)) return {false, false, "no charge", gaps, 0.0};
+  if (!has_charge(scene)) return out(gaps, "no charge");
   const bool closes = scene.surface.model == GapModel::closing;
-  return {true, false, fmt::format("{:.0f} gaps {}", gaps, closes ? "that close" : "on one bottom trace"),
-          gaps, 0.0};
+  return in(gaps, fmt::format("{:.0f} gaps {}", gaps, closes ? "that close" : "on one bottom trace"));
 }
 
 Term plan_air(const Scene& scene) {
   double largest = 0.0;
   for (const double gap : scene.surface.gaps) largest = std::max(largest, gap);
-  if (!has_charge(scene)) return {false, false, "no charge", largest, 0.0};
-  if (!(largest > 0.0)) return {false, false, "no gap above 0 cm", largest, 0.0};
+  if (!has_charge(scene)) return out(largest, "no charge");
+  if (!(largest > 0.0)) return out(largest, "no gap above 0 cm");
   const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
   if (scene.surface.model == GapModel::closing)
-    return {true, false,
-            fmt::format("{}, that close down to {} on a base that {}; each has a launch of its own", gaps,
-                        length_text(scene.surface.roughness),
-                        scene.surface.base == GapBase::insulated ? "takes no heat" : "takes heat"),
-            largest, 0.0};
-  if (scene.surface.air_model != AirModel::film) return {true, false, gaps, largest, 0.0};
-  return {true, false,
-          gaps +
-              ", as a film that conducts into charge and base; gap.exchange, gap.exchange_time, "
-              "gap.skin_thickness and gap.air_density play no part",
-          largest, 0.0};
+    return in(largest,
+              fmt::format("{}, that close down to {} on a base that {}; each has a launch of its own", gaps,
+                          length_text(scene.surface.roughness),
+                          scene.surface.base == GapBase::insulated ? "takes no heat" : "takes heat"));
+  if (scene.surface.air_model != AirModel::film) return in(largest, gaps);
+  return in(largest, gaps +
+                         ", as a film that conducts into charge and base; gap.exchange, gap.exchange_time, "
+                         "gap.skin_thickness and gap.air_density play no part");
 }
 
 Term plan_cracks(const Scene& scene) {
   const materials::ViscoScramParameters& strength = scene.charge().strength;
-  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
-  if (!(strength.flaw_size > 0.0)) return {false, false, "charge.flaw_size is 0", 0.0, 0.0};
+  if (!has_charge(scene)) return out(0.0, "no charge");
+  if (!(strength.flaw_size > 0.0)) return out(0.0, "charge.flaw_size is 0");
   const double ratio = strength.initial_crack_radius / strength.flaw_size;
-  if (!(ratio > 0.0)) return {false, false, "charge.crack_radius is 0", 0.0, 0.0};
-  return {true, false,
-          fmt::format("crack radius {} at flaw size {}", length_text(strength.initial_crack_radius),
-                      length_text(strength.flaw_size)),
-          ratio, 0.0};
+  if (!(ratio > 0.0)) return out(0.0, "charge.crack_radius is 0");
+  return in(ratio, fmt::format("crack radius {} at flaw size {}", length_text(strength.initial_crack_radius),
+                               length_text(strength.flaw_size)));
 }
 
 Term plan_crack_growth(const Scene& scene, const Term& cracks) {
   const double speed = scene.charge().strength.largest_growth_speed;
-  if (!cracks.in) return {false, false, "no cracks", speed, 0.0};
-  if (!scene.charge().strength.growth) return {false, false, "charge.crack_growth is false", speed, 0.0};
-  return {true, false, fmt::format("up to {:.4g} m/s", speed), speed, 0.0};
+  if (!cracks.in) return out(speed, "no cracks");
+  if (!scene.charge().strength.growth) return out(speed, "charge.crack_growth is false");
+  return in(speed, fmt::format("up to {:.4g} m/s", speed));
 }
 
 Term plan_crack_friction(const Scene& scene, const Term& growth) {
   const double friction = scene.charge().strength.face_friction;
-  if (!growth.in) return {false, false, "no crack growth that it could hold back", friction, 0.0};
-  if (!(friction > 0.0)) return {false, false, "charge.face_friction is 0", friction, 0.0};
-  return {true, false, fmt::format("coefficient {:.3g} of closed crack faces", friction), friction, 0.0};
+  if (!growth.in) return out(friction, "no crack growth that it could hold back");
+  if (!(friction > 0.0)) return out(friction, "charge.face_friction is 0");
+  return in(friction, fmt::format("coefficient {:.3g} of closed crack faces", friction));
 }
 
 Term plan_friction_heat(const Scene& scene) {
   const Surface& surface = scene.surface;
-  if (!has_charge(scene)) return {false, false, "no charge", 0.0, 0.0};
-  if (surface.friction == FrictionClosure::none) return {false, false, "friction.closure is none", 0.0, 0.0};
+  if (!has_charge(scene)) return out(0.0, "no charge");
+  if (surface.friction == FrictionClosure::none) return out(0.0, "friction.closure is none");
   const double factor = scene.charge().sliding_friction * surface.localisation;
-  if (!(factor > 0.0)) return {false, false, "sliding_friction or localisation is 0", factor, 0.0};
-  return {true, false,
-          fmt::format("closure \"{}\", localisation {:.6g}", word_of(surface.friction), surface.localisation),
-          surface.localisation, 0.0};
+  if (!(factor > 0.0)) return out(factor, "sliding_friction or localisation is 0");
+  return in(surface.localisation, fmt::format("closure \"{}\", localisation {:.6g}",
+                                              word_of(surface.friction), surface.localisation));
 }
 
 Term plan_inertial_scaling(const Scene& scene) {
   const double scaling = scene.numerics.inertial_scaling, selective = scene.numerics.selective_inertia;
   const double factor = scaling * selective * selective;
-  if (!(factor > 1.0)) return {false, false, "full inertia", factor, 1.0};
+  if (!(factor > 1.0)) return out(factor, "full inertia", 1.0);
   std::string reason;
   if (scaling > 1.0)
     reason = fmt::format("inertia times {:.4g}, steps {:.3g} times longer", scaling, std::sqrt(scaling));
@@ -145,7 +145,7 @@ Term plan_inertial_scaling(const Scene& scene) {
     reason +=
         fmt::format("{}steps {:.3g} times longer, with up to {:.4g} times the inertia in cells that need it",
                     reason.empty() ? "" : "; ", selective, selective * selective);
-  return {true, false, std::move(reason), factor, 1.0};
+  return in(factor, std::move(reason), 1.0);
 }
 
 /// s of the launch, at most, that the run of a gap computes before it ignites or the launch ends.
@@ -164,22 +164,21 @@ double coupled_share(const Scene& scene) {
 
 Term plan_coupling(const Scene& scene) {
   const double duration = scene.combustion.duration;
-  if (!has_charge(scene)) return {false, false, "no charge", duration, 0.0};
+  if (!has_charge(scene)) return out(duration, "no charge");
   if (scene.coupling == Coupling::one_way)
-    return {false, false, "one-way: runs end with the launch, and what ignites does not burn", duration, 0.0};
-  return {true, false,
-          fmt::format("two-way: every gap that ignites is computed once more from a checkpoint, at most {} "
-                      "before ignition, and on through combustion for {} or to {} at the bottom",
-                      time_text(time_before_ignition(scene)), time_text(duration),
-                      pressure_text(scene.combustion.stop_pressure)),
-          duration, 0.0};
+    return out(duration, "one-way: runs end with the launch, and what ignites does not burn");
+  return in(duration,
+            fmt::format("two-way: every gap that ignites is computed once more from a checkpoint, at most {} "
+                        "before ignition, and on through combustion for {} or to {} at the bottom",
+                        time_text(time_before_ignition(scene)), time_text(duration),
+                        pressure_text(scene.combustion.stop_pressure)));
 }
 
 Term plan_snapshots(const Scene& scene) {
   const std::size_t times = scene.output.snapshot_times.size(), events = scene.output.snapshot_events.size();
   const auto count = static_cast<double>(times + events);
-  if (!scene.output.asks_for_snapshots()) return {false, false, "none asked for", count, 0.0};
-  return {true, false, fmt::format("{} times, {} events", times, events), count, 0.0};
+  if (!scene.output.asks_for_snapshots()) return out(count, "none asked for");
+  return in(count, fmt::format("{} times, {} events", times, events));
 }
 
 /// Sub-steps into which the crack law divides a step because cracks and Maxwell elements relax together; 0

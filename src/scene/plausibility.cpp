@@ -109,11 +109,6 @@ double stated_peak(const Load& load) {
   return load.curve_time.empty() || load.rescale_to_peak ? load.peak : measured_peak(load);
 }
 
-Number peak_of_curve(const Scene& scene) {
-  if (scene.load.curve_time.empty()) return std::nullopt;
-  return measured_peak(scene.load);
-}
-
 /// Only where it is another than the stated one, which is judged by itself.
 Number simulated_peak(const Scene& scene) {
   constexpr double same = 0.99;
@@ -121,15 +116,6 @@ Number simulated_peak(const Scene& scene) {
   if (peak >= same * stated_peak(scene.load)) return std::nullopt;
   return peak;
 }
-
-Number rescaling(const Scene& scene) {
-  if (scene.load.curve_time.empty() || !scene.load.rescale_to_peak) return std::nullopt;
-  return scene.load.peak / measured_peak(scene.load);
-}
-
-/// As one rigid body at the muzzle exit, or at the end where there is none, m/s and m.
-Number launch_speed(const Scene&, const RigidMotion& launch) { return launch.velocity; }
-Number launch_travel(const Scene&, const RigidMotion& launch) { return launch.travel; }
 
 /// At a stated muzzle exit.
 Number pressure_at_exit(const Scene& scene) {
@@ -143,22 +129,15 @@ Number calibres_to_exit(const Scene& scene, const RigidMotion& launch) {
 }
 
 /// Of an isotropic solid.
-double poisson_ratio(double bulk, double shear) {
+template <class Law>
+double poisson_ratio(const Law& law) {
+  const double bulk = law.bulk_modulus(), shear = law.shear_modulus();
   return (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear));
-}
-
-Number poisson_ratio_of_steel(const Scene& scene) {
-  if (!has_law<Steel>(scene)) return std::nullopt;
-  return poisson_ratio(scene.steel().bulk_modulus(), scene.steel().shear_modulus());
 }
 
 /// A quantity that only a scene with a charge has.
 std::function<Number(const Scene&)> of_charge(double (*value)(const Scene&)) {
   return [value](const Scene& scene) { return has_charge(scene) ? Number(value(scene)) : std::nullopt; };
-}
-
-double poisson_ratio_of_charge(const Scene& scene) {
-  return poisson_ratio(scene.charge().bulk_modulus(), scene.charge().shear_modulus());
 }
 
 double bulk_sound_speed(const Scene& scene) {
@@ -198,17 +177,6 @@ double heat_of_ideal_air(const Scene& scene) {
   const materials::AirParameters& air = scene.surface.air;
   return air.specific_heat * (air.heat_ratio - 1.0) / (air.heat_ratio * gas_constant_of_air);
 }
-
-Number length_of_shell(const Scene& scene) {
-  const Extent all = extent_of(scene);
-  return all.x_end - all.x_begin;
-}
-
-double warmth_of_air(const Scene& scene) {
-  return scene.surface.air.initial_temperature - scene.initial_temperature;
-}
-
-Number radius_of_shell(const Scene& scene) { return extent_of(scene).r_end; }
 
 using OfLaunch = std::function<Number(const Scene& scene, const RigidMotion& launch)>;
 
@@ -290,22 +258,29 @@ const std::vector<DerivedQuantity>& derived_quantities() {
   static const std::vector<DerivedQuantity> quantities{
       quantity("load.measured_peak", Dimension::pressure,
                "Largest pressure of a measured curve as it was measured, wherever in time it lies.", gun,
-               "a mortar has 10 MPa, and no gun tube bears 1 GPa", peak_of_curve),
+               "a mortar has 10 MPa, and no gun tube bears 1 GPa",
+               [](const Scene& scene) {
+                 return scene.load.curve_time.empty() ? Number() : measured_peak(scene.load);
+               }),
       quantity("load.simulated_peak", Dimension::pressure,
                "Largest pressure until the end, where it is below the one that the scene states.", gun,
                "what lies outside of the simulated time does nothing", simulated_peak),
       quantity("load.rescaling", Dimension::number, "Factor on a measured curve by load.rescale_to_peak.",
                between(0.25, 4), "other charges of propellant than these make another shape of the curve",
-               rescaling),
+               [](const Scene& scene) {
+                 const bool is_scaled = !scene.load.curve_time.empty() && scene.load.rescale_to_peak;
+                 return is_scaled ? Number(scene.load.peak / measured_peak(scene.load)) : std::nullopt;
+               }),
       quantity("load.launch_speed", Dimension::speed,
                "Speed at the muzzle exit, or at the end, of the projectile as one rigid body.",
                between(300, 1.2e3),
                "howitzers and guns launch with 300 m/s to 1.2 km/s: low zones, mortars and tank guns are "
                "accepted with their number",
-               launch_speed),
+               [](const Scene&, const RigidMotion& launch) { return Number(launch.velocity); }),
       quantity("load.travel", Dimension::length,
                "Travel until the muzzle exit, or the end, of the projectile as one rigid body.",
-               between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m", launch_travel),
+               between(0.5, 15), "mortars have a tube of a metre, guns one of 2 to 11 m",
+               [](const Scene&, const RigidMotion& launch) { return Number(launch.travel); }),
       quantity("load.exit_pressure", Dimension::number, "Pressure over its peak at a stated muzzle exit.",
                between(0, 0.25), "guns let the shot go at a tenth to a quarter of their peak pressure",
                pressure_at_exit),
@@ -315,10 +290,14 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                calibres_to_exit),
       quantity("steel.poisson_ratio", Dimension::number,
                "Poisson's ratio, from density, c0 and shear modulus.", between(0.24, 0.35),
-               "steels have 0.27 to 0.30", poisson_ratio_of_steel),
+               "steels have 0.27 to 0.30",
+               [](const Scene& scene) {
+                 return has_law<Steel>(scene) ? Number(poisson_ratio(scene.steel())) : std::nullopt;
+               }),
       quantity("charge.poisson_ratio", Dimension::number,
                "Poisson's ratio before relaxation, from the JWL and the shear moduli.", between(0.1, 0.49),
-               "explosives have 0.2 to 0.45", of_charge(poisson_ratio_of_charge)),
+               "explosives have 0.2 to 0.45",
+               of_charge([](const Scene& scene) { return poisson_ratio(scene.charge()); })),
       quantity("charge.bulk_sound_speed", Dimension::speed, "Bulk sound speed, from the JWL and the density.",
                between(1.5e3, 5e3), "explosives have 2 to 3 km/s", of_charge(bulk_sound_speed)),
       quantity("charge.heat_capacity", Dimension::number,
@@ -330,7 +309,9 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                between(400, 700), "explosives do so between 450 and 650 K", of_charge(explosion_temperature)),
       quantity("gap.air_warmth", Dimension::temperature_difference,
                "Temperature of the air before launch over that of the shell around it.", between(-5, 5),
-               "air in a narrow gap has the temperature of its walls", of_charge(warmth_of_air)),
+               "air in a narrow gap has the temperature of its walls", of_charge([](const Scene& scene) {
+                 return scene.surface.air.initial_temperature - scene.initial_temperature;
+               })),
       quantity("gap.gas_law", Dimension::number,
                "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
                "temperature before launch.",
@@ -339,9 +320,11 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                "Specific heat over that of an ideal gas of air's molar mass and the given heat ratio.",
                between(0.9, 1.1), "air obeys the law within some percent", of_charge(heat_of_ideal_air)),
       quantity("shell.length", Dimension::length, "Length of all bodies together.", between(0.02, 2.5),
-               "the longest shells have 2 m", length_of_shell),
+               "the longest shells have 2 m",
+               [](const Scene& scene) { return Number(extent_of(scene).x_end - extent_of(scene).x_begin); }),
       quantity("shell.radius", Dimension::length, "Largest radius of all bodies.", between(0.005, 0.25),
-               "calibres go from machine cannons to 46 cm", radius_of_shell),
+               "calibres go from machine cannons to 46 cm",
+               [](const Scene& scene) { return Number(extent_of(scene).r_end); }),
   };
   return quantities;
 }

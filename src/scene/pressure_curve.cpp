@@ -321,15 +321,11 @@ class CurveReader {
   DecimalMark decimal_mark_;
 };
 
-std::optional<InputError> check_text(std::string_view text, const std::string& file) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    return error_at({file, 1}, {}, "text in UTF-16", "text in UTF-8");
-  return check_encoding(text, file);
-}
-
 /// `gauge`: the pressure's column in a gauge's record; none for a curve that is a load.
 Expected<PressureCurve> parse(const std::string& text, const std::string& file, const std::string* gauge) {
-  if (auto error = check_text(text, file)) return *error;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return error_at({file, 1}, {}, "text in UTF-16", "text in UTF-8");
+  if (auto error = check_encoding(text, file)) return *error;
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());

@@ -377,13 +377,7 @@ Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, D
     const bool may_be_points = parse_list(pointed, dimension).has_value();
     return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
   }
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return convert_all(parts, text, dimension);
+  return convert_all(parts_of_list(text), text, dimension);
 }
 
 std::string format_quantity(double value_si, Dimension dimension) {
@@ -415,16 +409,7 @@ int power_of(Dimension dimension, std::string_view unit_name) {
 }
 
 double shifted_point(double value, int power) {
-  if (!std::isfinite(value) || value == 0.0 || power == 0) return value;
-  char text[48];
-  char* const end = std::to_chars(text, text + 32, value, std::chars_format::scientific).ptr;
-  char* const letter = std::find(text, end, 'e');
-  int exponent = 0;
-  std::from_chars(letter[1] == '+' ? letter + 2 : letter + 1, end, exponent);
-  const char* const stop = std::to_chars(letter + 1, text + sizeof text, exponent + power).ptr;
-  double result = std::numeric_limits<double>::quiet_NaN();
-  std::from_chars(text, stop, result);
-  return result;
+  return std::isfinite(value) && power != 0 ? scaled(fmt::format("{}", value), power) : value;
 }
 
 double as_written(double value_si, Dimension dimension, std::string_view unit) {

@@ -14,18 +14,6 @@
 namespace launchsafe::scene {
 namespace {
 
-Extent nothing_yet() {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  return {far, -far, far, -far};
-}
-
-void enclose(Extent& extent, const Body& body) {
-  extent.x_begin = std::min(extent.x_begin, body.x_begin);
-  extent.x_end = std::max(extent.x_end, body.x_end);
-  extent.r_begin = std::min(extent.r_begin, body.r_begin);
-  extent.r_end = std::max(extent.r_end, body.r_end);
-}
-
 /// Area (m2) between two radii: a full ring, or a strip of 1 m depth.
 double cross_section(double r_begin, double r_end, Symmetry symmetry) {
   const double width = r_end - r_begin;
@@ -36,14 +24,16 @@ double cross_section(double r_begin, double r_end, Symmetry symmetry) {
 /// Around the bodies that a rule chooses.
 template <class Choose>
 Extent extent_where(const Scene& scene, Choose&& choose) {
-  Extent extent = nothing_yet();
-  bool any = false;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Extent extent{far, -far, far, -far};
   for (const Body& body : scene.bodies) {
     if (!choose(body)) continue;
-    enclose(extent, body);
-    any = true;
+    extent.x_begin = std::min(extent.x_begin, body.x_begin);
+    extent.x_end = std::max(extent.x_end, body.x_end);
+    extent.r_begin = std::min(extent.r_begin, body.r_begin);
+    extent.r_end = std::max(extent.r_end, body.r_end);
   }
-  return any ? extent : Extent{};
+  return extent.x_end < extent.x_begin ? Extent{} : extent;
 }
 
 }  // namespace
@@ -63,9 +53,7 @@ void clear_remarks(Scene& scene) {
 }
 
 const Material* find_material(const Scene& scene, std::string_view name) {
-  for (const Material& material : scene.materials)
-    if (material.name == name) return &material;
-  return nullptr;
+  return keys::find_named(scene.materials, name);
 }
 
 const materials::Law& law_of(const Scene& scene, const Body& body) {
@@ -82,13 +70,13 @@ std::string material_text(const Scene& scene, const Body& body) {
   return material->name + " (" + material->title + ")";
 }
 
+bool is_used(const Scene& scene, std::string_view material) {
+  return std::ranges::find(scene.bodies, material, &Body::material) != scene.bodies.end();
+}
+
 std::vector<Material> used_materials(const Scene& scene) {
-  std::vector<Material> used;
-  for (const Material& material : scene.materials) {
-    const bool is_used = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                     [&](const Body& body) { return body.material == material.name; });
-    if (is_used) used.push_back(material);
-  }
+  std::vector<Material> used = scene.materials;
+  std::erase_if(used, [&](const Material& material) { return !is_used(scene, material.name); });
   return used;
 }
 

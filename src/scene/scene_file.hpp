@@ -9,6 +9,12 @@
 
 namespace launchsafe::scene {
 
+/// A file of studies/materials.
+struct BuiltInText {
+  std::string file, text;  ///< "comp-b.toml"
+};
+const std::vector<BuiltInText>& built_in_materials();
+
 /// The keys of [load], under their names in that table.
 std::vector<Key<Load>> load_keys();
 

@@ -147,8 +147,7 @@ Expected<Value> checked_words(const std::string& list, const KeyDescription& key
   std::vector<std::string> found;
   std::istringstream parts(list);
   for (std::string part; std::getline(parts, part, ',');) {
-    const std::size_t begin = part.find_first_not_of(' '), end = part.find_last_not_of(' ');
-    const std::string word = begin == std::string::npos ? "" : part.substr(begin, end - begin + 1);
+    const std::string word(without_blanks_around(part));
     if (const auto known = checked_word(word, key, place); !known) return known.error();
     if (std::find(found.begin(), found.end(), word) != found.end())
       return error_for(place, key, '"' + word + "\" twice");

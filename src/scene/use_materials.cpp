@@ -10,11 +10,6 @@
 namespace launchsafe::scene {
 namespace {
 
-bool is_word_of_law(const std::string& name) {
-  const std::vector<Material> usual = usual_materials();
-  return std::any_of(usual.begin(), usual.end(), [&](const Material& each) { return each.name == name; });
-}
-
 /// Names of the materials of each law that bodies are of, in the order of the bodies.
 using NamesByLaw = std::map<std::string, std::vector<std::string>>;
 
@@ -36,7 +31,8 @@ Expected<NamesByLaw> names_by_law(const SceneFile& file, const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::string& name = file.body_materials[i];
     const NamedMaterial* named = find_named_material(file, name);
-    if (named == nullptr && !is_word_of_law(name)) return unknown_material(file, scene.bodies[i].name, name);
+    if (named == nullptr && find_named(usual_materials(), name) == nullptr)
+      return unknown_material(file, scene.bodies[i].name, name);
     std::vector<std::string>& names = by_law[named ? named->law : name];
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
@@ -133,8 +129,7 @@ void set_number(SceneFile& file, const std::string& name, const KeyDescription& 
 
 const NamedMaterial* find_named_material(const SceneFile& file, const std::string& name) {
   for (const auto* list : {&file.materials, &shipped_materials()})
-    for (const NamedMaterial& each : *list)
-      if (each.name == name) return &each;
+    if (const NamedMaterial* found = find_named(*list, name)) return found;
   return nullptr;
 }
 

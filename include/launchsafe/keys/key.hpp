@@ -129,12 +129,16 @@ struct Key : KeyDescription {
   Value default_value() const { return get(Owner{}); }
 };
 
-/// The key of that name, or nullptr.
+/// The one of that name, or nullptr.
+template <class Named>
+const Named* find_named(const std::vector<Named>& all, std::string_view name) {
+  const auto found =
+      std::ranges::find(all, name, [](const Named& each) -> std::string_view { return each.name; });
+  return found == all.end() ? nullptr : &*found;
+}
 template <class Owner>
 const Key<Owner>* find_key(const std::vector<Key<Owner>>& keys, std::string_view name) {
-  const auto found =
-      std::find_if(keys.begin(), keys.end(), [name](const Key<Owner>& key) { return key.name == name; });
-  return found == keys.end() ? nullptr : &*found;
+  return find_named(keys, name);
 }
 
 namespace detail {

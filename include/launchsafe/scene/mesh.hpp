@@ -19,6 +19,9 @@ struct Mesh {
   double radius = 0;    ///< outer radius of the scene, m, a whole number of radial cells
 };
 
+/// Places in increasing order, m, each once: those closer than the tolerance are one.
+std::vector<double> distinct(std::vector<double> places, double tolerance);
+
 /// Lines of a rectilinear grid, increasing, m.
 struct GridLines {
   std::vector<double> x, r;
@@ -94,5 +97,24 @@ MeshSize mesh_size(const Scene& scene);
 
 /// Particles of all bodies.
 std::int64_t particle_count(const Scene& scene);
+
+// The grid as a list that people can check: between which edges of bodies it has how many cells of what
+// length.
+
+/// The cells between two neighbouring places where bodies begin or end. Lengths in m.
+struct GridInterval {
+  double from = 0, to = 0;
+  int cells = 0;
+  double shortest = 0, longest = 0;                   ///< of its cells
+  std::vector<std::string> edge_before, edge_behind;  ///< names of the bodies with an edge at `from`, at `to`
+};
+
+struct GridIntervals {
+  std::vector<GridInterval> x, r;
+};
+
+/// The intervals of `lines_at_rest` in either direction, increasing, which together are the whole grid. Lines
+/// of the even grid of the updated-Lagrangian form need not run through edges of bodies: it is one interval.
+GridIntervals grid_intervals(const Scene& scene);
 
 }  // namespace launchsafe::scene

@@ -291,6 +291,8 @@ const Material* find_material(const Scene& scene, std::string_view name);
 const materials::Law& law_of(const Scene& scene, const Body& body);
 /// A body's material for people: "charge (PBX 9501)" where it has a title.
 std::string material_text(const Scene& scene, const Body& body);
+/// Whether a body is made of the material of that name.
+bool is_used(const Scene& scene, std::string_view material);
 /// The materials that bodies are made of, in the scene's order.
 std::vector<Material> used_materials(const Scene& scene);
 /// Whether a body is of that law.

@@ -34,7 +34,7 @@ using keys::flag_key, keys::list_key, keys::number_key, keys::optional_number_ke
     keys::text_key, keys::word_key;
 using keys::always_plausible, keys::formerly, keys::may_be_empty, keys::overriding, keys::plausibly, keys::required, keys::then;
 using keys::usually, keys::value_or_range, keys::written_where, keys::zero_or_plausibly;
-using keys::find_key;
+using keys::find_key, keys::find_named;
 // clang-format on
 
 /// "input", "P", "L", "D", "A" or "C".
