@@ -1,20 +1,13 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include "launchsafe/report/verdict_text.hpp"
+#include "answer_tables.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <span>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -173,8 +166,7 @@ void fill_settings(const std::vector<bool>& inert, std::vector<AccuracyRow>& row
     if (!row.computed()) continue;
     row.setting.critical_gap = row.answer.critical.value;
     for (std::size_t gap = 0; gap < inert.size(); ++gap)
-      row.setting.temperature.push_back(inert[gap] ? row.answer.heated_temperature[gap]
-                                                   : row.answer.verdicts[gap].maximum.temperature);
+      row.setting.temperature.push_back(temperature_of(row.answer, gap, inert[gap]));
   }
 }
 

@@ -4,14 +4,11 @@
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <set>
-#include <utility>
 
 namespace launchsafe::kinds {
 

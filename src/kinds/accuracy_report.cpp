@@ -1,18 +1,9 @@
 // The answer, the picture, the page and the files of an accuracy study.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -136,9 +127,9 @@ Plot error_plot(const VariantAccuracy& variant) {
   constexpr int blue = 0, orange = 1, black = 6, grey = 7;
   const double known_to = variant.reference_uncertainty();
   Plot plot;
-  plot.x = {headed("processor time of a run", report::quantity::processor_time()).label(),
+  plot.x = {headed("processor time of a run", quantity::processor_time()).label(),
             report::Scale::logarithmic};
-  plot.y = {headed("distance of T max from the limit", report::quantity::temperature_max()).label(),
+  plot.y = {headed("distance of T max from the limit", quantity::temperature_max()).label(),
             report::Scale::logarithmic};
   plot.width = 760;
   plot.height = 480;

@@ -1,24 +1,16 @@
 // The tables of an accuracy study.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::kinds {
 
 using keys::Cell, keys::fixed, keys::Form, keys::kelvin, keys::significant, keys::text;
 using report::centimetres, report::Column, report::Quantities, report::Row, report::Table, report::table_of;
 using study::RecordedSetting, study::ReferenceValue;
-namespace quantity = report::quantity;
 
 namespace {
-
-std::string gap_text(double gap) { return report::digits_of(gap, quantity::gap().form); }
 
 const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
 const std::vector<double>& times_of(const VariantAccuracy& variant) {
@@ -161,8 +153,8 @@ Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string
                               std::vector<double> AccuracyRow::*list) {
   Quantities<SettingRow> quantities;
   for (const double gap : gaps)
-    quantities.emplace_back(Column{name + "_" + gap_text(gap) + "_cm", heading + " at " + centimetres(gap),
-                                   form, "Error at that gap."},
+    quantities.emplace_back(Column{name + "_" + report::digits_of(gap, quantity::gap().form) + "_cm",
+                                   heading + " at " + centimetres(gap), form, "Error at that gap."},
                             of_list(list, gaps_of, gap));
   return quantities;
 }

@@ -4,17 +4,18 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/page_texts.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/table.hpp"
+#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
+
+namespace quantity = report::quantity;
 
 /// Adds a run that came to nothing, unless another shard runs it.
 inline void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
@@ -63,7 +64,7 @@ inline bool any_ignites(const std::vector<study::CaseAnswer>& answers, std::size
 /// K, T max at a gap of the study; `inert`: of a skin that does not react. NaN of a case that failed.
 inline double temperature_of(const study::CaseAnswer& answer, std::size_t gap, bool inert) {
   if (!answer.completed()) return study::not_a_number;
-  return inert ? answer.heated_temperature[gap] : answer.verdicts[gap].maximum.temperature;
+  return inert ? answer.verdicts[gap].heated : answer.verdicts[gap].maximum.temperature;
 }
 
 inline bool is_bound(const study::CaseAnswer& answer) {

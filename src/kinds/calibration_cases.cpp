@@ -1,15 +1,10 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
 #include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
@@ -68,56 +63,6 @@ std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
           "Where rule and weights of the calibration were settled before its fit, for the report.", "1fd14b4",
           &CalibrationSettings::frozen_at),
   };
-}
-
-/// Firings stand alone, with what is only of them; they start from a calibration on published results.
-Fault check_firings(const StudyFile& study) {
-  const bool any = has_firings(study.study);
-  for (const auto& [key, place] : study.places) {
-    const bool of_firings = key.starts_with("prior.") || key == "next_gaps" || key == "calibration";
-    const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||
-                         key == "compare_kinetics" || key == "ignition_bracket";
-    if (any ? of_rows : of_firings)
-      return fault_at(
-          study, key,
-          any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
-          any ? "either [[firing]] or published rows" : "at least one [[firing]]");
-  }
-  return std::nullopt;
-}
-
-Fault read_calibration(const StudySource& source, StudyFile& study) {
-  if (Fault fault = read_firings(source.root, study)) return fault;
-  if (Fault fault = check_firings(study)) return fault;
-  if (Fault fault = read_references(source, study)) return fault;
-  const auto& own = settings_of<CalibrationSettings>(study.study);
-  return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
-}
-
-std::string mesh_label(const study::StudyCase& made) {
-  return fmt::format("{:.6g} mm", 1e3 * made.cell_size);
-}
-
-Fault make_calibration_cases(const StudySource&, StudyFile& study) {
-  if (has_firings(study.study)) return make_firing_cases(study);
-  if (const auto targets = calibration_targets(study); !targets) return targets.error();
-  return make_factorial(study, mesh_label);
-}
-
-/// Of the launches that a result has in `runs`.
-template <class Result, std::vector<CalibrationRun> Result::*runs>
-std::vector<Failure> failed_runs(const Result& result) {
-  std::vector<Failure> failures;
-  for (const CalibrationRun& run : result.*runs)
-    add_failure(failures, run.input.label, run.outcome, run.failure);
-  return failures;
-}
-
-StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
-  if (has_firings(study.study))
-    return outcome_of<run_firings, failed_runs<FiringResult, &FiringResult::conditions>>(study, options);
-  return outcome_of<run_calibration, failed_runs<CalibrationResult, &CalibrationResult::runs>>(study,
-                                                                                               options);
 }
 
 const FiringSettings& settings_in(const study::Study& study) {
@@ -195,6 +140,115 @@ Fault check_curve(const StudyFile& study, const Firing& firing, std::size_t plac
                   "that of the curve, or load.rescale_to_peak = true in the scene");
 }
 
+bool has_firings(const study::Study& study) { return !settings_in(study).firings.empty(); }
+
+std::vector<Key<study::Study>> firing_keys() {
+  const auto number = [](const char* name, Dimension dimension, scene::Limits limits, const char* sentence,
+                         double FiringSettings::*member) {
+    return scene::number_key<FiringSettings>(name, dimension, limits, Standing::assumed, sentence, member);
+  };
+  const std::vector<Key<FiringSettings>> keys{
+      number("prior.localisation", Dimension::number, scene::between(1.5, 4),
+             "With firings: by which factor the localisation may be more or less than the calibration's, one "
+             "standard deviation.",
+             &FiringSettings::localisation_factor),
+      number("prior.exchange_time", Dimension::number, scene::between(2, 4), "The same of the exchange time.",
+             &FiringSettings::exchange_time_factor),
+      number("prior.ignition_temperature", Dimension::temperature_difference, scene::between(30, 40),
+             "Likewise by how much the ignition temperature may be more or less.",
+             &FiringSettings::ignition_temperature),
+      number("prior.scatter", Dimension::number, scene::between(0.05, 0.5),
+             "By which share the heat of rounds that are fired alike differs, one standard deviation, at a "
+             "guess.",
+             &FiringSettings::scatter),
+      scene::list_key("next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
+                      "Gaps among which the round that would tell most is sought; if absent half of, one, "
+                      "one and a half and two times the largest that was fired.",
+                      &FiringSettings::next_gaps)};
+  return own_keys(keys::keys_of_part("", &CalibrationSettings::firings, keys));
+}
+
+/// Reads [[firing]], where there are any.
+Fault read_firings(const toml::table& root, StudyFile& study) {
+  const auto tables = study::tables_of(root, "firing", study.file);
+  if (!tables) return tables.error();
+  std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
+  for (const toml::table* table : *tables) {
+    Firing firing;
+    auto read = scene::read_table(*table, firing_row_keys(), {}, study.file, firing);
+    if (!read) return study::in_table(read.error(), "firing");
+    const std::size_t place = firings.size();
+    for (auto& [key, where] : *read) study.places[fmt::format("firing.{}.{}", place, key)] = where;
+    complete(firing, study.scene.scene);
+    if (Fault fault = check_curve(study, firing, place)) return fault;
+    firings.push_back(std::move(firing));
+  }
+  return std::nullopt;
+}
+
+/// A case for every pressure and temperature that was fired, in that order.
+Fault make_firing_cases(StudyFile& study) {
+  const std::vector<Firing>& firings = settings_in(study.study).firings;
+  const std::vector<std::size_t> conditions = conditions_of(firings);
+  for (std::size_t i = 0; i < firings.size(); ++i) {
+    if (conditions[i] < study.cases.size()) continue;
+    auto scene = scene_of(study, firings[i], i);
+    if (!scene) return scene.error();
+    study.cases.add(
+        study::case_of(fmt::format("{}, {}", scene::format_quantity(firings[i].pressure, Dimension::pressure),
+                                   scene::format_quantity(firings[i].temperature, Dimension::temperature)),
+                       std::move(*scene)));
+  }
+  return std::nullopt;
+}
+
+/// Firings stand alone, with what is only of them; they start from a calibration on published results.
+Fault check_firings(const StudyFile& study) {
+  const bool any = has_firings(study.study);
+  for (const auto& [key, place] : study.places) {
+    const bool of_firings = key.starts_with("prior.") || key == "next_gaps" || key == "calibration";
+    const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||
+                         key == "compare_kinetics" || key == "ignition_bracket";
+    if (any ? of_rows : of_firings)
+      return fault_at(
+          study, key,
+          any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
+          any ? "either [[firing]] or published rows" : "at least one [[firing]]");
+  }
+  return std::nullopt;
+}
+
+Fault read_calibration(const StudySource& source, StudyFile& study) {
+  if (Fault fault = read_firings(source.root, study)) return fault;
+  if (Fault fault = check_firings(study)) return fault;
+  if (Fault fault = read_references(source, study)) return fault;
+  const auto& own = settings_of<CalibrationSettings>(study.study);
+  return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
+}
+
+Fault make_calibration_cases(const StudySource&, StudyFile& study) {
+  if (has_firings(study.study)) return make_firing_cases(study);
+  if (const auto targets = calibration_targets(study); !targets) return targets.error();
+  return make_factorial(
+      study, [](const study::StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); });
+}
+
+/// Of the launches that a result has in `runs`.
+template <class Result, std::vector<CalibrationRun> Result::*runs>
+std::vector<Failure> failed_runs(const Result& result) {
+  std::vector<Failure> failures;
+  for (const CalibrationRun& run : result.*runs)
+    add_failure(failures, run.input.label, run.outcome, run.failure);
+  return failures;
+}
+
+StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
+  if (has_firings(study.study))
+    return outcome_of<run_firings, failed_runs<FiringResult, &FiringResult::conditions>>(study, options);
+  return outcome_of<run_calibration, failed_runs<CalibrationResult, &CalibrationResult::runs>>(study,
+                                                                                               options);
+}
+
 }  // namespace
 
 scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) {
@@ -241,7 +295,7 @@ Kind calibration_kind() {
                  .bounds_critical_gaps = false},
       .keys =
           joined({reference_keys(), calibration_record_keys(), own_keys(calibration_keys()), firing_keys()}),
-      .tables = {reference_table(), firing_table()},
+      .tables = {reference_table(), study_table_of("firing", firing_row_keys())},
       .read = read_calibration,
       .make_cases = make_calibration_cases,
       .run = run,
@@ -261,53 +315,6 @@ study::FiringPrior FiringSettings::prior_about(const surface::SurfaceConstants& 
   return prior;
 }
 
-std::vector<Key<study::Study>> firing_keys() {
-  const auto number = [](const char* name, Dimension dimension, scene::Limits limits, const char* sentence,
-                         double FiringSettings::*member) {
-    return scene::number_key<FiringSettings>(name, dimension, limits, Standing::assumed, sentence, member);
-  };
-  const std::vector<Key<FiringSettings>> keys{
-      number("prior.localisation", Dimension::number, scene::between(1.5, 4),
-             "With firings: by which factor the localisation may be more or less than the calibration's, one "
-             "standard deviation.",
-             &FiringSettings::localisation_factor),
-      number("prior.exchange_time", Dimension::number, scene::between(2, 4), "The same of the exchange time.",
-             &FiringSettings::exchange_time_factor),
-      number("prior.ignition_temperature", Dimension::temperature_difference, scene::between(30, 40),
-             "Likewise by how much the ignition temperature may be more or less.",
-             &FiringSettings::ignition_temperature),
-      number("prior.scatter", Dimension::number, scene::between(0.05, 0.5),
-             "By which share the heat of rounds that are fired alike differs, one standard deviation, at a "
-             "guess.",
-             &FiringSettings::scatter),
-      scene::list_key("next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
-                      "Gaps among which the round that would tell most is sought; if absent half of, one, "
-                      "one and a half and two times the largest that was fired.",
-                      &FiringSettings::next_gaps)};
-  return own_keys(keys::keys_of_part("", &CalibrationSettings::firings, keys));
-}
-
-StudyTable firing_table() { return study_table_of("firing", firing_row_keys()); }
-
-bool has_firings(const study::Study& study) { return !settings_in(study).firings.empty(); }
-
-Fault read_firings(const toml::table& root, StudyFile& study) {
-  const auto tables = study::tables_of(root, "firing", study.file);
-  if (!tables) return tables.error();
-  std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
-  for (const toml::table* table : *tables) {
-    Firing firing;
-    auto read = scene::read_table(*table, firing_row_keys(), {}, study.file, firing);
-    if (!read) return study::in_table(read.error(), "firing");
-    const std::size_t place = firings.size();
-    for (auto& [key, where] : *read) study.places[fmt::format("firing.{}.{}", place, key)] = where;
-    complete(firing, study.scene.scene);
-    if (Fault fault = check_curve(study, firing, place)) return fault;
-    firings.push_back(std::move(firing));
-  }
-  return std::nullopt;
-}
-
 std::vector<std::size_t> conditions_of(const std::vector<Firing>& firings) {
   std::vector<std::pair<double, double>> made;
   std::vector<std::size_t> conditions;
@@ -318,21 +325,6 @@ std::vector<std::size_t> conditions_of(const std::vector<Firing>& firings) {
     conditions.push_back(place);
   }
   return conditions;
-}
-
-Fault make_firing_cases(StudyFile& study) {
-  const std::vector<Firing>& firings = settings_in(study.study).firings;
-  const std::vector<std::size_t> conditions = conditions_of(firings);
-  for (std::size_t i = 0; i < firings.size(); ++i) {
-    if (conditions[i] < study.cases.size()) continue;
-    auto scene = scene_of(study, firings[i], i);
-    if (!scene) return scene.error();
-    study.cases.add(
-        study::case_of(fmt::format("{}, {}", scene::format_quantity(firings[i].pressure, Dimension::pressure),
-                                   scene::format_quantity(firings[i].temperature, Dimension::temperature)),
-                       std::move(*scene)));
-  }
-  return std::nullopt;
 }
 
 }  // namespace launchsafe::kinds

@@ -1,25 +1,14 @@
 #include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <utility>
 
 namespace launchsafe::kinds {
 
 using report::Quantities;
 using study::FinishedRun, study::fitted_keys, study::StudyFile, study::StudyOptions, study::Timing;
-namespace quantity = report::quantity;
 
 namespace {
 

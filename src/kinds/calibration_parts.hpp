@@ -7,10 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 namespace launchsafe::kinds {
 
 /// Weights of the fit: standard deviations of what is published.

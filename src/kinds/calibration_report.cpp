@@ -2,14 +2,8 @@
 #include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <cmath>
 
 namespace launchsafe::kinds {
 
@@ -17,7 +11,6 @@ using keys::fixed, keys::kelvin, keys::millisecond, keys::percent, keys::signifi
 using report::in_words, report::json_of, report::Quantities, report::ReportTable, report::Row, report::Shown,
     report::Statement, report::Table, report::table_of;
 using study::StationConvergence;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -79,26 +72,12 @@ Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
         {{"remark", "remark", text(), "What is to be known of the row."}, calibration_remark}}});
 }
 
-/// What is printed on stdout.
-Table calibration_table(const CalibrationResult& result) {
-  Table table = table_of("Calibrated constants, and how far they miss what nothing was fitted to",
-                         calibration_quantities(result.study.study), result.rows);
-  table.notes = said("calibration.note.calibrations");
-  return table;
-}
-
 /// A published number beside what one row computes, or where a maximum is.
 template <class Compared>
 struct RowOf {
   const CalibrationRow* row;
   const Compared* compared;
 };
-template <class Compared>
-std::vector<RowOf<Compared>> rows_of(const CalibrationRow& row, const std::vector<Compared>& all) {
-  std::vector<RowOf<Compared>> rows;
-  for (const Compared& each : all) rows.push_back({&row, &each});
-  return rows;
-}
 template <class Compared>
 Quantities<RowOf<Compared>> with_setting(const Quantities<Compared>& quantities) {
   return keys::joined<RowOf<Compared>>(
@@ -149,16 +128,6 @@ Quantities<SelectionMisfit> selection_quantities() {
            &SelectionMisfit::misfit}};
 }
 
-/// The differences of the recommended row from published results by which a model is chosen among others; no
-/// rows without any.
-Table selection_table(const CalibrationResult& result) {
-  const CalibrationRow* row = result.recommended();
-  if (!row) return {};
-  Table table = table_of("Differences that choose among models", selection_quantities(), row->selection);
-  table.notes = said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}});
-  return table;
-}
-
 /// What the constants do from mesh to mesh.
 Quantities<Convergence> convergence_quantities() {
   return {{quantity::closure(), [](const Convergence& each) { return study::to_string(each.closure); }},
@@ -177,18 +146,6 @@ Quantities<Placement> placement_quantities() {
           {{"published", "published", text(), "Where it was published to be."}, &Placement::published}};
 }
 
-Json recommendation_json(const CalibrationResult& result) {
-  Json json{{"reason", result.recommendation.reason}, {"row", nullptr}};
-  if (result.recommendation.row) json["row"] = *result.recommendation.row;
-  return json;
-}
-
-Json in_scene_json(const CalibrationResult& result) {
-  Json json{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
-  json.update(json_of(constant_quantities(), result.in_scene));
-  return json;
-}
-
 Json stations_json(const StationConvergence& stations) {
   Json json = json_of<StationConvergence>(
       {{named("change_to_finer", quantity::change_to_finer()), &StationConvergence::finer},
@@ -204,7 +161,7 @@ Table table_of_all(const CalibrationResult& result, const Quantities<Compared>& 
                    std::vector<Compared> CalibrationRow::*list) {
   std::vector<RowOf<Compared>> rows;
   for (const CalibrationRow& row : result.rows)
-    for (const auto& each : rows_of(row, row.*list)) rows.push_back(each);
+    for (const Compared& each : row.*list) rows.push_back({&row, &each});
   return table_of({}, with_setting(quantities), rows);
 }
 
@@ -274,10 +231,17 @@ report::Report report_of(const CalibrationResult& result) {
   report.items.push_back(ReportTable{fitted_table(result), "", "fitted"});
   report.items.push_back(Statement{fit_text(result)});
   report.items.push_back(Statement{misfits_text(result)});
-  report.items.push_back(ReportTable{calibration_table(result), "calibration.csv", "calibrations"});
-  Table selection = selection_table(result);
-  if (selection.rows.size() < 2) selection.rows.clear();
-  report.items.push_back(ReportTable{std::move(selection), "", "selection", Shown::page});
+  Table calibrations = table_of("Calibrated constants, and how far they miss what nothing was fitted to",
+                                calibration_quantities(result.study.study), result.rows);
+  calibrations.notes = said("calibration.note.calibrations");
+  report.items.push_back(ReportTable{std::move(calibrations), "calibration.csv", "calibrations"});
+  // By which a model is chosen among others.
+  if (const CalibrationRow* row = result.recommended(); row != nullptr && row->selection.size() > 1) {
+    Table selection =
+        table_of("Differences that choose among models", selection_quantities(), row->selection);
+    selection.notes = said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}});
+    report.items.push_back(ReportTable{std::move(selection), "", "selection", Shown::page});
+  }
   report.items.push_back(ReportTable{
       table_of("From the coarsest to the finest mesh", convergence_quantities(), result.convergence), "",
       "convergence"});
@@ -292,9 +256,13 @@ report::Report report_of(const CalibrationResult& result) {
   report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
   report.items.push_back(ReportTable{run_table(result.runs), "", "runs", Shown::page});
   report.items.push_back(Statement{report::timing_sentence(result.timing)});
+  Json recommendation{{"reason", result.recommendation.reason}, {"row", nullptr}};
+  if (result.recommendation.row) recommendation["row"] = *result.recommendation.row;
+  Json in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
+  in_scene.update(json_of(constant_quantities(), result.in_scene));
   report.json = study_json(result.study, report,
-                           {{"recommendation", recommendation_json(result)},
-                            {"in_scene", in_scene_json(result)},
+                           {{"recommendation", recommendation},
+                            {"in_scene", in_scene},
                             {"load", load_json(result)},
                             {"stations", stations_json(result.stations)},
                             {"timing", report::timing_json(result.timing)}});

@@ -6,10 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <optional>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -44,21 +40,14 @@ double place_misfit(const surface::SkinHistory& history, const trace::BottomTrac
   return there - surface::maximum_at_time(history, trace, time).temperature;
 }
 
-/// Straight lines over the gap through what is published of the two calibrated rows.
-struct Lines {
+/// Of a straight line over the gap through what is published of the two calibrated rows. NaN without two such
+/// rows, or where one of them does not have the number.
+double on_line(const std::vector<Reference>& references, double gap, double Reference::*number) {
   const Reference *zero = nullptr, *wide = nullptr;
-  /// NaN without two such rows, or where one of them does not have the number.
-  double at(double gap, double Reference::*number) const {
-    if (zero == nullptr || wide == nullptr) return not_a_number;
-    return zero->*number + (wide->*number - zero->*number) * gap / wide->gap;
-  }
-};
-
-Lines lines_of(const std::vector<Reference>& references) {
-  Lines lines;
   for (const Reference& each : references)
-    if (each.calibrated) (each.gap == 0.0 ? lines.zero : lines.wide) = &each;
-  return lines;
+    if (each.calibrated) (each.gap == 0.0 ? zero : wide) = &each;
+  if (zero == nullptr || wide == nullptr) return not_a_number;
+  return zero->*number + (wide->*number - zero->*number) * gap / wide->gap;
 }
 
 /// What one published row says of one calibrated model.
@@ -121,7 +110,7 @@ class RowComparison {
     // Without a gap the temperature at the early time tells of the load, not of the interfaces.
     ComparedNumber compared{.selects = early && reference_.selection && reference_.gap > 0.0,
                             .use = use.value_or(rest_)};
-    if (!use) compared.line = lines_of(study_.references).at(reference_.gap, number);
+    if (!use) compared.line = on_line(study_.references, reference_.gap, number);
     add(std::move(quantity), computed, reference_.*number, std::move(compared));
   }
   void add_rise() {

@@ -1,15 +1,9 @@
 #include "launchsafe/kinds/comparison.hpp"
 
 #include "answer_tables.hpp"
-#include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
 
 namespace launchsafe::kinds {
 

@@ -1,17 +1,9 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/study/model_form.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -19,7 +11,6 @@ using keys::centimetre, keys::kelvin, keys::significant, keys::text;
 using report::digits_of, report::Quantities, report::Table;
 using study::CalibrationRecord, study::ModelAlternative, study::ModelFormEntry, study::ModelFormRecord,
     study::StationConvergence;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -29,10 +20,6 @@ struct ModelForm {
   ModelFormRecord record;
   double largest_gap;  ///< m, where the searches ended
 };
-
-std::string megapascals(double pressure) {
-  return report::digits_of(pressure, quantity::peak_pressure().form);
-}
 
 /// "0.0395", "none to 0.3", "ignites without a gap" or "not known"; cm.
 std::string gap_text(study::GapOrBound gap, double largest) {
@@ -56,7 +43,8 @@ std::string towards_ignition(const ModelFormRecord& record, const ModelAlternati
   std::string pressures;
   for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
     if (!(alternative.critical_gap[i] < record.critical_gap[i] - least_shift)) continue;
-    pressures += (pressures.empty() ? "" : ", ") + megapascals(record.peak_pressures[i]);
+    pressures +=
+        (pressures.empty() ? "" : ", ") + digits_of(record.peak_pressures[i], quantity::peak_pressure().form);
   }
   return pressures;
 }
@@ -219,13 +207,6 @@ std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
   return order;
 }
 
-/// Whether the variants are models that were calibrated: all, or there is nothing to say of models.
-bool is_of_models(const ComparisonResult& result) {
-  const std::vector<Variant>& variants = result.variants();
-  return !result.study.study.axes.empty() &&
-         std::ranges::all_of(variants, [](const Variant& each) { return each.calibration.has_value(); });
-}
-
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
 /// none, a clause. The comparison has to live as long as what is made of it.
 std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::string& reason) {
@@ -250,7 +231,10 @@ std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::stri
 }  // namespace
 
 void add_model_form(const ComparisonResult& result, report::Report& report) {
-  if (!is_of_models(result)) return;
+  // Whether the variants are models that were calibrated: all, or there is nothing to say of models.
+  const bool is_of_models = std::ranges::all_of(
+      result.variants(), [](const Variant& each) { return each.calibration.has_value(); });
+  if (!is_of_models || result.study.study.axes.empty()) return;
   std::string reason;
   const std::optional<ModelForm> form = model_form_of(result, reason);
   if (!form) {

@@ -1,24 +1,14 @@
 // The answer, the tables and the page of a comparison.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 
 namespace launchsafe::kinds {
 
 using keys::fixed, keys::significant;
 using report::Quantities, report::ReportTable, report::Row, report::Statement, report::Table;
 using study::CaseAnswer, study::not_a_number, study::RunSummary, study::StationTemperature, study::Study;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -40,9 +30,8 @@ Quantities<CaseRow> place_quantities(const Study& study) {
 
 double hottest(const ComparedCase& each) {
   double highest = not_a_number;
-  for (const double temperature : each.heated_temperature) {
-    if (!(temperature <= highest)) highest = temperature;
-  }
+  for (const study::GapVerdict& row : each.verdicts)
+    if (!(row.heated <= highest)) highest = row.heated;
   return highest;
 }
 
@@ -148,17 +137,6 @@ Table stations_side_by_side(const ComparisonResult& result) {
   return table;
 }
 
-/// What each variant does otherwise.
-std::string variants_text(const ComparisonResult& result) {
-  Row variants = Row::array();
-  for (const Variant& each : result.variants())
-    variants.push_back({{"name", each.name},
-                        {"description", each.description},
-                        {"changes", each.changes},
-                        {"failure", each.calibration ? each.calibration->failure : ""}});
-  return said_below("comparison.variants", {{"variants", variants}});
-}
-
 }  // namespace
 
 std::string answer(const ComparisonResult& result) {
@@ -192,7 +170,14 @@ report::Report report_of(const ComparisonResult& result) {
   report.items.push_back(ReportTable{
       .table = stations_side_by_side(result), .shown = report::Shown::page, .rest = "stations.csv"});
   add_model_form(result, report);
-  report.items.push_back(Statement{"## Variants\n\n" + variants_text(result)});
+  Row variants = Row::array();  // what each does otherwise
+  for (const Variant& each : result.variants())
+    variants.push_back({{"name", each.name},
+                        {"description", each.description},
+                        {"changes", each.changes},
+                        {"failure", each.calibration ? each.calibration->failure : ""}});
+  report.items.push_back(
+      Statement{"## Variants\n\n" + said_below("comparison.variants", {{"variants", variants}})});
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{report::station_note(result.study) + "\n"});
   report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});

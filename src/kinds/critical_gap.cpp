@@ -1,23 +1,14 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 
-#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
-#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/cited_limits.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
@@ -54,16 +45,6 @@ CaseOutcome judged(const study::Study& study, const study::StudyCase& input, std
   evaluate(study, outcome);
   evaluate_film(study, outcome);
   return outcome;
-}
-
-/// The case on the run of its longer launch.
-void take_longer_launch(const study::Study& study, const FinishedRun& run, CaseOutcome& outcome) {
-  run::MechanicsResult mechanics = run.result.mechanics;
-  if (!run.has_result()) {
-    mechanics.status = run::RunStatus::interrupted;
-    mechanics.reason = run.failure;
-  }
-  evaluate_longer_launch(study, mechanics, outcome);
 }
 
 void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confirmation& confirmation) {
@@ -147,8 +128,13 @@ class FollowingRuns {
     CaseRun run = planned.make();
     go_on_from(first, run);
     add(std::move(run), [this, members](const FinishedRun& finished) {
+      run::MechanicsResult mechanics = finished.result.mechanics;
+      if (!finished.has_result()) {
+        mechanics.status = run::RunStatus::interrupted;
+        mechanics.reason = finished.failure;
+      }
       for (const std::size_t each : members)
-        take_longer_launch(result_.study.study, finished, result_.details[each]);
+        evaluate_longer_launch(result_.study.study, mechanics, result_.details[each]);
     });
   }
 

@@ -1,17 +1,11 @@
 // What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
-#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/kinetics_text.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::kinds {
 
@@ -20,7 +14,6 @@ using report::centimetres, report::Column, report::Quantities, report::reads_as,
     report::Row, report::Shown, report::Table, report::table_of;
 using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::FittedCurve, study::GapFit,
     study::GapVerdict, study::Line, study::StudyCase;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -262,16 +255,6 @@ Table other_table(const CriticalGapResult& result, const char* title, const Quan
   return table;
 }
 
-Table air_model_table(const CriticalGapResult& result) {
-  return other_table(result, "Under both models of the air", film_quantities(), &CaseOutcome::film,
-                     "critical_gap.note.air_models");
-}
-
-Table without_exit_table(const CriticalGapResult& result) {
-  return other_table(result, "In a barrel without end", longer_launch_quantities(),
-                     &CaseOutcome::longer_launch, "critical_gap.note.without_exit");
-}
-
 Table fit_table(const CriticalGapResult& result) {
   std::vector<FittedLine> rows;
   for (const CaseOutcome& outcome : result.details) {
@@ -385,14 +368,19 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
     report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
     report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
-  for (ReportTable table : {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
-                            ReportTable{without_exit_table(result), "", "without_exit"},
-                            ReportTable{air_model_table(result), "", "air_models"},
-                            ReportTable{air_energy_table(result), "", "air_energy"},
-                            ReportTable{gap_share_table(result), "", "gap_shares", Shown::page},
-                            ReportTable{fit_table(result), "", "fit"},
-                            ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
-                            ReportTable{curve_table(result), "", "fit_curves", Shown::page}})
+  for (ReportTable table :
+       {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
+        ReportTable{other_table(result, "In a barrel without end", longer_launch_quantities(),
+                                &CaseOutcome::longer_launch, "critical_gap.note.without_exit"),
+                    "", "without_exit"},
+        ReportTable{other_table(result, "Under both models of the air", film_quantities(), &CaseOutcome::film,
+                                "critical_gap.note.air_models"),
+                    "", "air_models"},
+        ReportTable{air_energy_table(result), "", "air_energy"},
+        ReportTable{gap_share_table(result), "", "gap_shares", Shown::page},
+        ReportTable{fit_table(result), "", "fit"},
+        ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
+        ReportTable{curve_table(result), "", "fit_curves", Shown::page}})
     report.items.push_back(std::move(table));
   report.items.push_back(report::Statement{undecided_text(result)});
 }

@@ -1,17 +1,9 @@
 // The pictures of a critical-gap study that varies something: the critical gap over one or two axes.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
 
 namespace launchsafe::kinds {
 

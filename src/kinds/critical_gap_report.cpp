@@ -1,20 +1,12 @@
 // The answer, the page and the files of a critical-gap study.
-#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <map>
 
 namespace launchsafe::kinds {
 
@@ -104,8 +96,6 @@ report::Quantities<EffectRow> effect_quantities() {
            &Effect::critical}};
 }
 
-bool below_flaw(const StudyCase& input) { return input.crack_radius < input.flaw_size; }
-
 /// What there is to say of a crack radius that changes little below the flaw size; nothing where it changes
 /// much.
 Row crack_facts(const CriticalGapResult& result, const Effect& below) {
@@ -121,25 +111,6 @@ Row crack_facts(const CriticalGapResult& result, const Effect& below) {
 
 /// Rows of a table on the page, and columns of a matrix; the files have all.
 constexpr std::size_t most_rows = 200, most_gaps = 30;
-
-/// The largest gap that the searches which met no ignition came to, m.
-double end_of_search(const CriticalGapResult& result) {
-  double end = study::not_a_number;
-  for (const study::CaseAnswer& answer : result.answers) {
-    if (answer.critical.kind == study::CriticalGapKind::all_safe && !(answer.critical.lower >= end))
-      end = answer.critical.lower;
-  }
-  return end;
-}
-
-/// The verdicts as a matrix, or where they are.
-std::variant<Statement, ReportTable, Picture> matrix_item(const CriticalGapResult& result) {
-  const std::size_t gaps = result.study.study.gaps.size();
-  if (gaps <= most_gaps)
-    return ReportTable{.table = verdict_matrix(result), .most_rows = most_rows, .rest = "verdicts.csv"};
-  return Statement{fmt::format(
-      "The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n", gaps)};
-}
 
 nlohmann::ordered_json counts_json(const SweepCounts& counts) {
   nlohmann::ordered_json gaps, verdicts;
@@ -165,10 +136,10 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
     const auto [least, most] = std::ranges::minmax(study.gaps);
     facts.update({{"least_cm", shown_gap(least)}, {"most_cm", shown_gap(most)}});
   }
-  facts["end_of_search_cm"] = report::number(shown_gap(end_of_search(result)));
   // The case with the smallest critical gap that is a value, and those that ignite at every gap: their
-  // critical gap is below every value.
-  double best = study::not_a_number;
+  // critical gap is below every value. `end`: the largest gap that the searches which met no ignition came
+  // to.
+  double best = study::not_a_number, end = study::not_a_number;
   std::size_t without_safe = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::CriticalGap& gap = result.answers[i].critical;
@@ -176,9 +147,11 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
       best = gap.value;
       facts["smallest"] = report::measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
     }
+    if (gap.kind == study::CriticalGapKind::all_safe && !(gap.lower >= end)) end = gap.lower;
     if (gap.kind == study::CriticalGapKind::all_ignite && without_safe++ == 0)
       facts["without_safe"] = name_of(keys, result.study.cases[i]);
   }
+  facts["end_of_search_cm"] = report::number(shown_gap(end));
   facts["other_without_safe"] = without_safe > 0 ? without_safe - 1 : 0;
   facts["failures"] = failures_list(keys, result.study, result.answers);
   return facts;
@@ -234,7 +207,8 @@ report::Table axis_effect_table(const CriticalGapResult& result) {
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
     add(keys[axis], "", effect_of(result, axis, [](const StudyCase&) { return true; }));
     if (keys[axis].scene_key != "charge.crack_radius") continue;
-    const Effect below = effect_of(result, axis, below_flaw);
+    const Effect below =
+        effect_of(result, axis, [](const StudyCase& input) { return input.crack_radius < input.flaw_size; });
     add(keys[axis], ", below the flaw size", below);
     facts["cracks"] = crack_facts(result, below);
   }
@@ -284,8 +258,12 @@ report::Report report_of(const CriticalGapResult& result) {
                                        in_detail ? Shown::page_and_terminal : Shown::file});
   if (in_detail)
     add_details(result, report);
+  else if (const std::size_t columns = result.study.study.gaps.size(); columns <= most_gaps)
+    report.items.push_back(
+        ReportTable{.table = verdict_matrix(result), .most_rows = most_rows, .rest = "verdicts.csv"});
   else
-    report.items.push_back(matrix_item(result));
+    report.items.push_back(Statement{fmt::format(
+        "The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n", columns)});
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{report::uncertainty_remark(result.study) +
                                    (in_detail ? "\n" : " " + said_below("critical_gap.traces"))});

@@ -1,19 +1,10 @@
 // The tables of every critical-gap study.
 #include "critical_gap_tables.hpp"
 
-#include "answer_tables.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
@@ -21,7 +12,6 @@ using keys::fixed, keys::text;
 using report::Column, report::Quantities, report::Table, report::table_of, report::VerdictRow;
 using study::CaseAnswer, study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary,
     study::Study, study::StudyFile, study::Verdict;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -59,19 +49,13 @@ Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
                                    report::verdict_quantities(study.study)});
 }
 
-/// Places of the smallest and largest gap among those judged; one of them where they are the same.
-std::vector<std::size_t> outer_gaps(const std::vector<double>& gaps) {
-  if (gaps.empty()) return {};
-  const auto [least, most] = std::ranges::minmax_element(gaps);
-  std::vector<std::size_t> places{static_cast<std::size_t>(least - gaps.begin())};
-  if (*most > *least) places.push_back(static_cast<std::size_t>(most - gaps.begin()));
-  return places;
-}
-
-/// T max at the smallest and the largest gap.
+/// T max at the smallest and the largest gap among those judged; at one of them where they are the same.
 Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
   Quantities<AnsweredCase> quantities;
-  for (const std::size_t place : outer_gaps(gaps)) {
+  const auto [least, most] = std::ranges::minmax_element(gaps);
+  for (const auto& gap : {least, most}) {
+    if (gap == gaps.end() || (!quantities.empty() && !(*most > *least))) break;
+    const auto place = static_cast<std::size_t>(gap - gaps.begin());
     const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
     quantities.emplace_back(
         Column{name, "T max at " + report::centimetres(gaps[place]), fixed(1, keys::kelvin),
@@ -235,12 +219,8 @@ Quantities<ComparedRow> comparison_quantities(double early_time) {
 Table verdict_table(const CriticalGapResult& result) {
   std::vector<VerdictRow> rows;
   for (const AnsweredCase& each : answered(result.study, result.answers)) {
-    const CaseAnswer* answer = each.answer;
-    for (std::size_t i = 0; i < answer->verdicts.size(); ++i) {
-      const bool known = i < answer->heated_temperature.size();
-      rows.push_back(
-          {&each.coordinates(), &answer->verdicts[i], known ? answer->heated_temperature[i] : not_a_number});
-    }
+    for (const GapVerdict& row : each.answer->verdicts)
+      rows.push_back({&each.coordinates(), &row, row.heated});
   }
   Table table = table_of("Verdicts", judged_gap_quantities(result.study), rows);
   table.notes = report::mesh_notes(result.study);

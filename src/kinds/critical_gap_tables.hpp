@@ -3,12 +3,7 @@
 
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
 

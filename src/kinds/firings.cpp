@@ -1,8 +1,5 @@
 #include "calibration_parts.hpp"
-#include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -10,8 +7,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <memory>
 #include <numeric>
 
 namespace launchsafe::kinds {
@@ -23,10 +18,6 @@ namespace {
 constexpr int nodes = 25, fewer_nodes = 13;   ///< of the lattice of a posterior
 constexpr double least_above_hottest = 20.0;  ///< K, of an ignition temperature above the hottest charge
 constexpr double least_tail = 0.01;           ///< of study::tail_probability
-
-bool are_alike(const Firing& a, const Firing& b) {
-  return a.pressure == b.pressure && a.temperature == b.temperature && a.gap == b.gap;
-}
 
 void run_conditions(FiringResult& result, const StudyOptions& options) {
   for (const study::StudyCase& input : result.study.cases) result.conditions.push_back({input});
@@ -44,7 +35,9 @@ void run_conditions(FiringResult& result, const StudyOptions& options) {
 /// By the rounds of the same pressure, temperature and gap.
 void count_rounds(FiringRow& row, const std::vector<Firing>& firings) {
   for (const Firing& each : firings) {
-    if (!are_alike(each, row.firing)) continue;
+    if (each.pressure != row.firing.pressure || each.temperature != row.firing.temperature ||
+        each.gap != row.firing.gap)
+      continue;
     row.rounds += each.rounds;
     row.ignited += each.ignited ? each.rounds : 0;
   }
@@ -147,11 +140,6 @@ std::vector<ConstantRange> ranges_of(const Posterior& prior, const Posterior& po
       range_of("scatter", [](const PosteriorPoint& each) { return each.scatter; })};
 }
 
-IgnitionProbability probability_of(const std::vector<double>& probabilities) {
-  return {mean_of(probabilities), study::quantile_of(probabilities, 0.05),
-          study::quantile_of(probabilities, 0.95)};
-}
-
 /// Bits that an outcome of probability p decides.
 double entropy(double p) {
   const auto part = [](double q) { return q > 0.0 ? -q * std::log2(q) : 0.0; };
@@ -252,7 +240,8 @@ void calibrate_on_firings(FiringResult& result) {
     FiringRow& row = result.rows[i];
     const auto probabilities =
         study::ignition_probabilities(firings.posterior, launches[i].boundary, row.log_heat_spread);
-    row.predicted = probability_of(probabilities);
+    row.predicted = {mean_of(probabilities), study::quantile_of(probabilities, 0.05),
+                     study::quantile_of(probabilities, 0.95)};
     if (study::tail_probability(probabilities, row.ignited, row.rounds) < least_tail)
       result.contradicting.push_back(row.firing.name);
   }

@@ -1,15 +1,11 @@
 // Tables, page and files of a calibration on firings.
 #include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-#include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
 
 namespace launchsafe::kinds {
 
 using report::Column, report::Quantities, report::Row;
-namespace quantity = report::quantity;
 
 namespace {
 

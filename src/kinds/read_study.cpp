@@ -1,22 +1,17 @@
 #include "launchsafe/kinds/read_study.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <set>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -88,16 +83,6 @@ std::vector<std::string> kinds_with(const std::string& name) {
 /// The tables of all study files that are read apart from the keys.
 std::vector<std::string> common_tables() { return {"set", "accept"}; }
 
-/// Every key and every table that some kind has, once.
-void add_keys_of_all_kinds(StudyKeys& keys, std::vector<std::string>& tables) {
-  for (const Kind& kind : kinds()) {
-    for (const auto& key : kind.keys)
-      if (scene::find_key(keys, key.name) == nullptr) keys.push_back(key);
-    for (const StudyTable& table : kind.tables)
-      if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
-  }
-}
-
 /// What study files of earlier versions said, and how that is written now.
 struct FormerKey {
   std::string_view name, now;
@@ -134,7 +119,13 @@ scene::Expected<const Kind*> read_kind(const toml::table& root, const std::strin
   if (!node) {
     StudyKeys keys = common_keys();
     std::vector<std::string> tables = common_tables();
-    add_keys_of_all_kinds(keys, tables);
+    // With every key and every table that some kind has.
+    for (const Kind& kind : kinds()) {
+      for (const auto& key : kind.keys)
+        if (scene::find_key(keys, key.name) == nullptr) keys.push_back(key);
+      for (const StudyTable& table : kind.tables)
+        if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
+    }
     return scene::read_described(root, scene::descriptions_of(keys), tables, file).error();
   }
   const auto value = scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file);
@@ -186,14 +177,6 @@ Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys
   return check_twice(study, "gaps", Dimension::length, study.study.gaps);
 }
 
-/// Labels have six digits; cases that they do not tell apart are numbered.
-void tell_cases_apart(study::Cases& cases) {
-  std::unordered_map<std::string, int> seen;
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    if (const int before = seen[cases.label(i)]++; before > 0)
-      cases.relabel(i, fmt::format("{} ({})", cases.label(i), before + 1));
-}
-
 /// What varies, and the cases that follow.
 Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (kind.read != nullptr)
@@ -204,7 +187,11 @@ Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys&
   if (Fault fault = settle_acceptances(source.root, keys, study)) return fault;
   if (Fault fault = settle_gaps(study)) return fault;
   if (Fault fault = kind.make_cases(source, study)) return fault;
-  tell_cases_apart(study.cases);
+  // Labels have six digits; cases that they do not tell apart are numbered.
+  std::unordered_map<std::string, int> seen;
+  for (std::size_t i = 0; i < study.cases.size(); ++i)
+    if (const int before = seen[study.cases.label(i)]++; before > 0)
+      study.cases.relabel(i, fmt::format("{} ({})", study.cases.label(i), before + 1));
   return std::nullopt;
 }
 

@@ -2,17 +2,11 @@
 
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/math/sensitivity.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "sensitivity_parts.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace launchsafe::kinds {
@@ -77,10 +71,6 @@ std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
   };
 }
 
-bool is_correlated(const study::Axis& axis) {
-  return axis.distribution->kind == math::Distribution::Kind::log_normal;
-}
-
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
 Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
@@ -88,17 +78,13 @@ Fault check_limits(const StudyFile& study, const std::vector<double>& coordinate
     const scene::KeyDescription& key = axis.key;
     if (key.limits.contain(coordinates[i])) continue;
     const std::string value = scene::format_quantity(coordinates[i], key.dimension);
-    if (is_correlated(axis))
+    if (axis.distribution->kind == math::Distribution::Kind::log_normal)
       return fault_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
                       "the record of a calibration that knows it better: " + scene::allowed_text(key));
     return fault_at(study, axis.values_key, fmt::format("a sample of {}", value),
                     "a range that cuts the normal off: " + scene::allowed_text(key));
   }
   return std::nullopt;
-}
-
-std::string name_of_input(const Study& study, const SensitivityInput& input) {
-  return input.count > 1 ? "calibration" : study.axes[input.first].name;
 }
 
 /// A case for every point of the design.
@@ -126,8 +112,10 @@ Fault make_saltelli(StudyFile& study) {
   return add_evaluations(study, [&](std::size_t evaluation) {
     const std::size_t block = evaluation % blocks;
     const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
+    const SensitivityInput input = mixed ? each_input[block - 2] : SensitivityInput{};
     return fmt::format("sample {} of {}", evaluation / blocks + 1,
-                       mixed ? fmt::format("AB({})", name_of_input(s, each_input[block - 2]))
+                       mixed
+                           ? fmt::format("AB({})", input.count > 1 ? "calibration" : s.axes[input.first].name)
                        : block == math::SaltelliDesign::block_a ? "A"
                                                                 : "B");
   });

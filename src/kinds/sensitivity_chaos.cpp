@@ -1,25 +1,16 @@
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace launchsafe::kinds {
 
 using study::Study, study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 
 namespace {
-
-void widen(math::Estimate& estimate, double by) {
-  estimate.lower = std::max(0.0, estimate.lower - by);
-  estimate.upper = std::min(1.0, estimate.upper + by);
-}
 
 /// The evaluations that a fit knows: all of its own; of a Saltelli design those of A, which are fitted, and
 /// then those of B, which are held out.
@@ -200,7 +191,10 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
                                                             begins_of(study), options);
   output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)
-    for (math::Estimate* estimate : {&each.first, &each.total}) widen(*estimate, fit.error.unexplained);
+    for (math::Estimate* estimate : {&each.first, &each.total}) {
+      estimate->lower = std::max(0.0, estimate->lower - fit.error.unexplained);
+      estimate->upper = std::min(1.0, estimate->upper + fit.error.unexplained);
+    }
 }
 
 void add_launches(SensitivityResult& result, const study::StudyOptions& options) {

@@ -7,9 +7,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::kinds {
 
 /// How an output is shown.

@@ -1,20 +1,12 @@
 // The answer, the page and the files of a sensitivity study.
 #include "answer_tables.hpp"
-#include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace launchsafe::kinds {
@@ -127,27 +119,8 @@ std::vector<std::string> asked_text(const SensitivityResult& result) {
   return lines;
 }
 
-std::vector<std::string> failed_text(const SensitivityResult& result) {
-  const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
-  const double share = static_cast<double>(failed) / static_cast<double>(all);
-  return said("sensitivity.failed", {{"all", all},
-                                     {"failed", failed},
-                                     {"percent", shown_value(share, keys::fixed(1, percent))},
-                                     {"failures", failures_list({}, result.study, result.answers)}});
-}
-
 bool has_fit(const SensitivityResult& result) {
   return is_by_fit(result.study.study) || settings_of<SensitivitySettings>(result.study.study).surrogate;
-}
-
-std::string picture_name(const OutputSensitivity& output) {
-  return "sensitivity_" + shown_output(output.output).column.name + ".svg";
-}
-
-nlohmann::ordered_json method_json(const SensitivityResult& result) {
-  Row method = method_facts(result);
-  method["text"] = method_text(result);
-  return method;
 }
 
 }  // namespace
@@ -209,7 +182,14 @@ std::string answer(const SensitivityResult& result) {
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
   for (std::string& line : asked_text(result)) lines.push_back(std::move(line));
   lines.push_back(samples_text(result));
-  for (std::string& line : failed_text(result)) lines.push_back(std::move(line));
+  const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
+  const double share = static_cast<double>(failed) / static_cast<double>(all);
+  for (std::string& line :
+       said("sensitivity.failed", {{"all", all},
+                                   {"failed", failed},
+                                   {"percent", shown_value(share, keys::fixed(1, percent))},
+                                   {"failures", failures_list({}, result.study, result.answers)}}))
+    lines.push_back(std::move(line));
   lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
   return answer_of(std::move(lines), result.study);
 }
@@ -224,8 +204,9 @@ report::Report report_of(const SensitivityResult& result) {
     report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
     // That of T max is the margin's, where the ignition temperature is one more input.
     if (output.reason.empty() && output.output != SensitivityOutput::maximum_temperature)
-      report.items.push_back(report::Picture{picture_name(output), sensitivity_plot(result, output),
-                                             "sensitivity of " + shown_output(output.output).column.heading});
+      report.items.push_back(report::Picture{
+          "sensitivity_" + shown_output(output.output).column.name + ".svg", sensitivity_plot(result, output),
+          "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
   if (report::Plot plot = histogram_plot(result); !plot.panels.empty())
@@ -239,8 +220,10 @@ report::Report report_of(const SensitivityResult& result) {
       ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
   if (has_fit(result) && !result.outputs.empty())
     report.files = surrogate_files(surrogate_record(result), result.study);
+  Row method = method_facts(result);
+  method["text"] = method_text(result);
   report.json = study_json(result.study, report,
-                           {{"method", method_json(result)},
+                           {{"method", method},
                             {"gap_cm", report::number(report::shown_gap(result.study.study.gaps.front()))},
                             {"inputs", report::axes_json(result.study.study)},
                             {"ignition", ignition_json(result)},

@@ -1,22 +1,15 @@
 #include "answer_tables.hpp"
-#include "launchsafe/math/statistics.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_text.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 namespace launchsafe::kinds {
 
 using report::centimetres, report::Column, report::Plot, report::Table;
 using study::not_a_number;
-namespace quantity = report::quantity;
 
 namespace {
 

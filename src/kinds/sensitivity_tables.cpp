@@ -1,27 +1,17 @@
 // The tables and the pictures of a sensitivity study.
 #include "answer_tables.hpp"
-#include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/verdict_text.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
-#include <functional>
 #include <numeric>
-#include <optional>
 
 namespace launchsafe::kinds {
 
 using keys::count, keys::fixed, keys::significant, keys::text;
 using report::Quantities, report::Series, report::Table, report::table_of;
-namespace quantity = report::quantity;
 
 namespace {
 

@@ -2,14 +2,10 @@
 #include "launchsafe/kinds/stability.hpp"
 
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/study/case_answer.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -118,13 +114,6 @@ Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mec
   return reserves;
 }
 
-/// The case that asked for a run of the study, by itself or as its safe computation.
-const StressCase& case_of_run(const StudyFile& study, std::size_t index) {
-  return *std::ranges::find_if(
-      settings_of<StabilitySettings>(study.study).cases,
-      [index](const StressCase& each) { return each.run == index || each.against == index; });
-}
-
 /// `runs`: the launch, then those through the ignition of gaps or in which they close. How far one came that
 /// was cut off depends on the machine, and says nothing of the computation: that leaves the case without a
 /// finding.
@@ -138,7 +127,10 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
     run.answer.outcome = runs[i].outcome;
     return run;
   }
-  const StressCase& asked = case_of_run(study, index);
+  // The case that asked for the run, by itself or as its safe computation.
+  const StressCase& asked = *std::ranges::find_if(
+      settings_of<StabilitySettings>(study.study).cases,
+      [index](const StressCase& each) { return each.run == index || each.against == index; });
   const scene::Scene& scene = study.cases[index].scene.scene;
   const run::MechanicsResult& mechanics = runs.front().result.mechanics;
   study::Study judged = study.study;
@@ -204,11 +196,10 @@ StressCaseRow judge(const StressCase& asked, const StressRun& run, const StressR
   StressCaseRow row{asked, run.answer, run.end_time, {}, {}, {}};
   if (against != nullptr && row.computed() && !was_computed(against->answer)) row.answer = against->answer;
   if (!row.computed()) return row;
-  if (against != nullptr) {
-    row.heated_against = against->answer.heated_temperature;
-    for (std::size_t i = 0; i < row.heated_against.size(); ++i)
-      row.deviations.push_back(std::min(run.answer.heated_temperature[i], ignition_temperature) -
-                               std::min(row.heated_against[i], ignition_temperature));
+  for (std::size_t i = 0; against != nullptr && i < against->answer.verdicts.size(); ++i) {
+    row.heated_against.push_back(against->answer.verdicts[i].heated);
+    row.deviations.push_back(std::min(run.answer.verdicts[i].heated, ignition_temperature) -
+                             std::min(row.heated_against[i], ignition_temperature));
   }
   std::vector<Finding> findings = run.findings;
   if (run.answer.completed())

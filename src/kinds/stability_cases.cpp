@@ -1,15 +1,11 @@
 // A study of kind stability as a file: its keys, and [[group]] with its cases.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <utility>
 
 namespace launchsafe::kinds {
 

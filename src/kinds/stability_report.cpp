@@ -1,24 +1,16 @@
 // The answer, the tables, the picture and the page of a stability study.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
-#include <map>
-#include <utility>
 
 namespace launchsafe::kinds {
 
 using keys::kelvin;
 using report::Row;
 using study::GapVerdict;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -92,7 +84,7 @@ report::Quantities<GapRow> stability_quantities() {
         {quantity::temperature_max(), &GapRow::verdict,
          [](const GapVerdict& gap) { return report::known(gap.maximum.temperature); }},
         {quantity::temperature_max_inert(),
-         of_list([](const StressCaseRow& row) -> auto& { return row.answer.heated_temperature; })},
+         [](const GapRow& row) { return row.gap ? row.verdict()->heated : study::not_a_number; }},
         {{"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation."},
          of_list([](const StressCaseRow& row) -> auto& { return row.heated_against; })},
         {{"deviation", "against", fixed(1, kelvin), "How far the case is off it."},
@@ -116,14 +108,9 @@ report::Table stability_table(const StabilityResult& result) {
   return report::table_of("Stress cases", stability_quantities(), rows);
 }
 
-/// How many rows that is true of.
-template <class Belongs>
-std::size_t count(const StabilityResult& result, Belongs belongs) {
-  return static_cast<std::size_t>(std::ranges::count_if(result.rows, belongs));
-}
-
 std::size_t count_missing(const StabilityResult& result) {
-  return result.rows.size() - count(result, &StressCaseRow::computed);
+  return result.rows.size() -
+         static_cast<std::size_t>(std::ranges::count_if(result.rows, &StressCaseRow::computed));
 }
 
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
@@ -173,8 +160,9 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
   counts["cases"] = result.rows.size();
   for (const Outcome outcome : all_outcomes) counts[to_string(outcome)] = result.count(outcome);
   const std::size_t missing = count_missing(result);
-  counts["not_as_expected"] = result.rows.size() - count(result, &StressCaseRow::is_as_expected) -
-                              result.count(Outcome::wrong) - missing;
+  const auto as_expected = std::ranges::count_if(result.rows, &StressCaseRow::is_as_expected);
+  counts["not_as_expected"] =
+      result.rows.size() - static_cast<std::size_t>(as_expected) - result.count(Outcome::wrong) - missing;
   counts["not_computed"] = missing;
   return counts;
 }

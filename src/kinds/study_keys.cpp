@@ -1,8 +1,6 @@
 #include "study_keys.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/cited_limits.hpp"
 
 #include <fmt/format.h>
 

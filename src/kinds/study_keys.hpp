@@ -3,13 +3,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
-
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::kinds {
 

@@ -1,23 +1,13 @@
-#include "answer_tables.hpp"
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <functional>
-#include <optional>
 
 namespace launchsafe::kinds {
 
 using report::number, report::Row, report::shown_value;
 using study::Axis, study::Fault, study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
-namespace quantity = report::quantity;
 
 namespace {
 
@@ -108,26 +98,15 @@ math::Distribution range_of_axis(const Axis& axis) {
                                                 : math::Distribution::uniform(lower, upper);
 }
 
-/// What a launch may change by a leap with.
-bool is_cliff(const scene::KeyDescription& key) {
-  const keys::Part part = key.role().part;
-  return part == keys::Part::setting || part == keys::Part::minor_setting ||
-         key.name == "charge.face_friction" || key.name == "charge.crack_friction";
-}
-
-/// A fit over what the reservoir says would answer for gaps of which it is not the model.
-Fault check_gap_model(const StudyFile& study) {
-  if (study.scene.scene.surface.model == scene::GapModel::reservoir) return std::nullopt;
-  return fault_at(study, "surrogate", "true for a gap that closes",
-                  "surrogate = false, or gap.model = \"reservoir\"");
-}
-
 Fault check_axis(const StudyFile& study, const Axis& axis) {
   if (axis.key.dimension == scene::Dimension::count)
     return fault_at(study, axis.study_key,
                     axis.key.name + ", a whole number, in a study with surrogate = true",
                     "a key that may take any number between two");
-  if (is_cliff(axis.key))
+  // What a launch may change by a leap with.
+  const keys::Part part = axis.key.role().part;
+  if (part == keys::Part::setting || part == keys::Part::minor_setting ||
+      axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction")
     return fault_at(
         study, axis.study_key,
         axis.key.name + ", with which launches may change by leaps, in a study with surrogate = true",
@@ -168,7 +147,7 @@ report::Quantities<FitRow> surrogate_quantities() {
 }  // namespace
 
 report::Column shown(const SurrogateOutput& output) {
-  if (output.name == report::quantity::critical_gap().name)
+  if (output.name == quantity::critical_gap().name)
     return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
   std::string heading = "T max at a gap of " + report::centimetres(output.gap);
   if (output.inert) heading += ", without reaction";
@@ -222,7 +201,10 @@ std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, con
 
 Fault check_sweep_surrogate(const StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
-  if (Fault fault = check_gap_model(study)) return fault;
+  // A fit over what the reservoir says would answer for gaps of which it is not the model.
+  if (study.scene.scene.surface.model != scene::GapModel::reservoir)
+    return fault_at(study, "surrogate", "true for a gap that closes",
+                    "surrogate = false, or gap.model = \"reservoir\"");
   if (axes.empty())
     return fault_at(study, "surrogate", "nothing that varies", "a [[vary]] for every input of the fit");
   for (const Axis& axis : axes)

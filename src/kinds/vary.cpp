@@ -3,17 +3,11 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <utility>
 
 namespace launchsafe::kinds {
 
@@ -237,15 +231,6 @@ Fault settle_values(VaryReader& reader) {
   return std::nullopt;
 }
 
-Fault check_is_distribution(const VaryReader& reader) {
-  for (const char* key : {"values", "count"})
-    if (reader.given(key))
-      return reader.fault(key, std::string(key) + " in a study of kind " + reader.study.study.kind.name,
-                          "a distribution");
-  if (!reader.given("distribution")) return reader.missing("distribution", "an entry of this kind");
-  return check_distribution(reader);
-}
-
 Fault read_entry(VaryReader& reader, const Varied& admitted) {
   const auto key = read_scene_key(reader, admitted);
   if (!key) return key.error();
@@ -257,7 +242,12 @@ Fault read_entry(VaryReader& reader, const Varied& admitted) {
   if (Fault fault = check_free(reader.study, key->name, reader.place_of("key"), "vary.key")) return fault;
   study::Axis axis{study::name_of_axis(key->name), reader.study_key("key"), *key, {}};
   if (admitted.distributions) {
-    if (Fault fault = check_is_distribution(reader)) return fault;
+    for (const char* given : {"values", "count"})
+      if (reader.given(given))
+        return reader.fault(given, std::string(given) + " in a study of kind " + reader.study.study.kind.name,
+                            "a distribution");
+    if (!reader.given("distribution")) return reader.missing("distribution", "an entry of this kind");
+    if (Fault fault = check_distribution(reader)) return fault;
     axis.distribution = reader.text.distribution;
     axis.values_key = reader.study_key(reader.given("range") ? "range" : "deviation");
   } else {

@@ -6,7 +6,7 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
 #include "notes.hpp"
 

@@ -1,16 +1,12 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/record_domain.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -95,7 +91,7 @@ double rise_of(const AccuracyRecord& record) {
   double rise = std::numeric_limits<double>::infinity();
   for (const RecordedSetting& each : record.settings) {
     if (!each.reference || each.temperature.empty()) continue;
-    const double hottest = *std::max_element(each.temperature.begin(), each.temperature.end());
+    const double hottest = *std::ranges::max_element(each.temperature);
     rise = std::min(rise, hottest - record.scene.initial_temperature);
   }
   return std::isfinite(rise) ? rise : 0.0;
@@ -135,10 +131,6 @@ double air_heating_of(const scene::Scene& scene, double peak) {
 double ratio_of(double value, double recorded) {
   if (value <= 0.0) return value == recorded ? 1.0 : 0.0;
   return recorded > 0.0 ? value / recorded : infinity;
-}
-
-double largest_of(const std::vector<double>& values) {
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
 bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0 && launch.flaw_size > 0.0; }
@@ -205,8 +197,7 @@ double bound_against(const ReferenceValue& reference, double value) {
 
 ReferenceValue reference_value(std::vector<double> values, const std::vector<double>& sizes) {
   ReferenceValue reference;
-  if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
-    values.clear();
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) values.clear();
   reference.values = std::move(values);
   if (!reference.values.empty()) reference.limit = math::extrapolate(reference.values, sizes);
   return reference;
@@ -234,9 +225,9 @@ Setting setting_of(const scene::Scene& scene) {
 }
 
 bool same_setting(const Setting& a, const Setting& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const auto& x, const auto& y) {
-           return x.first == y.first && same_value(x.second, y.second);
-         });
+  return std::ranges::equal(a, b, [](const auto& x, const auto& y) {
+    return x.first == y.first && same_value(x.second, y.second);
+  });
 }
 
 RecordedReference reference_of(const AccuracyRecord& record) {
@@ -296,8 +287,8 @@ Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene) {
 
 const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scene::Scene& scene) {
   const Setting setting = setting_of(scene);
-  const auto found = std::find_if(record.settings.begin(), record.settings.end(),
-                                  [&](const auto& each) { return same_setting(each.setting, setting); });
+  const auto found = std::ranges::find_if(
+      record.settings, [&](const auto& each) { return same_setting(each.setting, setting); });
   return found == record.settings.end() ? nullptr : &*found;
 }
 
@@ -344,7 +335,8 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
   const double cracks = crack_ratio(launch, recorded);
   const double friction = ratio_of(launch.localisation, recorded.localisation);
   Coverage coverage;
-  const double heating = most_heating * largest_of(recorded.gaps) * recorded.air_heating;
+  const double widest = recorded.gaps.empty() ? 0.0 : std::ranges::max(recorded.gaps);
+  const double heating = most_heating * widest * recorded.air_heating;
   coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : infinity;
   const double growth =
       std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);

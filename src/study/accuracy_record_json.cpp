@@ -1,17 +1,13 @@
 // Accuracy records as JSON, written and read with distrust.
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -37,8 +33,7 @@ ordered_json json_of(const Setting& setting) {
 /// Whether a key may have a value that no reader of scenes has checked.
 bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   if (const auto* word = std::get_if<std::string>(&value))
-    return key.kind == scene::KeyKind::word &&
-           std::find(key.words.begin(), key.words.end(), *word) != key.words.end();
+    return key.kind == scene::KeyKind::word && std::ranges::find(key.words, *word) != key.words.end();
   if (std::holds_alternative<bool>(value)) return key.kind == scene::KeyKind::flag;
   if (std::holds_alternative<std::vector<double>>(value)) return key.kind == scene::KeyKind::list;
   const double number = std::get<double>(value);
@@ -99,8 +94,7 @@ void check_settings(const AccuracyRecord& record, RecordReader& reader) {
   for (std::size_t i = 0; i < record.settings.size(); ++i) {
     const RecordedSetting& each = record.settings[i];
     const std::string path = fmt::format("settings.{}", i);
-    if (each.label.empty() ||
-        std::any_of(each.label.begin(), each.label.end(), [](unsigned char c) { return c < 0x20; }))
+    if (each.label.empty() || std::ranges::any_of(each.label, [](unsigned char c) { return c < 0x20; }))
       reader.refuse(path + ".label", quoted(each.label), "a line of text");
     for (std::size_t j = 0; j < i; ++j) {
       if (same_setting(each.setting, record.settings[j].setting))
@@ -126,12 +120,6 @@ void check_settings(const AccuracyRecord& record, RecordReader& reader) {
                   fmt::format("at least {}", fewest_reference_meshes));
 }
 
-/// Equal but for round-off; two that are not known are equal.
-bool same_bound(double a, double b) {
-  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
-  return same_number(a, b);
-}
-
 void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
   AccuracyRecord found = record;
   find_bounds(found);
@@ -142,7 +130,8 @@ void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
   for (std::size_t i = 0; i < record.settings.size(); ++i) {
     const RecordedSetting &given = record.settings[i], &right = found.settings[i];
     const auto compare = [&](const char* key, double a, double b) {
-      if (same_bound(a, b)) return;
+      // Equal but for round-off; two that are not known are equal.
+      if (same_number(a, b) || (std::isnan(a) && std::isnan(b))) return;
       reader.refuse(fmt::format("settings.{}.{}", i, key), text(a),
                     text(b) + ", which follows from what the settings gave");
     };

@@ -4,15 +4,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <string>
 #include <string_view>
 #include <thread>
-#include <vector>
 
 namespace launchsafe::study {
 namespace {
@@ -45,20 +42,6 @@ int cores_by_affinity() {
 int limited(int cores, double quota, double period) {
   if (!(quota > 0) || !(period > 0)) return cores;
   return std::min(cores, std::max(1, static_cast<int>(std::ceil(quota / period - 1e-9))));
-}
-
-/// cpu.max of one control group (version 2): "max 100000" or "200000 100000".
-int limited_by_file(int cores, const fs::path& file) {
-  std::ifstream stream(file);
-  double quota = 0, period = 0;
-  return stream >> quota >> period ? limited(cores, quota, period) : cores;
-}
-
-int limited_by_version_1(int cores, const fs::path& folder) {
-  double quota = 0, period = 0;
-  std::ifstream(folder / "cpu.cfs_quota_us") >> quota;
-  std::ifstream(folder / "cpu.cfs_period_us") >> period;
-  return limited(cores, quota, period);
 }
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -140,8 +123,16 @@ int threads_for_one_run(std::int64_t particles) {
 
 int available_cores() {
   int cores = cores_by_affinity();
-  for (const fs::path& group : control_groups()) cores = limited_by_file(cores, group / "cpu.max");
-  return limited_by_version_1(cores, fs::path(control_root) / "cpu");
+  double quota = 0, period = 0;
+  // cpu.max of a control group (version 2): "max 100000" or "200000 100000".
+  for (const fs::path& group : control_groups())
+    if (std::ifstream stream(group / "cpu.max"); stream >> quota >> period)
+      cores = limited(cores, quota, period);
+  const fs::path version_1 = fs::path(control_root) / "cpu";
+  quota = period = 0;
+  std::ifstream(version_1 / "cpu.cfs_quota_us") >> quota;
+  std::ifstream(version_1 / "cpu.cfs_period_us") >> period;
+  return limited(cores, quota, period);
 }
 
 double available_memory() {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace launchsafe::study {
 namespace {
@@ -126,7 +124,7 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
     if (states.back() == GapState::undefined) return undefined_at(gaps.back());
   }
   CriticalGap result;
-  const auto first = std::find(states.begin(), states.end(), GapState::ignites);
+  const auto first = std::ranges::find(states, GapState::ignites);
   const auto index = static_cast<std::size_t>(first - states.begin());
   if (first == states.end()) {
     result.kind = CriticalGapKind::all_safe;

@@ -1,21 +1,12 @@
 #include "launchsafe/study/calibration_record.hpp"
 
 #include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/record_domain.hpp"
 #include "launchsafe/study/record_reader.hpp"
-#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::study {
 namespace {
@@ -31,10 +22,8 @@ bool is_between(double value, const std::vector<Firing>& firings, double Firing:
          value <= (*highest).*number * (1.0 + round_off_of_units);
 }
 
-constexpr RecordFormat calibration_format{"launchsafe calibration record 3",
-                                          "calibration.json",
-                                          "a study of kind calibration",
-                                          {"digest", "format"}};
+constexpr RecordFormat calibration_format{"launchsafe calibration record 3", "calibration.json",
+                                          "a study of kind calibration"};
 
 /// What a calibration without a failure has.
 void describe_numbers(RecordObject& object, CalibrationRecord& record) {
@@ -70,10 +59,8 @@ void describe_calibration(RecordObject& object, CalibrationRecord& record) {
     describe_numbers(object, record);
 }
 
-constexpr RecordFormat firing_format{"launchsafe firing record 1",
-                                     "calibration.json",
-                                     "a study of kind calibration with firings",
-                                     {"digest", "format"}};
+constexpr RecordFormat firing_format{"launchsafe firing record 1", "calibration.json",
+                                     "a study of kind calibration with firings"};
 constexpr std::size_t most_firings = 1000, most_points = 10'000;
 
 void describe_firing(RecordObject& object, Firing& firing) {
@@ -141,8 +128,7 @@ bool states(const StudyFile& study, const std::string& key) {
 bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
   return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
          study.scene.scene.load.curve_time.empty() &&
-         std::none_of(load_shape.begin(), load_shape.end(),
-                      [&](const char* key) { return states(study, key); });
+         std::ranges::none_of(load_shape, [&](const char* key) { return states(study, key); });
 }
 
 /// The first constant to which the study's scene gives another value than the record.

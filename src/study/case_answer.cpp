@@ -3,10 +3,8 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/run_cases.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -14,10 +12,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <optional>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -41,8 +35,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
   if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;
   const auto has = [&](ShareKind kind) {
-    return std::any_of(critical.shares.begin(), critical.shares.end(),
-                       [kind](const GapShare& share) { return share.kind == kind; });
+    return std::ranges::count(critical.shares, kind, &GapShare::kind) > 0;
   };
   if (propagates_spread(study) &&
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
@@ -195,8 +188,8 @@ class AnswerRunner {
     std::vector<CaseRuns> open;
     std::map<std::string, std::size_t> answered_cases;  // by the reason why they failed, empty for none
     for (CaseRuns& each : cases_) {
-      const bool answered = std::all_of(each.members.begin(), each.members.end(),
-                                        [this](std::size_t member) { return answers_[member].has_value(); });
+      const bool answered = std::ranges::all_of(
+          each.members, [this](std::size_t member) { return answers_[member].has_value(); });
       if (answered) {
         timing_.reused += each.runs.size();
         tracker.expect_cases(each.members.size());
@@ -245,7 +238,7 @@ class AnswerRunner {
                            "interrupted before its gaps were judged");
     CaseAnswer answer = answer_from(study_.study, input, runs);
     if (!judged || was_cut_off(runs.front())) return answer;
-    if (options_.store != nullptr && std::none_of(runs.begin(), runs.end(), was_cut_off)) {
+    if (options_.store != nullptr && std::ranges::none_of(runs, was_cut_off)) {
       for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
       save_answer(*options_.store, answer_key(analysis_, input), answer);
       answer.runs.clear();
@@ -278,16 +271,11 @@ CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::Mech
 }
 
 CaseAnswer answer_of(const CaseOutcome& outcome) {
-  CaseAnswer answer;
-  answer.outcome = outcome.outcome;
-  answer.failure = outcome.failure;
+  CaseAnswer answer = outcome;
   answer.validity_warnings = outcome.evidence->validity_warnings;
   answer.friction_rise = outcome.evidence->friction_rise;
-  answer.critical = outcome.critical;
-  answer.verdicts = outcome.verdicts;
-  answer.closing = outcome.closing;
-  for (const GapVerdict& row : answer.verdicts)
-    answer.heated_temperature.push_back(answer.completed() ? row.heated : not_a_number);
+  for (GapVerdict& row : answer.verdicts)
+    if (!answer.completed()) row.heated = not_a_number;
   const run::MechanicsResult& mechanics = outcome.result.mechanics;
   answer.run = {mechanics.status, mechanics.steps, mechanics.particles, run::largest_energy_drift(mechanics),
                 mechanics.limiters};

@@ -1,11 +1,8 @@
 // Which runs the cases of a study need, which they share, and how they are divided over shards.
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/options.hpp"
 #include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -15,7 +12,6 @@
 #include <numeric>
 #include <queue>
 #include <unordered_map>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -31,14 +27,6 @@ std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input
 
 /// Of so many cases at the most the runs are planned before they are begun.
 constexpr std::size_t most_planned_before = 512;
-
-/// The axes that reach the mechanics.
-std::vector<std::size_t> mechanical_axes(const std::vector<Axis>& axes) {
-  std::vector<std::size_t> reaching;
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (keys::reaches_mechanics(axes[i].key.role().acts_on)) reaching.push_back(i);
-  return reaching;
-}
 
 /// Whether the mechanics of a case has its values of these axes: not where a launch decides whether the
 /// mechanics knows a key, as its role says, or as its value is not there.
@@ -62,12 +50,6 @@ bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axe
          keeps_values(study, last, axes);
 }
 
-std::string key_by_values(const std::vector<double>& coordinates, const std::vector<std::size_t>& axes) {
-  std::string key;
-  for (const std::size_t i : axes) key += fmt::format("{} ", coordinates[i]);
-  return key;
-}
-
 std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
   // A case that burns or closes shares its launch alone with no other.
@@ -78,11 +60,16 @@ std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
 /// The cases that share runs, in the order of their first ones.
 std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
   std::vector<std::string> keys(study.cases.size());
-  const std::vector<std::size_t> axes = mechanical_axes(study.study.axes);
+  std::vector<std::size_t> axes;  // that reach the mechanics
+  for (std::size_t i = 0; i < study.study.axes.size(); ++i)
+    if (keys::reaches_mechanics(study.study.axes[i].key.role().acts_on)) axes.push_back(i);
   const bool by_values = tell_runs_apart(study, axes);
   tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t i) {
-    const bool varied = by_values && !study.cases.has_own_scene(i);
-    keys[i] = varied ? key_by_values(study.cases.coordinates(i), axes) : key_by_runs(study, study.cases[i]);
+    if (!by_values || study.cases.has_own_scene(i)) {
+      keys[i] = key_by_runs(study, study.cases[i]);
+      return;
+    }
+    for (const std::size_t axis : axes) keys[i] += fmt::format("{} ", study.cases.coordinates(i)[axis]);
   });
   std::vector<CaseRuns> cases;
   std::unordered_map<std::string, std::size_t> known;
@@ -165,8 +152,7 @@ bool parse_shard(std::string_view text, Shard& shard) {
 std::vector<int> shards_of(const std::vector<double>& costs, int count) {
   std::vector<std::size_t> order(costs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&costs](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+  std::ranges::stable_sort(order, [&costs](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
   using Load = std::pair<double, int>;  // ties go to the lower shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
   for (int shard = 1; shard <= count; ++shard) least.emplace(0.0, shard);

@@ -1,4 +1,4 @@
-#include "launchsafe/study/cited_limits.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +63,6 @@ std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std
   return kept.empty() ? cases : kept;
 }
 
-/// m, in which the cases at one pressure are ordered: the smallest that the critical gap may be.
-double smallest_of(const CriticalGap& critical) {
-  const GapOrBound gap = gap_or_bound(critical);
-  return std::isnan(gap) ? -1.0 : gap;
-}
-
 LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,
                         const CitedLimit& limit) {
   LimitComparison comparison;
@@ -81,7 +75,8 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
   comparison.cases = cases.size();
   double smallest = std::numeric_limits<double>::infinity();
   for (const std::size_t i : cases) {
-    const double gap = smallest_of(*critical[i]);
+    // In the order of the smallest that the critical gap may be.
+    const GapOrBound known = gap_or_bound(*critical[i]), gap = std::isnan(known) ? -1.0 : known;
     if (comparison.nearest && !(gap < smallest)) continue;
     comparison.nearest = i;
     smallest = gap;

@@ -2,14 +2,11 @@
 
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <numeric>
 #include <queue>
 #include <sstream>
@@ -152,13 +149,6 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   return run;
 }
 
-/// Runs that may follow that of a case, at most.
-std::size_t following_runs(const StudyFile& study) {
-  if (study.study.kind.goes_through_ignition || study.cases.empty()) return 0;
-  const StudyCase first = study.cases.front();
-  return study.confirmations_per_case + (first.closing ? most_closing_launches(study.study, first) : 0);
-}
-
 /// s on a core, at most, of each run that follows that of a case which is to run. What follows a stored
 /// launch is as a rule stored too.
 double confirmation_time(const StudyFile& study, const CaseRuns& runs, double update_rate) {
@@ -221,7 +211,12 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
     forecast.cases += each.members.size();
     forecast.run_count += each.runs.size();
   }
-  const std::size_t following = following_runs(study);
+  std::size_t following = 0;  // runs that may follow that of a case, at most
+  if (!study.study.kind.goes_through_ignition && !study.cases.empty()) {
+    const StudyCase first = study.cases.front();
+    following =
+        study.confirmations_per_case + (first.closing ? most_closing_launches(study.study, first) : 0);
+  }
   forecast.confirmations = following * all.size();
   const std::vector<CaseRuns> cases = some_of(std::move(all), most_cases);
   std::vector<std::vector<ForecastRun>> runs(cases.size());

@@ -2,7 +2,6 @@
 
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
 #include <fmt/format.h>
@@ -10,10 +9,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -185,8 +181,7 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
       GapShare& share = shares[i];
       share.kind = raised[i].kind;
       share.raised = critical_gap_of(study, critical, raised[i], End::towards_ignition);
-      const auto away = std::find_if(lowered.begin(), lowered.end(),
-                                     [&](const RaisedLaunch& each) { return each.kind == share.kind; });
+      const auto away = std::ranges::find(lowered, share.kind, &RaisedLaunch::kind);
       share.lowered =
           away == lowered.end() ? critical.upper : critical_gap_of(study, critical, *away, End::away);
     });
@@ -198,11 +193,6 @@ CriticalGap indeterminate(GapReason reason) {
   CriticalGap gap;
   gap.reason = std::move(reason);
   return gap;
-}
-
-/// By which the evidence of a case leaves no critical gap.
-CriticalGap indeterminate(GapReason::Code code, const CaseOutcome& outcome) {
-  return indeterminate({.code = code, .of_case = outcome.evidence});
 }
 
 /// With the bracket (m) that was traced.
@@ -246,7 +236,8 @@ CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   using Code = GapReason::Code;
   if (!outcome.completed() || !outcome.evidence->validity_warnings.empty()) {
-    outcome.critical = indeterminate(outcome.completed() ? Code::validity_warning : Code::failed, outcome);
+    outcome.critical = indeterminate(
+        {.code = outcome.completed() ? Code::validity_warning : Code::failed, .of_case = outcome.evidence});
     return;
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
@@ -255,17 +246,9 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
                                        study.tolerance);
   if (outcome.evidence->input.has_unaccepted()) {
     const GapOrBound indicative = gap_or_bound(outcome.critical);
-    outcome.critical = indeterminate(Code::unaccepted, outcome);
+    outcome.critical = indeterminate({.code = Code::unaccepted, .of_case = outcome.evidence});
     outcome.critical.indicative = indicative;
   }
-}
-
-/// At the largest gap that does not ignite; without one, without a gap.
-double heat_factor_of(const Study& study, const CaseOutcome& outcome) {
-  const CriticalGap& critical = outcome.critical;
-  const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
-  return heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
-                     bounded ? critical.lower : 0.0);
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
@@ -289,9 +272,9 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
 void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows) {
   if (!input.own_conditions) return;
   for (GapVerdict& row : rows) {
-    const auto found = std::find_if(
-        study.references.begin(), study.references.end(),
-        [&row](const Reference& reference) { return std::abs(reference.gap - row.gap) <= 1e-9; });
+    const auto found = std::ranges::find_if(study.references, [&row](const Reference& reference) {
+      return std::abs(reference.gap - row.gap) <= 1e-9;
+    });
     if (found != study.references.end()) row.reference = *found;
   }
 }
@@ -318,8 +301,8 @@ double opening_at_base(const CaseOutcome& outcome) {
 }
 
 GapState state_of(const surface::SkinHistory& history) {
-  const bool finite = std::all_of(history.temperature.begin(), history.temperature.end(),
-                                  [](double temperature) { return std::isfinite(temperature); });
+  const bool finite =
+      std::ranges::all_of(history.temperature, [](double temperature) { return std::isfinite(temperature); });
   if (history.temperature.empty() || !finite) return GapState::undefined;
   return history.ignition ? GapState::ignites : GapState::safe;
 }
@@ -358,7 +341,13 @@ void evaluate(const Study& study, CaseOutcome& outcome) {
         heated_temperature(outcome.input.scene.scene, outcome.result.mechanics.trace, 0.0);
   outcome.evidence = std::make_shared<const CaseEvidence>(evidence_of(study, outcome));
   find_critical_gaps(study, outcome);
-  if (has_trace(outcome)) outcome.heat_factor = heat_factor_of(study, outcome);
+  if (has_trace(outcome)) {
+    // At the largest gap that does not ignite; without one, without a gap.
+    const CriticalGapKind kind = outcome.critical.kind;
+    const bool bounded = kind == CriticalGapKind::value || kind == CriticalGapKind::all_safe;
+    outcome.heat_factor = heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
+                                      bounded ? outcome.critical.lower : 0.0);
+  }
   evaluate_gaps(study, outcome);
 }
 
@@ -385,7 +374,7 @@ void apply_confirmations(const Study& study, CaseOutcome& outcome) {
 
 bool misses_calibrated_rows(const CaseOutcome& outcome) {
   constexpr double slack = 0.5;  // K
-  return std::any_of(outcome.verdicts.begin(), outcome.verdicts.end(), [](const GapVerdict& row) {
+  return std::ranges::any_of(outcome.verdicts, [](const GapVerdict& row) {
     return row.reference && row.reference->calibrated && !(std::abs(row.misfit()) <= slack);
   });
 }

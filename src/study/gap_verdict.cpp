@@ -1,14 +1,9 @@
 #include "launchsafe/study/gap_verdict.hpp"
 
-#include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/verdict.hpp"
 #include "launchsafe/surface/skin.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
 
 namespace launchsafe::study {
 namespace {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -65,7 +64,7 @@ std::optional<PressureInterval> interval_of(const std::vector<double>& pressures
       !(peak <= pressures.back() * (1.0 + round_off)))
     return std::nullopt;
   peak = std::clamp(peak, pressures.front(), pressures.back());
-  const auto next = std::lower_bound(pressures.begin(), pressures.end(), peak * (1.0 - round_off));
+  const auto next = std::ranges::lower_bound(pressures, peak * (1.0 - round_off));
   const auto above = static_cast<std::size_t>(next - pressures.begin());
   if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above};
   return PressureInterval{above - 1, above};
@@ -116,8 +115,8 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
                      1e-6 * record.peak_pressures.back());
 }
 
-constexpr RecordFormat model_form_format{
-    "launchsafe model form 1", "model_form.json", "a study of kind comparison", {"digest", "format"}};
+constexpr RecordFormat model_form_format{"launchsafe model form 1", "model_form.json",
+                                         "a study of kind comparison"};
 constexpr const char* no_ignition_text = "none";
 constexpr double widest_critical_gap = 0.01;  ///< m
 constexpr std::size_t most_pressures = 1000;
@@ -149,8 +148,7 @@ void describe_alternative(RecordObject& object, ModelAlternative& each, std::siz
   object.value("title", each.title);
   object.value("not_counted", each.not_counted);
   describe_gaps(object, each.critical_gap, pressures);
-  const bool known = std::none_of(each.critical_gap.begin(), each.critical_gap.end(),
-                                  [](double gap) { return std::isnan(gap); });
+  const bool known = std::ranges::none_of(each.critical_gap, [](double gap) { return std::isnan(gap); });
   if (object.reading() && !known && each.not_counted.empty()) {
     object.reader().refuse(object.path_of("critical_gap_m"), "null",
                            "known critical gaps of a model that counts");
@@ -201,8 +199,7 @@ ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
     ModelAlternative alternative{each.name, each.title, why_not_counted(*each.calibration),
                                  each.critical_gap};
     const auto unknown = [](double gap) { return std::isnan(gap); };
-    if (alternative.not_counted.empty() &&
-        std::any_of(alternative.critical_gap.begin(), alternative.critical_gap.end(), unknown))
+    if (alternative.not_counted.empty() && std::ranges::any_of(alternative.critical_gap, unknown))
       return refused(fmt::format("{}: a critical gap is not known", each.name));
     record.alternatives.push_back(std::move(alternative));
   }

@@ -8,8 +8,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -144,15 +142,6 @@ class Causes {
   std::vector<RaisedLaunch> raised_;
 };
 
-/// None of some gaps up to the last one ignites.
-CriticalGap none_up_to(double largest, std::size_t gaps) {
-  CriticalGap bound;
-  bound.kind = CriticalGapKind::all_safe;
-  bound.lower = largest;
-  bound.reason = {.code = GapReason::Code::none_of_gaps, .gap = largest, .gaps = gaps};
-  return bound;
-}
-
 OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& whole) {
   const trace::BottomTrace trace = trace::of_rings(whole);
   std::vector<double> gaps = study.gaps;
@@ -170,11 +159,15 @@ OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const
   OtherAnswer answer;
   answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
   const surface::IgnitionOfGaps ignites(model, trace);
-  const bool all_safe =
-      std::all_of(states.begin(), states.end(), [](GapState state) { return state == GapState::safe; });
-  answer.critical = all_safe ? none_up_to(gaps.back(), gaps.size())
-                             : find_critical_gap([&](double gap) { return state_of(ignites(gap)); },
-                                                 gaps.back(), study.tolerance);
+  const bool all_safe = std::ranges::all_of(states, [](GapState state) { return state == GapState::safe; });
+  if (all_safe) {
+    answer.critical.kind = CriticalGapKind::all_safe;
+    answer.critical.lower = gaps.back();
+    answer.critical.reason = {.code = GapReason::Code::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
+  } else {
+    answer.critical =
+        find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, gaps.back(), study.tolerance);
+  }
   return answer;
 }
 

@@ -3,7 +3,6 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <iterator>
 #include <set>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -50,7 +48,7 @@ std::string shell_value(const Scene& scene) {
     bodies.push_back(fmt::format("{} {} {} {} {}", scene::law_of(scene, body).index(), place(body.x_begin),
                                  place(body.x_end), place(body.r_begin), place(body.r_end)));
   }
-  std::sort(bodies.begin(), bodies.end());
+  std::ranges::sort(bodies);
   const scene::Extent all = scene::extent_of(scene);
   return fmt::format("{} bodies, {} long, {} in diameter, {}", bodies.size(),
                      scene::length_text(all.x_end - all.x_begin), scene::length_text(2.0 * all.r_end),

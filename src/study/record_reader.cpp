@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -95,7 +94,7 @@ bool RecordReader::has_keys(const ordered_json& object, const std::string& path,
   }
   const std::string inside = path.empty() ? "" : path + ".";
   for (const auto& [key, value] : object.items()) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
+    if (std::ranges::find(keys, key) == keys.end())
       refuse(inside + key, "a key that no record has", "only " + scene::quoted_list(keys));
   }
   for (const std::string& key : keys) {

@@ -3,15 +3,11 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
-#include <mutex>
 
 namespace launchsafe::study {
 namespace {

@@ -20,10 +20,6 @@ namespace {
 constexpr std::size_t most_reasons = 20, most_gaps = 40;  ///< that are told apart
 constexpr double too_early = 2.0;                         ///< s of work from which nothing is learned
 
-double seconds_on_steady_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 /// One task from start to end, whatever it throws.
 void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracker& tracker) {
   double reported = 0;
@@ -59,7 +55,7 @@ class Queue {
     waiting_.resize(tasks.size());
     std::iota(waiting_.begin(), waiting_.end(), std::size_t{0});
     // Reversed: the back is taken first, and taking it is cheap.
-    std::stable_sort(waiting_.begin(), waiting_.end(), [&tasks](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(waiting_, [&tasks](std::size_t a, std::size_t b) {
       return tasks[a].cost != tasks[b].cost ? tasks[a].cost < tasks[b].cost : a > b;
     });
   }
@@ -147,7 +143,9 @@ std::string to_string(Phase phase) {
 }
 
 ProgressTracker::ProgressTracker(ProgressCallback callback, Clock clock)
-    : callback_(std::move(callback)), clock_(clock ? std::move(clock) : seconds_on_steady_clock) {}
+    : callback_(std::move(callback)), clock_(clock ? std::move(clock) : [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+      }) {}
 
 void ProgressTracker::begin(Phase phase) {
   const std::lock_guard lock(mutex_);

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace launchsafe::study {
 namespace {
 
@@ -21,11 +19,6 @@ std::string margin_text(const char* relation, const Evidence& evidence) {
 
 /// A bound of the critical gap (m), to the digits that count.
 std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
-
-std::string optimistic_text(const CaseEvidence& of_case) {
-  return to_string(of_case.input.optimistic ? of_case.input.optimistic
-                                            : optimistic_by_run(of_case.friction_rise));
-}
 
 /// Whether nothing but the fault of the run is said.
 bool stands_alone(ReasonCode code) {
@@ -59,7 +52,9 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
     case ReasonCode::no_margin:
       return "no margin to the ignition temperature";
     case ReasonCode::optimistic:
-      return optimistic_text(*evidence.of_case);
+      return to_string(evidence.of_case->input.optimistic
+                           ? evidence.of_case->input.optimistic
+                           : optimistic_by_run(evidence.of_case->friction_rise));
     case ReasonCode::beyond_firings:
       return "no round with such a gap was fired without ignition, at such a pressure and temperature or "
              "worse";

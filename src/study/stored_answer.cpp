@@ -4,9 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-#include <vector>
 
 namespace launchsafe::study {
 namespace {
@@ -20,11 +18,6 @@ struct AnswerRow {
   CaseAnswer answer;
   bool bounded = false;                 ///< bounds of the critical gap were sought
   std::string runs, validity_warnings;  ///< JSON lists of texts
-};
-
-struct GapRow {
-  GapVerdict verdict;
-  double heated = not_a_number;  ///< K
 };
 
 /// The way from a row to a member through members.
@@ -90,44 +83,40 @@ const SqlTable<AnswerRow>& answer_table() {
 }
 
 /// A temperature, its time and its place.
-void add_peak(std::vector<SqlColumn<GapRow>>& columns, const std::string& name, Peak GapVerdict::*peak) {
-  const auto of_peak = [peak](auto member) { return way(&GapRow::verdict, peak, member); };
-  columns.push_back(amount<GapRow>(name + "_temperature_K", of_peak(&Peak::temperature)));
-  columns.push_back(amount<GapRow>(name + "_time_s", of_peak(&Peak::time)));
-  columns.push_back(store::sql_column<GapRow>(name + "_point", of_peak(&Peak::point)));
+void add_peak(std::vector<SqlColumn<GapVerdict>>& columns, const std::string& name, Peak GapVerdict::*peak) {
+  columns.push_back(amount<GapVerdict>(name + "_temperature_K", way(peak, &Peak::temperature)));
+  columns.push_back(amount<GapVerdict>(name + "_time_s", way(peak, &Peak::time)));
+  columns.push_back(store::sql_column<GapVerdict>(name + "_point", way(peak, &Peak::point)));
 }
 
 /// A column that is empty where the gap does not ignite.
 template <class Member>
-SqlColumn<GapRow> of_ignition(std::string name, Member member) {
-  SqlColumn<GapRow> column = store::sql_column<GapRow>(
-      std::move(name), [member](auto& row) -> auto& { return std::invoke(member, *row.verdict.ignition); });
-  column.get = [get = column.get](const GapRow& row) { return row.verdict.ignition ? get(row) : SqlValue(); };
-  column.set = [set = column.set](GapRow& row, const SqlValue& stored) {
+SqlColumn<GapVerdict> of_ignition(std::string name, Member member) {
+  SqlColumn<GapVerdict> column = store::sql_column<GapVerdict>(
+      std::move(name), [member](auto& row) -> auto& { return std::invoke(member, *row.ignition); });
+  column.get = [get = column.get](const GapVerdict& row) { return row.ignition ? get(row) : SqlValue(); };
+  column.set = [set = column.set](GapVerdict& row, const SqlValue& stored) {
     if (std::holds_alternative<std::monostate>(stored)) return true;
-    if (!row.verdict.ignition) row.verdict.ignition.emplace();
+    if (!row.ignition) row.ignition.emplace();
     return set(row, stored);
   };
   return column;
 }
 
-std::vector<SqlColumn<GapRow>> gap_columns() {
-  using Row = GapRow;
-  const auto of_row = [](auto... members) { return way(&Row::verdict, members...); };
-  const auto share = [&](const char* name, auto member) {
-    return amount<Row>(name, of_row(&GapVerdict::uncertainty, member));
+std::vector<SqlColumn<GapVerdict>> gap_columns() {
+  using Row = GapVerdict;
+  const auto share = [](const char* name, auto member) {
+    return amount<Row>(name, way(&Row::uncertainty, member));
   };
-  const auto of_air = [&](const char* name, auto member) {
-    return amount<Row>(name, of_row(&GapVerdict::air, member));
-  };
-  std::vector<SqlColumn<Row>> columns{amount<Row>("gap_m", of_row(&GapVerdict::gap))};
+  const auto of_air = [](const char* name, auto member) { return amount<Row>(name, way(&Row::air, member)); };
+  std::vector<SqlColumn<Row>> columns{amount<Row>("gap_m", &Row::gap)};
   add_peak(columns, "maximum", &GapVerdict::maximum);
   add_peak(columns, "until_exit", &GapVerdict::until_exit);
   add_peak(columns, "early", &GapVerdict::early);
   const std::vector<SqlColumn<Row>> more{
-      amount<Row>("spread_K", of_row(&GapVerdict::spread)),
-      amount<Row>("early_spread_K", of_row(&GapVerdict::early_spread)),
-      store::sql_column<Row>("margin_K", of_row(&GapVerdict::margin)),
+      amount<Row>("spread_K", &Row::spread),
+      amount<Row>("early_spread_K", &Row::early_spread),
+      store::sql_column<Row>("margin_K", &Row::margin),
       amount<Row>("heated_temperature_K", &Row::heated),
       of_air("air_taken_J_per_m2", &surface::AirEnergy::taken),
       of_air("air_supplied_J_per_m2", &surface::AirEnergy::supplied),
@@ -150,8 +139,8 @@ std::vector<SqlColumn<GapRow>> gap_columns() {
   return columns;
 }
 
-const SqlTable<GapRow>& gap_table() {
-  static const SqlTable<GapRow> table{
+const SqlTable<GapVerdict>& gap_table() {
+  static const SqlTable<GapVerdict> table{
       "stored_gaps", {"answer", "position"}, "answer, position", gap_columns()};
   return table;
 }
@@ -181,24 +170,14 @@ std::string json_of(const std::vector<std::string>& texts) {
   return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// An answer as rows.
-struct Rows {
-  AnswerRow answer;
-  std::vector<GapRow> gaps;
-};
-
-Rows rows_of(const CaseAnswer& answer) {
+AnswerRow row_of(const CaseAnswer& answer) {
   const bool bounded = !std::isnan(answer.critical.bounds.at_least) || !answer.critical.shares.empty();
-  Rows rows{{.key = {},
-             .check = 0,
-             .answer = answer,
-             .bounded = bounded,
-             .runs = json_of(answer.runs),
-             .validity_warnings = json_of(answer.validity_warnings)},
-            {}};
-  for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
-    rows.gaps.push_back({answer.verdicts[i], answer.heated_temperature[i]});
-  return rows;
+  return {.key = {},
+          .check = 0,
+          .answer = answer,
+          .bounded = bounded,
+          .runs = json_of(answer.runs),
+          .validity_warnings = json_of(answer.validity_warnings)};
 }
 
 constexpr std::size_t number_digits = 15;  // 60 bits: a positive number
@@ -254,13 +233,11 @@ bool is_sound(const CaseAnswer& answer) {
 }  // namespace
 
 std::string bytes_of(const CaseAnswer& answer) {
-  const Rows rows = rows_of(answer);
   std::string bytes;
-  answer_table().append_bytes_of(rows.answer, bytes);
-  for (const GapRow& row : rows.gaps) {
+  answer_table().append_bytes_of(row_of(answer), bytes);
+  for (const GapVerdict& row : answer.verdicts) {
     gap_table().append_bytes_of(row, bytes);
-    for (const AsCalibrated& each : row.verdict.as_calibrated)
-      as_calibrated_table().append_bytes_of(each, bytes);
+    for (const AsCalibrated& each : row.as_calibrated) as_calibrated_table().append_bytes_of(each, bytes);
   }
   for (const GapShare& share : answer.critical.shares) share_table().append_bytes_of(share, bytes);
   return bytes;
@@ -271,11 +248,11 @@ MaybeError save_answer(Database& database, const std::string& key, const CaseAns
   const std::int64_t number = number_of(key);
   for (const std::string& table : {gap_table().name, share_table().name, as_calibrated_table().name})
     if (MaybeError error = database.run("DELETE FROM " + table + " WHERE answer = ?", {number})) return error;
-  Rows rows = rows_of(answer);
-  rows.answer.key = key;
-  rows.answer.check = check_of(answer);
-  if (MaybeError error = answer_table().put(database, {number}, rows.answer)) return error;
-  if (MaybeError error = put_all(database, gap_table(), {number}, rows.gaps)) return error;
+  AnswerRow row = row_of(answer);
+  row.key = key;
+  row.check = check_of(answer);
+  if (MaybeError error = answer_table().put(database, {number}, row)) return error;
+  if (MaybeError error = put_all(database, gap_table(), {number}, answer.verdicts)) return error;
   if (MaybeError error = put_all(database, share_table(), {number}, answer.critical.shares)) return error;
   for (std::size_t i = 0; i < answer.verdicts.size(); ++i)
     if (MaybeError error = put_all(database, as_calibrated_table(), {number, static_cast<std::int64_t>(i)},
@@ -303,11 +280,10 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   // Every gap has as many, in the order of the gaps; the checksum tells where that is not so.
   const auto of_gap =
       static_cast<std::ptrdiff_t>(as_calibrated->size() / std::max<std::size_t>(1, gaps->size()));
-  for (auto next = as_calibrated->begin(); GapRow & each : *gaps) {
-    each.verdict.as_calibrated.assign(next, next + of_gap);
+  answer.verdicts = std::move(*gaps);
+  for (auto next = as_calibrated->begin(); GapVerdict & each : answer.verdicts) {
+    each.as_calibrated.assign(next, next + of_gap);
     next += of_gap;
-    answer.heated_temperature.push_back(each.heated);
-    answer.verdicts.push_back(std::move(each.verdict));
   }
   if (row.bounded) set_shares(answer.critical, std::move(*shares));
   if (check_of(answer) != row.check || !is_sound(answer)) return std::nullopt;

@@ -1,5 +1,4 @@
 // The scene keys that a study varies, and what is wrong with a study and where.
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
@@ -7,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -27,13 +25,6 @@ scene::Expected<Tables> listed_tables(const toml::table& root, const std::string
   return tables;
 }
 
-/// What a key takes, for a message.
-std::string_view kind_text(KeyKind kind) {
-  constexpr std::array<std::string_view, 7> texts{"a number", "true or false", "a word", "words",
-                                                  "a text",   "a list",        "a range"};
-  return texts.at(static_cast<std::size_t>(kind));
-}
-
 std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -41,10 +32,12 @@ std::string joined(const std::vector<std::string>& words) {
 /// The fault of a name that no scene key and no short name has, or of a scene key that takes no number.
 InputError unfit_key(const StudyFile& study, const std::string& name, const std::string& faulty_key,
                      const Place& place, const std::vector<std::string>& short_names) {
-  const auto any = scene::describe_key(study.scene, name, place);
-  if (any) {
-    return scene::error_at(place, faulty_key, fmt::format("{}, which takes {}", name, kind_text(any->kind)),
-                           "a scene key that takes one number, or " + joined(short_names));
+  if (const auto any = scene::describe_key(study.scene, name, place)) {
+    constexpr std::array takes{"a number", "true or false", "a word", "words", "a text", "a list", "a range"};
+    return scene::error_at(
+        place, faulty_key,
+        fmt::format("{}, which takes {}", name, takes.at(static_cast<std::size_t>(any->kind))),
+        "a scene key that takes one number, or " + joined(short_names));
   }
   std::vector<std::string> known = short_names;
   for (const auto& key : scene::scene_keys()) {
@@ -110,7 +103,7 @@ scene::Expected<std::string> read_named_file(const StudyFile& study, const std::
 std::vector<Leaf> leaves_as_written(const toml::table& table) {
   std::vector<Leaf> leaves;
   collect_leaves(table, "", leaves);
-  std::stable_sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+  std::ranges::stable_sort(leaves, [](const Leaf& a, const Leaf& b) {
     const auto &first = a.node->source().begin, &second = b.node->source().begin;
     return std::pair(first.line, first.column) < std::pair(second.line, second.column);
   });
@@ -181,7 +174,7 @@ Fault check_free(const StudyFile& study, const std::string& scene_key, const Pla
 
 Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
                   std::vector<double> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const auto twice = std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
     return b - a <= 1e-9 * std::max(std::abs(b), 1e-6);
   });

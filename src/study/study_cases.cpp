@@ -1,7 +1,5 @@
 #include "launchsafe/study/study_cases.hpp"
 
-#include "launchsafe/study/study_file.hpp"
-
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -10,8 +8,6 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
-#include <memory>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {

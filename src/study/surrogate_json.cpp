@@ -4,18 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
 
 constexpr RecordFormat surrogate_format{
-    "launchsafe surrogate 2",
-    "surrogate.json",
-    "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with "
-    "surrogate = true",
-    {"digest", "format"}};
+    "launchsafe surrogate 2", "surrogate.json",
+    "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with surrogate = true"};
 constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
 constexpr int highest_degree = 20;
 constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -3,7 +3,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/study_file.hpp"
 
@@ -11,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace launchsafe::study {
@@ -45,11 +43,6 @@ std::optional<scene::Implausible> ring_smoothed_away(const scene::Scene& scene) 
                   1e-3 * ring->frequency));
 }
 
-/// Whether firings gave a constant its value, rather than what was published: another one is foreign to them.
-bool is_of_firings(const Study& study, const std::string& key) {
-  return study.calibration.firings && scene::role_of(key).part == keys::Part::calibrated;
-}
-
 /// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
 /// peak pressure and the temperature, which were held against them.
 bool no_firing_speaks_of(const scene::Implausible& foreign) {
@@ -61,17 +54,12 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
-  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch))
-    if (!is_of_firings(study, each.key)) values.push_back(std::move(each));
+  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch)) {
+    // One that firings gave its value, rather than what was published: another value is foreign to them.
+    if (!study.calibration.firings || scene::role_of(each.key).part != keys::Part::calibrated)
+      values.push_back(std::move(each));
+  }
   return values;
-}
-
-/// First what is foreign to the calibration.
-std::vector<std::string> extrapolated_in(const RecordDistance& distance, const scene::Load& load) {
-  std::vector<std::string> beyond = distance.names();
-  if (load.smoothing > 0.0)
-    beyond.push_back("load smoothed over " + scene::format_quantity(load.smoothing, scene::Dimension::time));
-  return beyond;
 }
 
 /// What only averages or removes heat: no ignition under it shows nothing.
@@ -191,7 +179,9 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   if (!study.kind.gives_verdicts) return all;
   all.distance = distance_to_calibration(scene, study.calibration);
   all.implausible = implausible_in(study, input, launch);
-  all.extrapolated = extrapolated_in(all.distance, scene.load);
+  all.extrapolated = all.distance.names();
+  if (const double over = scene.load.smoothing; over > 0.0)
+    all.extrapolated.push_back("load smoothed over " + scene::format_quantity(over, scene::Dimension::time));
   all.calibrated_gap = calibrated_gap(study.calibration, scene);
   if (study.calibration.firings && std::ranges::any_of(all.distance.foreign, no_firing_speaks_of))
     all.calibrated_gap = -1.0;

@@ -67,7 +67,7 @@ inline study::CaseAnswer answer_with(const study::Study& study, double critical)
     const bool safe = gap < critical;
     answer.verdicts.push_back(verdict(gap, safe ? study::Verdict::safe : study::Verdict::unsafe,
                                       safe ? 416.1 + 2.7e5 * gap : 784.5));
-    answer.heated_temperature.push_back(416.1 + 2.7e5 * gap);
+    answer.verdicts.back().heated = 416.1 + 2.7e5 * gap;
   }
   return answer;
 }
@@ -110,7 +110,6 @@ inline study::CaseAnswer broken_answer(const study::Study& study, const std::str
     row.evidence.of_case = evidence;
     row.judgement = {study::Verdict::indeterminate, study::ReasonCode::failed};
     answer.verdicts.push_back(std::move(row));
-    answer.heated_temperature.push_back(study::not_a_number);
   }
   return answer;
 }
@@ -203,7 +202,7 @@ inline kinds::SensitivityResult made_sensitivity() {
     const bool is_gap = which == kinds::SensitivityOutput::critical_gap;
     for (std::size_t i = 0; i < result.answers.size(); ++i)
       output.values.push_back(is_gap ? result.answers[i].critical.value
-                                     : result.answers[i].heated_temperature.front());
+                                     : result.answers[i].verdicts.front().heated);
     output.missing = 1;
     output.mean = is_gap ? 3.9e-4 : 470.0;
     output.deviation = is_gap ? 5e-6 : 12.0;

@@ -27,7 +27,7 @@ StabilityResult stability_with_a_launch() {
   result.study = bare_study(traits_of("stability"), {2e-4});
   StressCaseRow row;
   row.answer.verdicts.resize(1);
-  row.answer.heated_temperature = {300.0};
+  row.answer.verdicts.front().heated = 300.0;
   result.rows = {row};
   return result;
 }

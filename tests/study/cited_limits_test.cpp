@@ -1,7 +1,6 @@
 // [[cited_limit]]: how it is read, and which case stands beside it.
-#include "launchsafe/study/cited_limits.hpp"
-
 #include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/study_cases.hpp"
 #include "study/read_error.hpp"
 
 #include <gtest/gtest.h>

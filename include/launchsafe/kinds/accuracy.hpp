@@ -2,18 +2,8 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/report.hpp"
-#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/study_file.hpp"
-
-#include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
 

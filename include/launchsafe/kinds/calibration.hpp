@@ -2,16 +2,9 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/report.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_file.hpp"
 #include "launchsafe/surface/skin.hpp"
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -84,17 +77,8 @@ struct FiringResult {
   bool any_indeterminate() const { return !record; }
 };
 
-/// The keys of such a study, and its table.
-std::vector<scene::Key<study::Study>> firing_keys();
-StudyTable firing_table();
-/// Reads [[firing]], where there are any.
-study::Fault read_firings(const toml::table& root, study::StudyFile& study);
-/// Whether a study has firings.
-bool has_firings(const study::Study& study);
 /// Of every firing, the place of its pressure and temperature among those that differ, in their order.
 std::vector<std::size_t> conditions_of(const std::vector<study::Firing>& firings);
-/// A case for every pressure and temperature that was fired, in that order.
-study::Fault make_firing_cases(study::StudyFile& study);
 
 /// One mechanical run a pressure and temperature; then boundaries of ignition on their traces, and the
 /// posterior.

@@ -7,10 +7,6 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::kinds {
 
 /// The scene as it is, which comes first, or with the keys of one of its variants.

@@ -3,11 +3,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
-
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
 

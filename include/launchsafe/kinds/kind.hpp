@@ -2,19 +2,9 @@
 #pragma once
 
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_cases.hpp"
-
-#include <any>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::kinds {
 

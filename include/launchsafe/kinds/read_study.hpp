@@ -3,11 +3,8 @@
 
 #include "launchsafe/study/study_file.hpp"
 
-#include <cstddef>
 #include <filesystem>
-#include <optional>
 #include <string_view>
-#include <vector>
 
 namespace launchsafe::kinds {
 

@@ -2,19 +2,9 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/math/polynomial_chaos.hpp"
 #include "launchsafe/math/sensitivity.hpp"
-#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_file.hpp"
 #include "launchsafe/study/surrogate.hpp"
-
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -71,7 +61,7 @@ enum class SensitivityOutput {
 /// What an output depends on.
 struct OutputSensitivity {
   SensitivityOutput output;
-  /// Temperature and margin are those of a skin that does not react, CaseAnswer::heated_temperature: so where
+  /// Temperature and margin are those of a skin that does not react, GapVerdict::heated: so where
   /// any evaluation ignites, since T max then jumps to that of the burning skin. Kinetics do not show in
   /// them.
   bool inert = false;

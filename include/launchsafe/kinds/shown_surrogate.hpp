@@ -5,8 +5,6 @@
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
-#include <string>
-
 namespace launchsafe::kinds {
 
 /// "T max at a gap of 0.2 mm, without reaction" in K, or "critical gap" in cm.

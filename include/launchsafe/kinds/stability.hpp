@@ -2,15 +2,7 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_file.hpp"
-
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::kinds {
 
@@ -82,7 +74,7 @@ struct StressCaseRow {
   StressCase asked;
   study::CaseAnswer answer;               ///< of a case that runs, or why it was not computed
   double end_time = study::not_a_number;  ///< s, reached
-  /// By gap, K; none without a safe computation: CaseAnswer::heated_temperature of that, and how far the case
+  /// By gap, K; none without a safe computation: GapVerdict::heated of that, and how far the case
   /// is off it, both up to ignition: beyond it they say the same.
   std::vector<double> heated_against, deviations;
   Finding finding;

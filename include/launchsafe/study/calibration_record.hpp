@@ -1,16 +1,10 @@
 // What a calibration found, on published results or on firings, kept for the studies that use its constants.
 #pragma once
 
-#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/record_domain.hpp"
 #include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/study_file.hpp"
 
 #include <array>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

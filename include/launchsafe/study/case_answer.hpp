@@ -4,41 +4,10 @@
 // what is stored.
 #pragma once
 
-#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
-#include "launchsafe/study/options.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::study {
-
-/// How the mechanical run behind an answer went.
-struct RunSummary {
-  run::RunStatus status = run::RunStatus::completed;
-  std::uint64_t steps = 0, particles = 0;
-  double energy_drift = not_a_number;  ///< largest over the run, share of the largest energy
-  run::LimiterCounts limiters;
-};
-
-/// One case with its gaps. A case that failed has indeterminate verdicts, no numbers, and the reason.
-struct CaseAnswer {
-  RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
-  std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
-  RunSummary run;                        ///< of a case that ran
-  std::vector<std::string> runs;  ///< hashes of the runs that it was drawn from; while it is stored or read
-  std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
-  double friction_rise = not_a_number;         ///< K, likewise
-  CriticalGap critical;                        ///< at the observation points
-  std::vector<GapVerdict> verdicts;            ///< in the order of the study's gaps
-  std::vector<ClosingAnswer> closing;          ///< as CaseOutcome has them; not stored
-  std::vector<double>
-      heated_temperature;  ///< K, of every gap: T max at the observation points of a skin that
-                           ///< air and friction heat and that neither reacts nor is triggered
-  bool completed() const { return failure.empty(); }
-};
 
 /// The answer to a case that was concluded: all of it but its histories.
 CaseAnswer answer_of(const CaseOutcome& outcome);

@@ -4,14 +4,7 @@
 
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
-#include "launchsafe/study/record_domain.hpp"
 #include "launchsafe/study/study_cases.hpp"
-
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -5,11 +5,6 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::study {
 
 /// One mechanical run, with the cases of the study that share it, or its run with a raised load.

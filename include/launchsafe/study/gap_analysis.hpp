@@ -3,12 +3,7 @@
 #pragma once
 
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/surface/skin.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
-
-#include <memory>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -3,16 +3,10 @@
 
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/math/statistics.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 #include "launchsafe/study/verdict.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
-
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 
@@ -168,13 +162,33 @@ struct OtherAnswer {
   CriticalGap critical;                     ///< without an uncertainty
 };
 
-/// One mechanical case with its gaps.
-struct CaseOutcome {
-  StudyCase input;
-  run::CaseResult result;                ///< mechanics, and a skin history for every gap
-  RunOutcome outcome = RunOutcome::ran;  ///< of the mechanics, or of the run for want of which there are none
+/// How the mechanical run behind an answer went.
+struct RunSummary {
+  run::RunStatus status = run::RunStatus::completed;
+  std::uint64_t steps = 0, particles = 0;
+  double energy_drift = not_a_number;  ///< largest over the run, share of the largest energy
+  run::LimiterCounts limiters;
+};
+
+/// One case with its gaps. A case that failed has indeterminate verdicts, no numbers, and the reason.
+struct CaseAnswer {
+  RunOutcome outcome = RunOutcome::ran;  ///< of the run it rests on, or that it lacks; not stored
   std::string failure;                   ///< why every verdict is indeterminate; empty for a completed run
-  std::string hash;                      ///< of the mechanical run: the name of its file in the store
+  RunSummary run;                        ///< of a case that ran
+  std::vector<std::string> runs;  ///< hashes of the runs that it was drawn from; while it is stored or read
+  std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
+  double friction_rise = not_a_number;         ///< K, likewise
+  CriticalGap critical;                        ///< at the observation points
+  std::vector<GapVerdict> verdicts;    ///< in the order of the study's gaps; of one that failed not heated
+  std::vector<ClosingAnswer> closing;  ///< with a gap that closes, where the case has one; not stored
+  bool completed() const { return failure.empty(); }
+};
+
+/// One mechanical case with its gaps: the answer, once it is concluded (`answer_of`), and what it came from.
+struct CaseOutcome : CaseAnswer {
+  StudyCase input;
+  run::CaseResult result;  ///< mechanics, and a skin history for every gap
+  std::string hash;        ///< of the mechanical run: the name of its file in the store
   /// The mechanics under the raised load that shows what the inputs do, where the study states no uncertainty
   /// of them; empty for the others.
   std::optional<run::MechanicsResult> raised;
@@ -182,17 +196,13 @@ struct CaseOutcome {
   /// K, T max without a gap of a skin that never reacts; NaN where nothing was computed.
   double heated_without_gap = not_a_number;
   double heat_factor = 1.0;  ///< by what firings leave open of the constants; 1 where none calibrated
-  CriticalGap critical;      ///< by the hottest station
   std::vector<Confirmation> confirmations;
-  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps
-  std::optional<GapFit> fit;         ///< over the rows that do not ignite
+  std::optional<GapFit> fit;  ///< over the rows that do not ignite
   /// With air as a film that conserves energy, an optimistic bound: of a completed run with the reservoir.
   std::optional<OtherAnswer> film;
-  std::vector<ClosingAnswer> closing;  ///< with a gap that closes, where the case has one
   /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
   /// complete.
   std::optional<OtherAnswer> longer_launch;
-  bool completed() const { return failure.empty(); }
 };
 
 }  // namespace launchsafe::study

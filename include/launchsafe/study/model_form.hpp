@@ -7,8 +7,6 @@
 #include "launchsafe/study/record_domain.hpp"
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -6,12 +6,8 @@
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/scheduler.hpp"
 
-#include <atomic>
-#include <functional>
 #include <limits>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -146,7 +146,7 @@ void RecordObject::list(const std::string& key, std::vector<Part>& parts, std::s
 /// A kind of record.
 struct RecordFormat {
   const char *name, *file, *study;  ///< format and version; what its file is called; which study writes it
-  std::array<const char*, 2> head;  ///< "format" and "digest", as messages list them
+  std::array<const char*, 2> head{"digest", "format"};  ///< as messages list them
 };
 
 template <class Record, class Describe>

@@ -5,13 +5,6 @@
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 
-#include <chrono>
-#include <cstddef>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::study {
 
 /// One run: the mechanics of a scene, or, with a gap, a coupled run of that gap (run::run_with_skin).

@@ -4,20 +4,12 @@
 
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/model_form.hpp"
-#include "launchsafe/study/record_domain.hpp"
 
 #include <any>
 #include <cstddef>
-#include <functional>
-#include <limits>
 #include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -3,16 +3,9 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/model_form.hpp"
-#include "launchsafe/study/record_domain.hpp"
 
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 
@@ -50,7 +43,8 @@ struct CaseStatements {
   // The rest is empty for a study without verdicts.
   RecordDistance distance;                      ///< to the calibration
   std::vector<scene::Implausible> implausible;  ///< of the case and of what its study states, accepted or not
-  std::vector<std::string> extrapolated;  ///< what lies beyond the calibration's domain at any gap, by name
+  std::vector<std::string> extrapolated;  ///< what lies beyond the calibration's domain at any gap, by name:
+                                          ///< first what is foreign to it
   /// m, up to which a gap lies within it.
   double calibrated_gap = std::numeric_limits<double>::infinity();
   bool calibrated_by_firings = false;  ///< so that nothing is known of a gap beyond
