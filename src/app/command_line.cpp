@@ -245,6 +245,7 @@ void add_report(CLI::App& app, CommandLine& line) {
   add_optional(command, "--date", report.document.date, "TEXT", "Its date, as it is to be printed");
   add_optional(command, "--approvals", report.document.approvals, "NAME...",
                "Who approves it: a line each for name, date and signature");
+  command.add_flag("--pdf", report.pdf, "Also report.pdf, by Chromium or Chrome where one is there");
   add_place(command, "--templates", report.templates, "DIR", "folder",
             "Folder of templates in place of those built in: letterhead, language");
 }

@@ -122,6 +122,7 @@ struct ReportArguments {
   std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
   std::optional<std::string> criterion, criterion_source;
   report::DocumentHead document;
+  bool pdf = false;  ///< also as PDF, by a browser
 };
 ExitCode perform(const ReportArguments& arguments, Console& console);
 

@@ -6,6 +6,7 @@
 #include "signals.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <utility>
 
@@ -21,6 +22,23 @@ store::StudyRecord record_of(const report::SafetyEvidence& evidence, const Repor
   for (const report::StudyEvidence& study : evidence.studies)
     input += fmt::format("{} {}\n", study.record.manifest.input_sha256, study.title);
   return {.manifest = store::make_manifest(input, 1)};
+}
+
+/// Prints the page; why not, where no browser does.
+std::string print_page(const std::filesystem::path& folder) {
+  const std::filesystem::path place = std::filesystem::absolute(folder);
+  std::vector<std::string> words{"--headless", "--disable-gpu", "--no-pdf-header-footer",
+                                 "--print-to-pdf=" + (place / "report.pdf").string()};
+  // Which browsers want of root; the page is our own, without scripts, and fetches nothing.
+  if (::geteuid() == 0) words.emplace_back("--no-sandbox");
+  words.push_back((place / "report.html").string());
+  std::string why;
+  for (const char* browser : {"chromium", "google-chrome"}) {
+    const auto run = store::run_program(browser, words, "", {.stop = &stop_requested()});
+    if (run && run->succeeded && std::filesystem::exists(place / "report.pdf")) return {};
+    if (why.empty()) why = run ? fmt::format("{} failed", browser) : run.error().message;
+  }
+  return "no report.pdf: " + why;
 }
 
 /// Whether a study has its report there.
@@ -61,6 +79,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   if (!remarks) return console.end_with(remarks.error());
   for (const auto* each : {&*remarks, &rendered->remarks})
     for (const std::string& remark : *each) console.remark(remark);
+  if (const std::string fault = arguments.pdf ? print_page(arguments.output) : ""; !fault.empty())
+    console.remark(fault);
   const std::vector<std::string> places = places_of(arguments.output, files);
   console.print_text(fmt::format("{}\n", fmt::join(places, "\n")));
   console.print_json({{"files", places}, {"remarks", rendered->remarks}});

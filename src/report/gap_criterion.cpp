@@ -28,6 +28,7 @@ struct Measure {
 };
 constexpr Measure measures[] = {
     {"T max", "K", {&JudgedGap::temperature, nullptr, 1.0, true}},
+    {"probability", "", {&JudgedGap::probability, nullptr, 1.0, true}},
     {"margin", "K", {&JudgedGap::margin}},
     {"margin", "uncertainty", {&JudgedGap::margin, &JudgedGap::uncertainty}},
     {"margin", "uncertainties", {&JudgedGap::margin, &JudgedGap::uncertainty}},
@@ -38,7 +39,7 @@ constexpr Measure measures[] = {
 
 /// "margin >= 2 uncertainty", or without blanks. One uncertainty is part of SAFE already.
 std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
-  static const std::regex form(R"(([a-zA-Z ]*[a-zA-Z]) ?(<=|>=) ?([0-9.eE+-]*[0-9.]) ?([a-zA-Z]+))");
+  static const std::regex form(R"(([a-zA-Z ]*[a-zA-Z]) ?(<=|>=) ?([0-9.eE+-]*[0-9.]) ?([a-zA-Z]*))");
   std::smatch parts;
   if (!std::regex_match(text, parts, form)) return std::nullopt;
   std::istringstream stream(parts[3]);
@@ -47,7 +48,8 @@ std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
   if (!(stream >> limit) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
   for (const Measure& each : measures)
     if (parts[1] == each.word && parts[2] == (each.one.at_most ? "<=" : ">=") && parts[4] == each.unit &&
-        std::isfinite(limit) && (each.one.unit != nullptr ? limit >= 1.0 : limit > 0.0))
+        std::isfinite(limit) && (each.one.unit != nullptr ? limit >= 1.0 : limit > 0.0) &&
+        (*each.unit != '\0' || limit < 1.0))
       return GapCriterion::Condition{each.one.of, each.one.unit, each.one.limit * limit, each.one.at_most};
   return std::nullopt;
 }
@@ -80,7 +82,8 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
     if (!condition)
       return fault_of("--criterion", fmt::format("\"{}\"", text),
                       "\"margin >= N uncertainty\", \"margin >= N K\", \"T max <= N K\", \"distance >= N "
-                      "uncertainty\" or \"distance >= N cm\", several with \"and\" between them");
+                      "uncertainty\", \"distance >= N cm\" or \"probability <= N\" below 1, several with "
+                      "\"and\" between them");
     criterion.conditions.push_back(*condition);
     begin = end + between.size();
   }

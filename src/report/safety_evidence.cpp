@@ -91,6 +91,10 @@ Tells told_by(const StudyEvidence& study) {
   return first_has("cases", "variant") ? Tells::models : Tells::nothing;
 }
 
+bool closes(const StudyEvidence& study) {
+  return study.scene.scene.surface.model == scene::GapModel::closing;
+}
+
 /// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
 bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical) {
   constexpr double slack = 1e-6;  // K
@@ -98,8 +102,7 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
                at_least = number_of(critical, "critical_gap_at_least_cm");
   if (!(margin > 0.0)) return false;
   // Of many cases whose gaps close the worst corner was not computed.
-  if (study.tells == Tells::sweep && study.scene.scene.surface.model == scene::GapModel::closing)
-    return false;
+  if (study.tells == Tells::sweep && closes(study)) return false;
   for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
     if (!text_of(row, fault).empty()) return false;
   // Another ignition temperature than the scene's may be what a sweep is over.
@@ -177,6 +180,16 @@ bool is_of_shell(const std::string& key) {
     return false;
   return key == scene::foreign_shell || key == "symmetry" || key.starts_with("steel.") ||
          key.starts_with("charge.") || key.starts_with("elastic.") || key.starts_with("material.");
+}
+
+/// A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
+void tell_closing(std::vector<StudyEvidence>& studies) {
+  const auto is_reservoir = [](const StudyEvidence& study) {
+    return study.tells == Tells::launch && !closes(study);
+  };
+  if (std::ranges::none_of(studies, is_reservoir)) return;
+  for (StudyEvidence& study : studies)
+    if (study.tells == Tells::launch && closes(study)) study.tells = Tells::closing;
 }
 
 /// One study of a kind, and all of one shell.
@@ -407,6 +420,7 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesy
     if (!study) return study.error();
     evidence.studies.push_back(std::move(*study));
   }
+  safety::tell_closing(evidence.studies);
   if (auto error = safety::compare_studies(evidence)) return *error;
   if (auto error = safety::check_agreement(evidence)) return *error;
   if (auto error = safety::read_stored_runs(evidence)) return *error;

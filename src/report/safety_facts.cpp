@@ -98,6 +98,17 @@ bool is_confirmed(const CaseEvidence& judged) {
   return expected.size() == 2;
 }
 
+/// Upper end of the probability that a gap (cm) ignites, by the launches that the sensitivity study drew at
+/// one at least as wide; nothing of another launch, or where the spread of the main study's inputs is
+/// assumed.
+double most_probable(double gap, const CaseEvidence& judged, const StudyEvidence* drawn) {
+  if (drawn == nullptr || !is_of_same_launch(*drawn) || !judged.is_own() ||
+      found_in(judged.study->study, "assumed").contains("input_uncertainty") ||
+      !(gap <= number_of(drawn->study, "gap_cm")))
+    return study::not_a_number;
+  return number_of(found_in(drawn->study, "ignition"), "probability_to");
+}
+
 JudgedGap gap_of(const CaseEvidence& judged, const Row& verdict) {
   JudgedGap gap{.gap = number_of(verdict, "gap_cm"),
                 .safe = text_of(verdict, "verdict") == "SAFE",
@@ -113,11 +124,15 @@ JudgedGap gap_of(const CaseEvidence& judged, const Row& verdict) {
 
 /// cm: what a rule recommends over all cases, the smallest of what it allows in each. Nothing where one
 /// allows none.
-Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& criterion) {
+Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& criterion,
+                   const StudyEvidence* drawn) {
   Row smallest;
   for (const CaseEvidence& each : cases) {
     std::vector<JudgedGap> gaps;
-    for (const Row* row : each.verdicts) gaps.push_back(gap_of(each, *row));
+    for (const Row* row : each.verdicts) {
+      gaps.push_back(gap_of(each, *row));
+      gaps.back().probability = most_probable(gaps.back().gap, each, drawn);
+    }
     const std::size_t row = largest_gap_under(criterion, gaps);
     if (row == gaps.size()) return {};
     if (smallest.is_null() || gaps[row].gap < smallest.get<double>()) smallest = gaps[row].gap;
@@ -199,13 +214,13 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
 
 /// What the study answers over all cases, and what a criterion recommends.
 Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
-              const std::optional<GapCriterion>& criterion) {
+              const std::optional<GapCriterion>& criterion, const StudyEvidence* drawn) {
   Row answer{{"study", study.label},
              {"finished", study.finished()},
              {"criterion", criterion ? Row(criterion->text) : Row()},
              {"criterion_source", criterion ? Row(criterion->source) : Row()},
-             {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion) : Row()},
-             {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{})},
+             {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
+             {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
              {"cases", Row::array()}};
   for (const CaseEvidence& each : cases) answer["cases"].push_back(told_case(each));
   return answer;
@@ -277,6 +292,7 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   facts["main"] = tables_of(main);
   for (const StudyEvidence& study : evidence.studies) facts["studies"].push_back(about(study, main));
   for (const auto& [name, tells] : {std::pair{"launch", Tells::launch},
+                                    {"closing", Tells::closing},
                                     {"sweep", Tells::sweep},
                                     {"models", Tells::models},
                                     {"accuracy", Tells::accuracy},
@@ -284,12 +300,13 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
                                     {"stability", Tells::stability}}) {
     const StudyEvidence* study = evidence.find(tells);
     facts[name] = study != nullptr ? tables_of(*study) : Row();
-    if (study == nullptr) facts["missing"] = true;
+    if (study == nullptr && tells != Tells::closing) facts["missing"] = true;
   }
   facts["scene"] = scene_facts(main, all);
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion);
+  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion,
+                              evidence.find(Tells::sensitivity));
   facts["sweeps"] = main.tells == Tells::sweep;
   std::set<std::string> models;  // under which ignition is not excluded
   for (const Row& row : main.rows("verdicts"))

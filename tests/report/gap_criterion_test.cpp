@@ -45,6 +45,14 @@ TEST(GapCriterion, MayBeOfTheTemperatureAndIsReadWithBlanksOrWithout) {
   EXPECT_EQ(largest_under("T max <= 450 K"), -1.0) << "no temperature, no gap";
 }
 
+TEST(GapCriterion, MayBeOfTheProbabilityWhereOneIsKnown) {
+  std::vector<JudgedGap> table = main_job;
+  for (JudgedGap& row : table) row.probability = row.gap > 0.015 ? std::nan("") : 0.0377;
+  EXPECT_EQ(largest_under("probability <= 0.05", table), 0.01);
+  EXPECT_EQ(largest_under("probability<=1e-4", table), -1.0);
+  EXPECT_EQ(largest_under("probability <= 0.05"), -1.0) << "none known";
+}
+
 TEST(GapCriterion, SafeIsAskedForAsWell) {
   EXPECT_EQ(largest_under("margin >= 1 K"), 0.02);  // 0.03 cm has 26 K and is INDETERMINATE
 }
@@ -78,6 +86,10 @@ TEST(GapCriterion, AnythingElseIsRefused) {
                            "margin >= nan K",
                            "margin >= inf K",
                            "margin >= 1e400 K",
+                           "probability <= 1",
+                           "probability <= 5 %",
+                           "probability >= 0.1",
+                           "margin >= 5",
                            "margin >= 0x10 K",
                            "margin >= 2",
                            "margin >= two K",

@@ -247,6 +247,32 @@ TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
   EXPECT_FALSE(has(one, "the spread of the inputs"));
 }
 
+// Issue 35: the upper bound of 95 % counts, and assumed spreads show nothing.
+TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirGap) {
+  const path study = copy_of("critical_gap_155mm");
+  const auto recommended = [&](const std::string& text) {
+    const auto criterion = parse_criterion(text, "works standard 12");
+    return nlohmann::json::parse(
+        file_of({study, shipped("sensitivity")}, "report.json", *criterion))["answer"]["recommended_gap_cm"];
+  };
+  EXPECT_TRUE(recommended("probability <= 0.05").is_null()) << "the spread of the inputs is assumed";
+  change(study, [](auto& results) { results["assumed"].erase("input_uncertainty"); });
+  // None of 96 launches ignites at 0.02 cm: 0 to 3.77 %.
+  EXPECT_EQ(recommended("probability <= 0.05"), 0.02);
+  EXPECT_TRUE(recommended("probability <= 0.01").is_null());
+}
+
+TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOtherwise) {
+  const path closing = shipped("closing_gap_155mm");
+  const std::string page = file_of({shipped("critical_gap_155mm"), closing}, "report.md");
+  EXPECT_TRUE(
+      has(page, "closing, worst corner): ignition at 0.00125 cm"));
+  EXPECT_TRUE(has(page, "**Both models of the gap"));
+  EXPECT_TRUE(has(page, "is 0.02 cm, at 300 K before launch."))
+      << "A is the main study, whichever comes first";
+  EXPECT_TRUE(has(file_of({closing}, "report.md"), "No computed gap has the verdict SAFE"));
+}
+
 /// Sentences are taken from lists, whatever parentheses and words a reason has.
 TEST_F(SafetyReport, AcceptancesAndExtrapolationsStandOnPageOneWhateverTheReasonsSay) {
   const path study = copy_of("critical_gap_155mm");

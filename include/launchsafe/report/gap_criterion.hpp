@@ -18,6 +18,8 @@ struct JudgedGap {
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< cm, to the critical gap; NaN without one
   double distance_uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< cm, of the critical gap
   double temperature = std::numeric_limits<double>::quiet_NaN();           ///< K, T max
+  /// Upper end, of 95 %, of the probability that it ignites; NaN where nothing shows it.
+  double probability = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Conditions that a gap must meet besides the verdict SAFE.
@@ -36,9 +38,9 @@ struct GapCriterion {
 };
 
 /// Reads "T max <= 450 K", "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1
-/// uncertainty", or several of them with "and" between, with blanks or without. Margins are in K, distances
-/// are those to the critical gap in cm (or mm). Numbers must be positive; one uncertainty is part of SAFE
-/// already, so fewer are refused. Errors: any other text, no source.
+/// uncertainty", "probability <= 0.05", or several of them with "and" between, with blanks or without.
+/// Margins are in K, distances are those to the critical gap in cm (or mm). Numbers must be positive; one
+/// uncertainty is part of SAFE already, so fewer are refused. Errors: any other text, no source.
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
 
 /// The place of the largest computed gap that meets the criterion together with every smaller computed one;

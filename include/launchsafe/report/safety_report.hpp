@@ -18,8 +18,9 @@
 namespace launchsafe::report {
 
 /// What a finished study tells, by the tables that it has: verdicts of one launch or of a few cases, verdicts
-/// over axes with several values, ...
-enum class Tells { nothing, launch, sweep, models, accuracy, sensitivity, stability };
+/// over axes with several values, ... Closing: what a gap does that closes, beside a launch whose air is a
+/// reservoir.
+enum class Tells { nothing, launch, closing, sweep, models, accuracy, sensitivity, stability };
 
 /// One study.
 struct StudyEvidence {
