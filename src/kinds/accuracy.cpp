@@ -141,13 +141,6 @@ std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
   return inert;
 }
 
-/// Whether a case differs from the study's scene in more than a setting.
-bool is_other_model(const scene::Scene& scene, const scene::Scene& own) {
-  return std::ranges::any_of(study::differences(scene, own), [](const study::Difference& each) {
-    return !study::belongs_to_setting(each.key);
-  });
-}
-
 /// Which row is what.
 void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
   const study::StudyFile& study = variant.study;
@@ -155,7 +148,10 @@ void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     AccuracyRow& row = variant.rows[i];
     row.setting.reference = i < meshes;
-    row.other_model = is_other_model(study.cases[i].scene.scene, study.scene.scene);
+    // Where it differs from the study's scene in more than a setting.
+    row.other_model = std::ranges::any_of(
+        study::differences(study.cases[i].scene.scene, study.scene.scene),
+        [](const study::Difference& each) { return !study::belongs_to_setting(each.key); });
     row.baseline = !row.other_model && study::same_setting(row.setting.setting, own);
   }
 }

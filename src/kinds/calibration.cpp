@@ -125,15 +125,6 @@ double change_of(const CalibrationResult& result, FrictionClosure closure, const
   return not_a_number;
 }
 
-/// The mesh that the scene's constants belong to: its own where it was run, else the finest.
-double recommended_mesh(const CalibrationResult& result) {
-  const double own = result.study.scene.scene.numerics.cell_size;
-  for (const CalibrationRun& run : result.runs) {
-    if (run.input.cell_size == own) return own;
-  }
-  return mesh_range(result).first;
-}
-
 /// K. Closures whose misfits differ by less are equally good: the misfits themselves are of tens of
 /// kelvin.
 constexpr double distinguishable_rms = 0.5;
@@ -158,7 +149,11 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
 /// What the misfits and the meshes say of the two closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
-  const double finest = mesh_range(result).first, mesh = recommended_mesh(result);
+  const double finest = mesh_range(result).first, own = result.study.scene.scene.numerics.cell_size;
+  // The mesh that the scene's constants belong to: its own where it was run, else the finest.
+  const bool has_own = std::ranges::any_of(
+      result.runs, [own](const CalibrationRun& run) { return run.input.cell_size == own; });
+  const double mesh = has_own ? own : finest;
   if (result.load) return recommend_own(result, kinetics, mesh);
   const auto row_of_closure = [&](FrictionClosure closure) {
     return &result.rows[row_place(result, finest, closure, kinetics)];

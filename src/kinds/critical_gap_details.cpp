@@ -296,12 +296,6 @@ Table run_table(const CriticalGapResult& result) {
   return report::run_table(runs);
 }
 
-Table gap_share_table(const CriticalGapResult& result) {
-  std::vector<report::NamedGap> cases;
-  for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
-  return report::gap_share_table(cases);
-}
-
 bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
   return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
          row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
@@ -368,6 +362,8 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
     report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
     report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
+  std::vector<report::NamedGap> cases;
+  for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
   for (ReportTable table :
        {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
         ReportTable{other_table(result, "In a barrel without end", longer_launch_quantities(),
@@ -377,7 +373,7 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
                                 "critical_gap.note.air_models"),
                     "", "air_models"},
         ReportTable{air_energy_table(result), "", "air_energy"},
-        ReportTable{gap_share_table(result), "", "gap_shares", Shown::page},
+        ReportTable{report::gap_share_table(cases), "", "gap_shares", Shown::page},
         ReportTable{fit_table(result), "", "fit"},
         ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
         ReportTable{curve_table(result), "", "fit_curves", Shown::page}})

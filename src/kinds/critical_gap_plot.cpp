@@ -58,18 +58,13 @@ Series ignited_series(const CaseOutcome& outcome) {
   return series;
 }
 
-Series fitted_line(const study::GapFit& fit, const std::string& label) {
-  Series line{label, {}, {}, Style::line};
-  for (const double gap : fit.gaps) {
-    line.add(shown_gap(gap), fit.ordinary.intercept + fit.ordinary.slope * shown_gap(gap));
-  }
-  return line;
-}
-
 void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, Plot& plot) {
   if (!outcome.fit) return;
-  plot.series.push_back(fitted_line(*outcome.fit, label));
-  plot.series.back().colour = colour;
+  Series& line = plot.series.emplace_back(Series{label, {}, {}, Style::line});
+  line.colour = colour;
+  const study::Line& fitted = outcome.fit->ordinary;
+  for (const double gap : outcome.fit->gaps)
+    line.add(shown_gap(gap), fitted.intercept + fitted.slope * shown_gap(gap));
 }
 
 /// The only case, in a colour for each verdict.
@@ -120,13 +115,6 @@ std::string finding_of(const CaseOutcome& outcome) {
   return fmt::format("Critical gap {}; {}", report::reads_as(outcome.critical),
                      std::isfinite(safe) ? "of the computed gaps SAFE up to " + report::centimetres(safe)
                                          : "none of the computed gaps is SAFE");
-}
-
-/// One entry of the legend for the ignitions of all cases.
-void name_ignitions(Plot& plot) {
-  const auto first = std::ranges::find_if(
-      plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
-  if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
 }
 
 /// Where no case has the launch that was published there is nothing to compare; under constants that miss the
@@ -274,7 +262,10 @@ Plot temperature_plot(const CriticalGapResult& result) {
   plot.height = 600 + 14 * static_cast<int>(result.details.size());
   for (std::size_t i = 0; i < result.details.size(); ++i)
     only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
-  name_ignitions(plot);
+  // One entry of the legend for the ignitions of all cases.
+  const auto first = std::ranges::find_if(
+      plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
+  if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
   add_published(result, plot);
   if (only) add_critical_gap(result.details.front(), plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;

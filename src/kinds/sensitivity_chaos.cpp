@@ -52,13 +52,6 @@ SurrogateOutput unfitted(const SensitivityResult& result, const OutputSensitivit
   return known;
 }
 
-std::vector<std::size_t> begins_of(const Study& study) {
-  std::vector<std::size_t> begins;
-  for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
-  begins.push_back(study.axes.size());
-  return begins;
-}
-
 /// How many axes each input has.
 std::vector<std::size_t> columns_of(const Study& study) {
   std::vector<std::size_t> columns;
@@ -185,10 +178,13 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
   if (!output.reason.empty()) return;
   const math::SobolOptions options{
       .level = own.confidence, .resamples = static_cast<std::size_t>(own.resamples), .seed = own.seed};
+  std::vector<std::size_t> begins;
+  for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
+  begins.push_back(study.axes.size());
   const math::FiniteRows rows = record.fitted_rows(fit.values);
-  output.sobol = fit.fit.by_process() ? process_indices(study, Surrogate(record, fit), options)
-                                      : math::chaos_indices(fit.fit.chaos, rows.points, rows.values,
-                                                            begins_of(study), options);
+  output.sobol = fit.fit.by_process()
+                     ? process_indices(study, Surrogate(record, fit), options)
+                     : math::chaos_indices(fit.fit.chaos, rows.points, rows.values, begins, options);
   output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)
     for (math::Estimate* estimate : {&each.first, &each.total}) {

@@ -24,11 +24,6 @@ std::string finding_text(const StressCaseRow& row) {
   return row.computed() ? row.finding.text : row.answer.failure;
 }
 
-/// The reason without the numbers behind it.
-std::string first_clause(const std::string& text) {
-  return text.substr(0, std::min(text.find(", "), text.find("; ")));
-}
-
 std::string expected_text(const StressCase& asked) {
   Sentences names;
   for (const Outcome each : asked.expected) names.push_back(to_string(each));
@@ -177,7 +172,10 @@ report::Table not_held_table(const StabilityResult& result) {
       {{quantity::case_name(), [](const StressCaseRow& row) { return row.asked.label(); }},
        {{"outcome", "outcome", keys::text(), "What became of it."}, outcome_text},
        {{"why", "why", keys::text(), "Why."},
-        [](const StressCaseRow& row) { return first_clause(finding_text(row)); }}},
+        [](const StressCaseRow& row) {  // without the numbers behind it
+          const std::string text = finding_text(row);
+          return text.substr(0, std::min(text.find(", "), text.find("; ")));
+        }}},
       rows);
 }
 

@@ -20,12 +20,6 @@ std::string margin_text(const char* relation, const Evidence& evidence) {
 /// A bound of the critical gap (m), to the digits that count.
 std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
 
-/// Whether nothing but the fault of the run is said.
-bool stands_alone(ReasonCode code) {
-  return code == ReasonCode::not_judged || code == ReasonCode::failed || code == ReasonCode::no_temperature ||
-         code == ReasonCode::validity_warning;
-}
-
 }  // namespace
 
 std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
@@ -211,7 +205,10 @@ std::string to_string(const GapReason& reason) {
 
 std::string reason_text(const Evidence& evidence, const Judgement& judgement) {
   std::string text = cause_text(evidence, judgement);
-  if (stands_alone(judgement.code)) return text;
+  // Of these nothing but the fault of the run is said.
+  using enum ReasonCode;
+  for (const ReasonCode alone : {not_judged, failed, no_temperature, validity_warning})
+    if (judgement.code == alone) return text;
   const auto add = [&text](const std::string& clause) {
     if (!clause.empty()) text += "; " + clause;
   };
