@@ -25,8 +25,8 @@ Fault read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
-  if (leaf.name == "gap.thickness") {
-    return fault_at(study, key, "gap.thickness as a setting",
+  if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling") {
+    return fault_at(study, key, leaf.name + " as a setting",
                     "numerics keys, frame, friction.closure, ...; the gaps are the study's");
   }
   auto description = scene::describe_key(study.scene, leaf.name, place);

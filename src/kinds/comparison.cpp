@@ -72,8 +72,8 @@ class VariantMaker {
     const toml::node* set = table.get("set");
     if (!set || !set->is_table()) return std::nullopt;
     for (const study::Leaf& leaf : study::leaves_as_written(*set->as_table())) {
-      if (leaf.name != "gap.thickness") continue;
-      return scene::error_at(scene::place_of(*leaf.node, study_.file), "vary.variants.set.gap.thickness",
+      if (leaf.name != "gap.thickness" && leaf.name != "gap.opens_by_cooling") continue;
+      return scene::error_at(scene::place_of(*leaf.node, study_.file), "vary.variants.set." + leaf.name,
                              "gaps of a variant", "the study's gaps, which all variants share");
     }
     return std::nullopt;

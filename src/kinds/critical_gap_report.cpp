@@ -132,6 +132,7 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
     facts["axes"].push_back(
         fmt::format("{} ({})", keys[i].heading, values_text(keys[i], study.axes[i].values)));
   facts["gaps"] = study.gaps.size();
+  facts["by_cooling"] = study.gaps_by_cooling;
   if (!study.gaps.empty()) {
     const auto [least, most] = std::ranges::minmax(study.gaps);
     facts.update({{"least_cm", shown_gap(least)}, {"most_cm", shown_gap(most)}});

@@ -49,8 +49,14 @@ Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
                                    report::verdict_quantities(study.study)});
 }
 
+/// "0.04 cm".
+std::string gap_label(const Study& study, std::size_t place) {
+  return study.gaps_by_cooling ? "the gap by cooling" : report::centimetres(study.gaps[place]);
+}
+
 /// T max at the smallest and the largest gap among those judged; at one of them where they are the same.
-Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
+Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
+  const std::vector<double>& gaps = study.gaps;
   Quantities<AnsweredCase> quantities;
   const auto [least, most] = std::ranges::minmax_element(gaps);
   for (const auto& gap : {least, most}) {
@@ -58,7 +64,7 @@ Quantities<AnsweredCase> outer_gap_quantities(const std::vector<double>& gaps) {
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
     const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
     quantities.emplace_back(
-        Column{name, "T max at " + report::centimetres(gaps[place]), fixed(1, keys::kelvin),
+        Column{name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
                "Highest temperature at that gap; of one that ignites the burning skin's."},
         [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
@@ -84,9 +90,9 @@ Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
 }
 
 /// How the run of a case went, which a study in detail has in a table of its own.
-Quantities<AnsweredCase> run_quantities(const std::vector<double>& gaps) {
+Quantities<AnsweredCase> run_quantities(const Study& study) {
   return keys::joined<AnsweredCase>(
-      {outer_gap_quantities(gaps),
+      {outer_gap_quantities(study),
        {{for_programs(quantity::status()), [](const AnsweredCase& row) { return status_of(*row.answer); }},
         {for_programs(quantity::energy_drift()), &AnsweredCase::answer, &CaseAnswer::run,
          &RunSummary::energy_drift},
@@ -127,7 +133,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
         {quantity::recorded_uncertainty(),
          [](const JudgedCase& row) { return row.answered.input().recorded_uncertainty(); }}},
        in_detail ? Quantities<JudgedCase>{}
-                 : of_part<JudgedCase>(run_quantities(study.gaps), &JudgedCase::answered),
+                 : of_part<JudgedCase>(run_quantities(study), &JudgedCase::answered),
        {{quantity::remark(), [](const JudgedCase& row) {
            const CaseAnswer& answer = *row.answered.answer;
            return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
@@ -137,14 +143,20 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
 /// SAFE, UNSAFE or INDET. by gap.
 Quantities<AnsweredCase> matrix_quantities(const Study& study) {
   Quantities<AnsweredCase> quantities = answered_axes(study);
-  for (std::size_t i = 0; i < study.gaps.size(); ++i)
-    quantities.emplace_back(Column{"gap_" + report::digits_of(study.gaps[i], quantity::gap().form) + "_cm",
-                                   report::centimetres(study.gaps[i]), text(), "The verdict at that gap."},
+  if (study.gaps_by_cooling)
+    quantities.emplace_back(quantity::gap(), [](const AnsweredCase& row) {
+      return row.answer->verdicts.empty() ? not_a_number : row.answer->verdicts.front().gap;
+    });
+  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
+    const std::string gap =
+        study.gaps_by_cooling ? "by_cooling" : report::digits_of(study.gaps[i], quantity::gap().form) + "_cm";
+    quantities.emplace_back(Column{"gap_" + gap, gap_label(study, i), text(), "The verdict at that gap."},
                             [i](const AnsweredCase& row) -> std::string {
                               if (i >= row.answer->verdicts.size()) return {};
                               const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
                               return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
                             });
+  }
   return quantities;
 }
 
@@ -286,7 +298,7 @@ std::vector<ResultTable> critical_gap_results() {
   file.study.gaps = {0.0, 0.4e-3};
   std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true, false));
   for (const auto& columns :
-       {keys::described(closing_gap_quantities()), keys::described(run_quantities(file.study.gaps))})
+       {keys::described(closing_gap_quantities()), keys::described(run_quantities(file.study))})
     cases.insert(cases.end(), columns.begin(), columns.end());
   std::vector<ResultTable> tables{
       {"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(file))},

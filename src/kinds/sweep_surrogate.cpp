@@ -201,6 +201,9 @@ std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, con
 
 Fault check_sweep_surrogate(const StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
+  if (study.study.gaps_by_cooling)
+    return fault_at(study, "surrogate", "true with gap.opens_by_cooling",
+                    "surrogate = false, or gap.thickness");
   // A fit over what the reservoir says would answer for gaps of which it is not the model.
   if (study.scene.scene.surface.model != scene::GapModel::reservoir)
     return fault_at(study, "surrogate", "true for a gap that closes",

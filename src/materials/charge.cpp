@@ -133,6 +133,12 @@ std::vector<Key<Charge>> heat_keys() {
                      "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction),
           between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out",
           Role{ActsOn::trace}),
+      usually(plausibly(number_key("thermal_expansion", Dimension::expansion, between(0, 1e-3),
+                                   Standing::assumed, "Linear thermal expansion; see gap.opens_by_cooling.",
+                                   &Charge::thermal_expansion),
+                        between(45e-6, 1e-4), "explosives that are cast or pressed have 45 to 90 µm/(m K)",
+                        Role{ActsOn::surface, Part::free}),
+              "54.6 µm/(m K), as Composition B has it"),
   };
 }
 

@@ -1,6 +1,8 @@
 // What scene files may say of steel.
 #include "launchsafe/materials/steel.hpp"
 
+#include <utility>
+
 namespace launchsafe::materials {
 using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Key, keys::Role, keys::Standing;
 
@@ -76,8 +78,13 @@ std::vector<Key<JohnsonCookParameters>> strength_keys() {
 }  // namespace
 
 std::vector<Key<Steel>> Steel::parameters() {
+  Key<Steel> expansion = plausibly(
+      number_key("steel.thermal_expansion", Dimension::expansion, between(0, 1e-3), Standing::assumed,
+                 "Linear thermal expansion; see gap.opens_by_cooling.", &Steel::thermal_expansion),
+      between(9e-6, 18e-6), "steels have 10 to 17 µm/(m K)", Role{ActsOn::surface, keys::Part::free});
   return keys::joined({keys_of_part("steel.", &Steel::eos, pressure_keys()),
-                       keys_of_part("steel.", &Steel::strength, strength_keys())});
+                       keys_of_part("steel.", &Steel::strength, strength_keys()),
+                       {usually(std::move(expansion), "11.7 µm/(m K), as low-alloy steels have it")}});
 }
 
 }  // namespace launchsafe::materials

@@ -110,6 +110,7 @@ Scene mechanical_part(const Scene& scene) {
   // The mechanics knows the time of the exit, however it was stated.
   part.load.muzzle_exit = exit_time(scene.load);
   part.load.muzzle_travel.reset();
+  part.surface.opens_by_cooling.reset();
   const Unfelt unfelt(plan, part.output.asks_for_snapshots());
   unfelt.drop(scene_keys(), part);
   settle_materials(part, unfelt);

@@ -121,7 +121,9 @@ void take_over(NamedMaterial& material, const NamedMaterial& from) {
 std::optional<InputError> check_complete(const NamedMaterial& material) {
   const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
   for (const LawKey& key : keys) {
-    if (material.values.contains(key.scene_key) || is_settled(material, key, keys)) continue;
+    if (material.values.contains(key.scene_key) || is_settled(material, key, keys) ||
+        !key.description.usual.empty())
+      continue;
     return error_at(material.place, "material." + material.name + "." + key.description.name,
                     "nothing; the key is missing",
                     fmt::format("{}; or like = \"NAME\", a material whose value stands for it",

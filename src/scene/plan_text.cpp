@@ -20,16 +20,17 @@ std::string row(std::string_view name, const std::string& value) {
   return fmt::format("  {:<22}{}\n", name, value);
 }
 
-/// A charge that shrank away from its base as it cooled, held at its nose. Linear expansion of Composition B
-/// 54.6e-6/K, of steel 11.7e-6/K [A]: of them only the difference counts, 24 µm a kelvin over 0.56 m as model
-/// section 14 gives it.
+/// A charge that shrank away from its base as it cooled, held at its nose.
 std::string cooling_text(const Scene& scene) {
-  constexpr double of_charge = 54.6e-6, of_steel = 11.7e-6;  // 1/K
   const Extent charge = charge_extent(scene);
-  return fmt::format(
-      "of Composition B in steel, held at the nose: parts from the base by {:.3g} µm a kelvin "
-      "below the temperature at which it filled the shell",
-      1e6 * (of_charge - of_steel) * (charge.x_end - charge.x_begin));
+  const double rate = opening_by_cooling(scene), length = charge.x_end - charge.x_begin;
+  std::string text =
+      fmt::format("expands by {} more than its shell and parts from the base by {:.3g} µm a kelvin below ",
+                  format_quantity(rate / length, Dimension::expansion), 1e6 * rate);
+  if (!scene.surface.opens_by_cooling) return text + "the temperature at which it filled the shell";
+  const double gap = gap_by_cooling(scene);
+  return text + fmt::format("{:.6g} K: {} at {:.6g} K", *scene.surface.opens_by_cooling,
+                            gap > 0.0 ? "a gap of " + length_text(gap) : "no gap", scene.initial_temperature);
 }
 
 std::string bodies_text(const Scene& scene) {
@@ -46,7 +47,7 @@ std::string bodies_text(const Scene& scene) {
     parts +=
         fmt::format("{}{} {:.6g}", parts.empty() ? "" : ", ", material.name, mass_of(scene, material.name));
   text += row("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
-  if (has_charge(scene) && scene.surface.model == GapModel::closing)
+  if (has_charge(scene) && (scene.surface.opens_by_cooling || scene.surface.model == GapModel::closing))
     text += row("a charge that cooled", cooling_text(scene));
   return text;
 }

@@ -75,6 +75,8 @@ std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
     return error;
   }
   settle_load(file.scene);
+  if (file.scene.surface.opens_by_cooling && !file.given.contains("gap.thickness"))
+    file.scene.surface.gaps = {gap_by_cooling(file.scene)};
   if (!file.given.contains("numerics.selective_inertia"))
     file.scene.numerics.selective_inertia = usual_selective_inertia(file.scene);
   // As a number it is part of what determines a stored launch.
@@ -347,9 +349,15 @@ std::string own_materials(const Scene& scene) {
           if (!material.title.empty())
             text += fmt::format("material.\"{}\".title = {}\n", material.name,
                                 exact_toml({.kind = KeyKind::text}, material.title));
-          for (const Key<Law>& key : Law::parameters())
-            text += fmt::format("material.\"{}\".{} = {}\n", material.name,
-                                key_in_material(Law::name, key.name), exact_toml(key, key.get(law)));
+          for (const Key<Law>& key : Law::parameters()) {
+            const std::string name = key_in_material(Law::name, key.name);
+            // It came later than what is stored, and does nothing there.
+            if (key.dimension == Dimension::expansion && !scene.surface.opens_by_cooling &&
+                source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) == nullptr)
+              continue;
+            text +=
+                fmt::format("material.\"{}\".{} = {}\n", material.name, name, exact_toml(key, key.get(law)));
+          }
         },
         material.law);
   }

@@ -89,6 +89,22 @@ bool lies_under_charge(const Scene& scene, const Body& body) {
          body.r_begin < charge.r_end;
 }
 
+double opening_by_cooling(const Scene& scene) {
+  const Extent charge = charge_extent(scene);
+  double shell = std::numeric_limits<double>::infinity();
+  for (const Body& body : scene.bodies)
+    if (!is_charge(scene, body) && body.x_begin < charge.x_end && body.x_end > charge.x_begin)
+      shell = std::min(shell, materials::thermal_expansion(law_of(scene, body)));
+  if (std::isinf(shell)) shell = 0.0;
+  return (scene.charge().thermal_expansion - shell) * (charge.x_end - charge.x_begin);
+}
+
+double gap_by_cooling(const Scene& scene, double colder) {
+  if (!scene.surface.opens_by_cooling) return 0.0;
+  const double cooled = *scene.surface.opens_by_cooling - scene.initial_temperature + colder;
+  return std::max(0.0, opening_by_cooling(scene) * cooled);
+}
+
 const Body* body_under_charge(const Scene& scene) {
   const Body* under = nullptr;
   for (const Body& body : scene.bodies)

@@ -39,6 +39,9 @@ Keys keys_of_law() {
         return has_law<Law>(scene) || get(scene) != usual;
       };
   }
+  for (Key<Scene>& key : keys)
+    if (key.dimension == Dimension::expansion)
+      key.is_written = [](const Scene& scene) { return scene.surface.opens_by_cooling.has_value(); };
   keys.push_back(title_key<Law>());
   return keys;
 }

@@ -48,13 +48,28 @@ std::vector<Key<Surface>> closing_keys() {
   return keys;
 }
 
+/// Each takes the other one back: the gap is stated, or follows.
+std::vector<Key<Surface>> thickness_keys() {
+  const Role of_gap{ActsOn::surface, Part::free};
+  Key<Surface> thickness = always_plausible(
+      list_key("thickness", Dimension::length, between(0, 0.02), Standing::paper,
+               "Gaps between charge and base; all are judged on one run of the mechanics.", &Surface::gaps),
+      "each gap is judged for itself, and a larger one is hotter", of_gap);
+  thickness.overrides = {"opens_by_cooling"};
+  thickness.is_written = [](const Surface& surface) { return !surface.opens_by_cooling; };
+  Key<Surface> cooling = plausibly(
+      optional_number_key<Surface>(
+          "opens_by_cooling", Dimension::temperature, between(200, 500),
+          "Temperature at which charge and shell fitted without a gap; instead of gap.thickness, the gap is "
+          "what the charge, held at the nose, has shrunk away from the base at initial_temperature.",
+          &Surface::opens_by_cooling),
+      between(270, 400), "charges are cast or cured at 330 to 400 K and settle as they cool", of_gap);
+  cooling.overrides = {"thickness"};
+  return {thickness, cooling};
+}
+
 std::vector<Key<Surface>> gap_keys() {
   return {
-      always_plausible(list_key("thickness", Dimension::length, between(0, 0.02), Standing::paper,
-                                "Gaps between charge and base; all are judged on one run of the mechanics.",
-                                &Surface::gaps),
-                       "each gap is judged for itself, and a larger one is hotter",
-                       Role{ActsOn::surface, Part::free}),
       always_plausible(
           word_key("pressure", Standing::assumed,
                    "What compresses the air: the charge's bottom stress or the chamber.",
@@ -170,7 +185,8 @@ std::vector<Key<Surface>> station_keys() {
 
 std::vector<Key<Scene>> surface_keys() {
   using keys::in_role, keys::keys_of_part;
-  return keys::joined({keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
+  return keys::joined({keys_of_part("gap.", &Scene::surface, thickness_keys()),
+                       keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
                        keys_of_part("gap.", &Scene::surface, closing_keys()),
                        keys_of_part<Scene>(
                            "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },

@@ -10,6 +10,11 @@ namespace launchsafe::scene {
 namespace {
 
 Fault check_gaps(const SceneFile& file) {
+  const bool cooled = file.scene.surface.opens_by_cooling.has_value();
+  if (cooled && file.given.contains("gap.thickness"))
+    return fault_at(file, "gap.thickness", "it beside gap.opens_by_cooling, from which the gap follows",
+                    "one of the two");
+  const char* key = cooled ? "gap.opens_by_cooling" : "gap.thickness";
   std::vector<double> gaps = file.scene.surface.gaps;
   std::sort(gaps.begin(), gaps.end());
   const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
@@ -17,14 +22,15 @@ Fault check_gaps(const SceneFile& file) {
   if (twice != gaps.end()) {
     return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
   }
-  constexpr double largest_of_reservoir = 0.01;
-  if (!gaps.empty() && file.scene.surface.model == GapModel::reservoir &&
-      gaps.back() > largest_of_reservoir) {
-    return fault_at(file, "gap.thickness", length_text(gaps.back()),
-                    fmt::format("at most {}, or gap.model = \"closing\"", length_text(largest_of_reservoir)));
+  const bool closes = file.scene.surface.model == GapModel::closing;
+  const double largest = closes ? 0.02 : 0.01;
+  if (!gaps.empty() && gaps.back() > largest) {
+    return fault_at(
+        file, key, (cooled ? "a gap of " : "") + length_text(gaps.back()),
+        fmt::format("at most {}{}", length_text(largest), closes ? "" : ", or gap.model = \"closing\""));
   }
-  if (!gaps.empty() && gaps.back() > 0.0 && !has_charge(file.scene)) {
-    return fault_at(file, "gap.thickness",
+  if (!gaps.empty() && (gaps.back() > 0.0 || cooled) && !has_charge(file.scene)) {
+    return fault_at(file, key,
                     fmt::format("a gap of {} in a scene without a charge", length_text(gaps.back())),
                     "gaps only under a body of material \"charge\"");
   }

@@ -41,6 +41,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
       !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
     return false;
   if (!skin_keys(statements.to_be_accepted()).empty() && !has(ShareKind::accepted)) return false;
+  if (cooling_spread(input.scene.scene) > 0.0 && !has(ShareKind::cooling)) return false;
   return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
          (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}, 1.0) > 0.0)) &&
          (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
@@ -57,7 +58,8 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
   // A step may end a little beyond the duration.
   const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
   const auto is_late = [end](const Peak& peak) { return peak.time > end; };
-  if (answer.verdicts.size() != study.gaps.size()) return false;
+  const std::vector<double>& gaps = gaps_of(study, input);
+  if (answer.verdicts.size() != gaps.size()) return false;
   if (answer.critical.kind == CriticalGapKind::value &&
       answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
     return false;
@@ -70,9 +72,9 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
   if (answer.completed() && !(is_asked && std::ranges::all_of(statements.uncovered_load, has_warning) &&
                               has_all_shares(answer.critical, study, input, statements)))
     return false;
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
     const GapVerdict& row = answer.verdicts[i];
-    if (row.gap != study.gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
+    if (row.gap != gaps[i] || is_late(row.maximum) || is_late(row.early)) return false;
     // Both are finite or both are not; the subtraction is the one by which the margin came about.
     const double margin = ignition_temperature - row.maximum.temperature;
     if (row.margin != margin && (std::isfinite(row.margin) || std::isfinite(margin))) return false;

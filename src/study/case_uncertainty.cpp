@@ -110,6 +110,11 @@ scene::Scene with_raised_load(const scene::Scene& scene) {
   return raised;
 }
 
+double cooling_spread(const scene::Scene& scene) {
+  const double colder = scene::gap_by_cooling(scene, assumed_temperature_spread);
+  return (1.0 + assumed_expansion_spread) * colder - scene::gap_by_cooling(scene);
+}
+
 double heat_factor(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
                    double gap) {
   if (!study.kind.gives_verdicts || !study.calibration.firings) return 1.0;
@@ -185,13 +190,14 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   AcceptancesOfStudy all;
   // Cases that bring constants of their own are held against those, one by one.
   if (!study.study.kind.gives_verdicts || study.study.kind.own_scenes) return all;
-  const double largest = study.study.gaps.empty() ? 0.0 : *std::ranges::max_element(study.study.gaps);
   std::set<std::string> seen;
   const auto is_new = [&seen](const std::string& said) { return seen.insert(said).second; };
   for (const StudyCase& input : study.cases) {
     CaseStatements statements = statements_of(study.study, input);
     std::vector<scene::Implausible> to_be_accepted = statements.to_be_accepted();
-    if (statements.is_beyond(largest)) statements.extrapolated.emplace_back("gap");
+    const std::vector<double>& gaps = gaps_of(study.study, input);
+    if (!gaps.empty() && statements.is_beyond(std::ranges::max(gaps)))
+      statements.extrapolated.emplace_back("gap");
     for (scene::Implausible& each : to_be_accepted) {
       const std::string& value = each.accepted() ? each.accepted_value : each.value;
       if (is_new(fmt::format("{} = {} {}", each.key, value, each.accepted())))
@@ -268,7 +274,13 @@ std::string input_uncertainty_text(const Study& study) {
                 "{:.3g} % higher, by a run of its own, its pulse {:.3g} % longer, and the initial "
                 "temperature {:.3g} K higher",
                 100.0 * assumed_load_spread, 100.0 * assumed_pulse_spread, assumed_temperature_spread);
-  return spread + ". The noise of a measured curve and what smoothing took from its peak come on top.";
+  const std::string cooling =
+      study.gaps_by_cooling
+          ? fmt::format(". A gap that cooling opens is thicker by what {:.3g} K more open, and by a tenth",
+                        assumed_temperature_spread)
+          : std::string{};
+  return spread + cooling +
+         ". The noise of a measured curve and what smoothing took from its peak come on top.";
 }
 
 std::string commonest_first(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {

@@ -85,9 +85,9 @@ void join(const ClosingPoint& launch, ClosingPoint& point) {
 
 bool is_known(const ClosingPoint& point) { return point.ignited || std::isfinite(point.maximum_temperature); }
 
-/// The gaps of the study and the largest one, ascending; in detail with those of a scan between them.
-std::vector<double> scanned_gaps(const Study& study) {
-  std::vector<double> gaps = study.gaps;
+/// The gaps of a case and the largest one, ascending; in detail with those of a scan between them.
+std::vector<double> scanned_gaps(const Study& study, const StudyCase& input) {
+  std::vector<double> gaps = gaps_of(study, input);
   const int parts = study.in_detail ? scan_gaps : 1;
   for (int i = 0; i <= parts; ++i) gaps.push_back(largest_gap(study) * i / parts);
   std::sort(gaps.begin(), gaps.end());
@@ -96,14 +96,23 @@ std::vector<double> scanned_gaps(const Study& study) {
   return gaps;
 }
 
-/// The gaps to compute next, for a bound that has these points; none once its bracket is narrow enough.
-std::vector<double> wanted(const Study& study, const ClosingAnswer& answer) {
+/// A bound of a case whose gaps are sought.
+struct Search {
+  std::size_t index = 0;  ///< of the case
+  ClosingBound bound;
+  ClosingAnswer* answer = nullptr;
+  std::vector<double> scanned;  ///< m
+};
+
+/// The gaps to compute next; none once the bracket is narrow enough.
+std::vector<double> wanted(const Study& study, const Search& search) {
+  const ClosingAnswer& answer = *search.answer;
   if (std::isfinite(answer.upper))
     return answer.upper - answer.lower > study.tolerance
                ? std::vector<double>{0.5 * (answer.lower + answer.upper)}
                : std::vector<double>{};
   if (!answer.points.empty() && std::isnan(answer.upper)) return {};
-  std::vector<double> gaps = scanned_gaps(study);
+  std::vector<double> gaps = search.scanned;
   std::erase_if(gaps, [&](double gap) { return answer.at(gap) != nullptr; });
   if (!study.in_detail && gaps.size() > 1) gaps.resize(1);
   return gaps;
@@ -122,8 +131,10 @@ void narrow(ClosingAnswer& answer) {
   }
 }
 
-/// Why the worst release of a charge is not looked at; empty where it is.
-std::string bond_of(const scene::Scene& scene) {
+/// Why the worst corner of a gap is not looked at; empty where it is.
+std::string why_without_corner(const scene::Scene& scene) {
+  if (scene.surface.opens_by_cooling)
+    return "how far cooling has opened the gap is not known, and a thicker one is not looked at";
   for (const std::string& body : scene::bodies_at_the_charge(scene)) {
     const auto faces = std::ranges::find(scene.interfaces, body, &scene::Interface::body);
     if (faces == scene.interfaces.end() || faces->condition != scene::Condition::sliding)
@@ -131,13 +142,6 @@ std::string bond_of(const scene::Scene& scene) {
   }
   return {};
 }
-
-/// A bound of a case whose gaps are sought.
-struct Search {
-  std::size_t index = 0;  ///< of the case
-  ClosingBound bound;
-  ClosingAnswer* answer = nullptr;
-};
 
 /// A launch that a search waits for.
 struct Asked {
@@ -149,7 +153,7 @@ struct Asked {
 std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& searches) {
   std::vector<Asked> launches;
   for (const Search& search : searches)
-    for (const double gap : wanted(study, *search.answer))
+    for (const double gap : wanted(study, search))
       for (const ClosingTerms& terms : search.bound.terms) launches.push_back({&search, &terms, gap});
   return launches;
 }
@@ -179,8 +183,8 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
 }
 
 /// One of which nothing can be said at any gap.
-void leave_unknown(const Study& study, const Search& search) {
-  for (const double gap : scanned_gaps(study)) {
+void leave_unknown(const Search& search) {
+  for (const double gap : search.scanned) {
     ClosingPoint& point = search.answer->points.emplace_back();
     point.gap = gap;
     point.unknown_for = search.bound.unknown_for;
@@ -198,7 +202,7 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
       {"conducting", {{GapBase::conducting, own.roughness, own.release, duration}}},
       {"insulated", {{GapBase::insulated, own.roughness, own.release, duration}}}};
   if (!with_corner) return bounds;
-  ClosingBound corner{"corner", {}, bond_of(input.scene.scene)};
+  ClosingBound corner{"corner", {}, why_without_corner(input.scene.scene)};
   const double roughness = std::min(smoothest, own.roughness);
   std::vector<double> releases{0.0, own.release};
   for (const double share : release_shares) releases.push_back(time_at_share(input.scene.scene.load, share));
@@ -224,12 +228,13 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
   std::vector<std::vector<ClosingAnswer>> answers(cases.size());
   std::vector<Search> searches;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    std::vector<ClosingBound> bounds = closing_bounds(study.cases[cases[i]], study.study.in_detail);
+    const StudyCase input = study.cases[cases[i]];
+    std::vector<ClosingBound> bounds = closing_bounds(input, study.study.in_detail);
     answers[i].resize(bounds.size());
     for (std::size_t j = 0; j < bounds.size(); ++j) {
       answers[i][j].name = bounds[j].name;
-      searches.push_back({cases[i], std::move(bounds[j]), &answers[i][j]});
-      if (!searches.back().bound.unknown_for.empty()) leave_unknown(study.study, searches.back());
+      searches.push_back({cases[i], std::move(bounds[j]), &answers[i][j], scanned_gaps(study.study, input)});
+      if (!searches.back().bound.unknown_for.empty()) leave_unknown(searches.back());
     }
   }
   for (auto launches = launches_of(study.study, searches); !launches.empty();
@@ -244,7 +249,7 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
 }
 
 std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
-  const std::vector<double> scanned = scanned_gaps(study);
+  const std::vector<double> scanned = scanned_gaps(study, input);
   double widest = study.tolerance;
   for (std::size_t i = 1; i < scanned.size(); ++i) widest = std::max(widest, scanned[i] - scanned[i - 1]);
   // An odd bit of round-off is no halving.

@@ -99,7 +99,8 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const LoadCurveE
   row.uncertainty.load_curve = load_curve.in_kelvin(rises);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding =
-      friction_share(outcome) + thicker_gap_share(outcome, row, opening_at_base(outcome));
+      friction_share(outcome) +
+      thicker_gap_share(outcome, row, opening_at_base(outcome) + cooling_spread(outcome.input.scene.scene));
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurveErrors& load_curve,
@@ -254,7 +255,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const LoadCurveErrors load_curve = load_curve_errors(scene.load);
-  for (const double gap : study.gaps) {
+  for (const double gap : gaps_of(study, outcome.input)) {
     if (!has_trace(outcome)) {
       GapVerdict row;
       row.gap = gap;

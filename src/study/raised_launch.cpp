@@ -71,14 +71,18 @@ class Causes {
     const Uncertainty& u = row.uncertainty;
     if (!outcome_.raised) add_temperature(ShareKind::stated_inputs, u.input);
     if (u.load_curve > 0.0) add_load_curve();
-    add_temperature(ShareKind::computation, u.computed() - u.sliding);
-    if (u.sliding > 0.0) add_sliding();
+    // Without sliding, which may be infinite.
+    add_temperature(ShareKind::computation, u.sampling + u.integration + u.coupling + u.numerical);
+    const bool slides = friction_share(outcome_) > 0.0 || opening_at_base(outcome_) > 0.0;
+    if (u.sliding > 0.0 && slides) add_sliding();
     add_temperature(ShareKind::fit, u.fit);
     if (const auto stated =
             stated_model_form_share(study_, outcome_.input, outcome_.evidence->input.model_form))
       add_temperature(ShareKind::model_form, *stated);
     else
       add_shift(ShareKind::model_form);
+    if (const double further = cooling_spread(outcome_.input.scene.scene); further > 0.0)
+      add(ShareKind::cooling, skin_, trace_, towards() ? further : -further);
     add_accepted();
   }
 
@@ -142,9 +146,10 @@ class Causes {
   std::vector<RaisedLaunch> raised_;
 };
 
-OtherAnswer answer_on(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& whole) {
+OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface::SkinModel& model,
+                      const trace::BottomTrace& whole) {
   const trace::BottomTrace trace = trace::of_rings(whole);
-  std::vector<double> gaps = study.gaps;
+  std::vector<double> gaps = gaps_of(study, input);
   gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());
   std::vector<GapState> states(gaps.size());
@@ -194,13 +199,13 @@ void evaluate_film(const Study& study, CaseOutcome& outcome) {
     return;
   surface::SkinModel model = surface::skin_model(scene);
   model.surface.air_model = scene::AirModel::film;
-  outcome.film = answer_on(study, model, trace);
+  outcome.film = answer_on(study, outcome.input, model, trace);
 }
 
 void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
   const std::optional<scene::Scene> longer = with_longer_launch(outcome.input.scene.scene);
   if (longer && mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {
-    outcome.longer_launch = answer_on(study, surface::skin_model(*longer), mechanics.trace);
+    outcome.longer_launch = answer_on(study, outcome.input, surface::skin_model(*longer), mechanics.trace);
     return;
   }
   OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};

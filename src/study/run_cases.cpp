@@ -257,6 +257,7 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::clear_remarks(own);
   own.accepted.clear();
   own.surface.gaps = {gap};
+  own.surface.opens_by_cooling.reset();
   const bool confirms = own.surface.model == scene::GapModel::reservoir;
   if (confirms && own.surface.air_model == scene::AirModel::reservoir)
     own.coupling = scene::Coupling::two_way;

@@ -265,8 +265,21 @@ Fault check_count(const StudyFile& study, const std::string& key, double count, 
 }
 
 Fault settle_gaps(StudyFile& study) {
-  if (!study.study.kind.judges_gaps || !study.study.gaps.empty()) return std::nullopt;
+  constexpr const char* key = "gap.opens_by_cooling";
+  const KindTraits& kind = study.study.kind;
+  if (!kind.judges_gaps) return std::nullopt;
+  const auto axis = [](const Axis& each) { return each.key.name == key; };
+  study.study.gaps_by_cooling =
+      study.scene.scene.surface.opens_by_cooling || std::ranges::any_of(study.study.axes, axis);
+  if (study.study.gaps_by_cooling && (!kind.judges_closing_gaps || kind.goes_through_ignition))
+    return fault_at(study, "scene", fmt::format("{} in a study of kind {}", key, kind.name),
+                    "a study of kind critical-gap, or gap.thickness");
+  if (study.study.gaps_by_cooling && !study.study.gaps.empty())
+    return fault_at(study, "gaps", fmt::format("gaps beside {}, from which that of a case follows", key),
+                    "one of the two");
+  if (!study.study.gaps.empty()) return std::nullopt;
   study.study.gaps = study.scene.scene.surface.gaps;
+  if (study.study.gaps_by_cooling) study.study.gaps.resize(1);
   if (!study.study.gaps.empty()) return std::nullopt;
   return fault_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
 }

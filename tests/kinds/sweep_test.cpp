@@ -47,8 +47,8 @@ StudyFile sweep_of(const std::string& gaps, const Varied& varied, const std::str
       "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
       "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
       "are sought\" }, { key = \"calibration.interfaces\", value = \"base sliding, friction 0; nose sliding, "
-      "friction 0; wall sliding, friction 0\", because = \"a synthetic launch\" }]\ngaps = \"" +
-      gaps + "\"\n" + vary(varied) + constants_beside(varied) + more);
+      "friction 0; wall sliding, friction 0\", because = \"a synthetic launch\" }]\n" +
+      (gaps.empty() ? gaps : "gaps = \"" + gaps + "\"\n") + vary(varied) + constants_beside(varied) + more);
 }
 
 /// Two pressures, two crack radii, and two exchange times, which are no matter of the mechanics.
@@ -254,6 +254,65 @@ std::size_t count_of(const CriticalGapResult& result, Verdict verdict) {
     count += static_cast<std::size_t>(std::ranges::count_if(
         answer.verdicts, [verdict](const GapVerdict& row) { return row.judgement.verdict == verdict; }));
   return count;
+}
+
+const std::string cools = "gap.opens_by_cooling = \"317 K\"\n";
+
+TEST(Sweep, IsJudgedAtTheGapThatCoolingOpensInEachCase) {
+  Counting counting;
+  const StudyFile study = sweep_of("", {{"initial_temperature", "309, 315, 335 K"}}, "0.2 cm", cools);
+  const CriticalGapResult result = run_critical_gap(study, counting.options());
+  const std::vector<double> gaps{24.024e-6 * 8.0, 24.024e-6 * 2.0, 0.0};  // m
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const CaseAnswer& answer = result.answers[i];
+    ASSERT_EQ(answer.verdicts.size(), 1u);
+    EXPECT_NEAR(answer.verdicts[0].gap, gaps[i], 1e-12);
+    // By 12 K, as the initial temperature is known, and a tenth; charge and shell at 335 K stay in touch.
+    const double further = i < 2 ? 1.1 * (gaps[i] + 24.024e-6 * 12.0) - gaps[i] : 0.0;
+    const auto share = std::ranges::find(answer.critical.shares, ShareKind::cooling, &GapShare::kind);
+    ASSERT_EQ(share != answer.critical.shares.end(), i < 2);
+    if (i < 2)
+      EXPECT_NEAR(move_towards_ignition(answer.critical.lower, *share),
+                  std::min(further, answer.critical.lower), 2e-6);
+  }
+  const std::string page = to_markdown(verdict_matrix(result));
+  EXPECT_NE(page.find("0.0192"), std::string::npos) << page;
+  EXPECT_NE(answer(result).find("each judged at the gap that cooling opens"), std::string::npos);
+}
+
+TEST(Sweep, WhatCoolingMayOpenFurtherIsTakenFromWhatIsSafe) {
+  // The same gaps, stated, are SAFE.
+  Counting counting;
+  const auto judged = [&](const std::string& gaps, const std::string& more) {
+    const StudyFile study = sweep_of(gaps, {{"initial_temperature", "309 K"}}, "0.2 cm", more);
+    return run_critical_gap(study, counting.options()).answers[0].verdicts[0];
+  };
+  const GapVerdict stated = judged("0.0192192 cm", ""), cooled = judged("", cools);
+  EXPECT_EQ(stated.judgement.verdict, Verdict::safe) << reason_text(stated);
+  EXPECT_EQ(cooled.maximum.temperature, stated.maximum.temperature);
+  EXPECT_EQ(cooled.judgement.verdict, Verdict::indeterminate);
+  EXPECT_EQ(cooled.judgement.at_least, 0.0);
+  EXPECT_GT(cooled.uncertainty.total(), stated.uncertainty.total());
+}
+
+TEST(Sweep, VariesTheTemperatureFromWhichAGapOpens) {
+  const StudyFile study = sweep_of("", {{"gap.opens_by_cooling", "305, 310 K"}});
+  EXPECT_EQ(study.study.gaps.size(), 1u);
+  EXPECT_NEAR(gaps_of(study.study, study.cases[1]).front(), 24.024e-6 * 10.0, 1e-12);
+}
+
+TEST(Sweep, OfGapsThatOpenByCoolingIsRefusedWhereItCouldNotFollowThem) {
+  const auto key_of = [](const std::string& text) {
+    const auto study = parse_here(text + "[set]\n" + cools);
+    return study ? std::string() : study.error().key;
+  };
+  EXPECT_EQ(key_of(critical_text + "gaps = \"0 cm\"\n"), "gaps");
+  EXPECT_EQ(key_of("kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\n" + synthetic_statements +
+                   "vary = [{ key = \"initial_temperature\", distribution = \"uniform\", range = \"290 to "
+                   "310 K\" }]\n"),
+            "scene");
+  EXPECT_EQ(key_of(critical_text + "surrogate = true\n" + vary({{"peak_pressure", "400, 496 MPa"}})),
+            "surrogate");
 }
 
 // The worst corner of how a gap closes is not computed in a sweep, whatever is stored of the reservoir.

@@ -173,6 +173,15 @@ TEST(ClosingGaps, OfAChargeThatABondHoldsTheCornerIsNotKnown) {
   EXPECT_FALSE(closing_evidence(answers, 2e-4, ignition).known);
 }
 
+TEST(ClosingGaps, OfAGapThatOpensByCoolingTheCornerIsNotKnown) {
+  StudyCase input = closing_study().cases.front();
+  input.scene.scene.surface.opens_by_cooling = 317.0;
+  EXPECT_NE(closing_bounds(input).back().unknown_for.find("cooling"), std::string::npos);
+  // Its launches are those of gaps that are stated.
+  EXPECT_EQ(skin_run(closing_scene(input), 2e-4, {}).hash,
+            skin_run(closing_scene(closing_study().cases.front()), 2e-4, {}).hash);
+}
+
 TEST(ClosingGaps, OfManyCasesEndTheScanAtTheFirstThatIgnitesAndHaveNoCorner) {
   const auto answers =
       answers_of([](const Launch& launch) { return launch.gap > 2.5e-4 ? 600.0 : 400.0; }, false);

@@ -38,6 +38,7 @@ enum class Dimension {
   specific_heat,
   conductivity,
   toughness,
+  expansion,
   // Of results alone.
   share,
   mass,

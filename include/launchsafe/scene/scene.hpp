@@ -106,6 +106,8 @@ using materials::Steel;
 /// The bottom gap, its air and the skin of the charge (model section 6).
 struct Surface {
   std::vector<double> gaps{0.0};  ///< m
+  /// K, at which charge and shell fitted; of a scene file with it the gap follows (gap_by_cooling).
+  std::optional<double> opens_by_cooling = {};
   materials::AirParameters air;
   AirPressure air_pressure = AirPressure::charge_bottom;
   AirModel air_model = AirModel::reservoir;
@@ -311,6 +313,13 @@ bool has_charge(const Scene& scene);
 bool lies_under_charge(const Scene& scene, const Body& body);
 /// The one of them nearest to the axis; nullptr where there is none.
 const Body* body_under_charge(const Scene& scene);
+
+/// m/K by which a charge that is held at the nose parts from its base as it cools: what it shrinks more than
+/// the body beside it that shrinks least.
+double opening_by_cooling(const Scene& scene);
+/// m, of the gap that has so opened from Surface::opens_by_cooling, where the scene has that, or from the
+/// begin of a launch at other temperatures by `colder` K; 0 where there is none.
+double gap_by_cooling(const Scene& scene, double colder = 0.0);
 
 /// Whether the faces can part and slide, now or once their bond has broken.
 bool can_slide(const Interface& faces);

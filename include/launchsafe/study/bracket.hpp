@@ -30,10 +30,11 @@ enum class ShareKind {
   sliding,
   fit,
   model_form,
+  cooling,  ///< how far a gap has opened by cooling
   accepted  ///< constants of gap and friction that are accepted and not the calibrated ones
 };
 inline constexpr ShareKind last_share_kind = ShareKind::accepted;
-inline constexpr std::size_t share_kinds = 11;
+inline constexpr std::size_t share_kinds = 12;
 
 struct ShareTraits {
   std::string name;   ///< in files: "peak_pressure"

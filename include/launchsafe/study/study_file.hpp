@@ -200,6 +200,8 @@ struct Study {
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
+  /// Each case is judged at the gap that cooling opens in it: see `gaps_of`.
+  bool gaps_by_cooling = false;
 
   /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
   bool in_detail = false;
@@ -263,6 +265,11 @@ struct StudyFile {
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };
+
+/// m, at which a case is judged: as many as Study::gaps.
+inline const std::vector<double>& gaps_of(const Study& study, const StudyCase& input) {
+  return study.gaps_by_cooling ? input.scene.scene.surface.gaps : study.gaps;
+}
 
 /// As in scene files.
 std::string to_string(scene::FrictionClosure closure);

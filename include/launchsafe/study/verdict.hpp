@@ -82,7 +82,8 @@ struct Uncertainty {
   double input = 0;        ///< of what is not known of the launch: its random causes together
   double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
   double model_form = 0;   ///< by which other models of the launch move towards ignition
-  double sliding = 0;  ///< of a base on which the charge slides: all heat of friction, and the gap that opens
+  /// Of a base on which the charge slides: all heat of friction, and the gap that opens there or by cooling.
+  double sliding = 0;
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
   /// Of the launch: both may be wrong in the same direction.
