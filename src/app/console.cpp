@@ -202,7 +202,7 @@ void Progress::show(const std::string& line) {
 }
 
 std::string shell_quoted(std::string_view word) {
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return std::string(word);
+  if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
   std::string quoted = "'";
   for (const char letter : word) quoted += letter == '\'' ? R"('\'')" : std::string(1, letter);
   return quoted + "'";

@@ -7,7 +7,6 @@
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "study_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -56,8 +55,7 @@ struct SlurmRequest {
 constexpr std::string_view submit_name = "submit.sh";
 
 bool has_control_character(std::string_view text) {
-  return std::any_of(text.begin(), text.end(),
-                     [](unsigned char letter) { return std::iscntrl(letter) != 0; });
+  return std::ranges::any_of(text, [](unsigned char letter) { return std::iscntrl(letter) != 0; });
 }
 
 /// Where the folder of a study's results keeps the scripts and the jobs' logs.
@@ -69,7 +67,7 @@ std::string job_name(const SlurmStudy& study) {
     return letter >= 128 || (std::isalnum(letter) == 0 && letter != '-' && letter != '_');
   };
   std::string name = "launchsafe-" + study.asked.study.stem().string();
-  std::replace_if(name.begin(), name.end(), is_trouble, '-');
+  std::ranges::replace_if(name, is_trouble, '-');
   return name;
 }
 
@@ -217,11 +215,11 @@ double time_on(const std::vector<double>& times, int cores) {
   std::vector<double> ends(static_cast<std::size_t>(cores), 0.0);
   for (std::size_t i = 0; i < times.size(); ++i)
     ends[static_cast<std::size_t>(core_of_run[i] - 1)] += times[i];
-  return *std::max_element(ends.begin(), ends.end());
+  return *std::ranges::max_element(ends);
 }
 
 double sum_of_largest(std::vector<double> values, int count) {
-  std::sort(values.begin(), values.end(), std::greater<>());
+  std::ranges::sort(values, std::greater<>());
   values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
   return std::accumulate(values.begin(), values.end(), 0.0);
 }

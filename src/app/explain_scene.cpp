@@ -1,5 +1,4 @@
-#include "explain_scene.hpp"
-
+#include "explain.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/cost.hpp"

@@ -1,6 +1,5 @@
-#include "forecast_text.hpp"
-
 #include "console.hpp"
+#include "explain.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_status.hpp"

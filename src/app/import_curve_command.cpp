@@ -1,6 +1,6 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
 #include "commands.hpp"
-#include "explain_scene.hpp"
+#include "explain.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"

@@ -2,8 +2,8 @@
 #include "commands.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
+#include "output_folder.hpp"
 #include "signals.hpp"
-#include "study_folder.hpp"
 #include "study_session.hpp"
 
 #include <fmt/format.h>

@@ -1,27 +1,19 @@
 #include "output_folder.hpp"
 
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <optional>
+#include <sstream>
 #include <system_error>
+#include <vector>
 
 namespace launchsafe::app {
-
-std::optional<std::string> prepare_output_folder(const std::filesystem::path& folder) {
-  std::error_code error, unknown;  // a name that is too long, say
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, unknown)) {
-    return fmt::format("{} is no folder and cannot be made one{}; allowed: a folder", folder.string(),
-                       error ? " (" + error.message() + ")" : "");
-  }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
-    return fmt::format("{} may not be written to; allowed: a folder of yours", folder.string());
-  }
-  return std::nullopt;
-}
-
 namespace {
 
 /// Why a file with this content may not be written there: a link, or something with another content. A file
@@ -39,7 +31,52 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
       file.string());
 }
 
+/// The study file's values; empty if the file has gone since it was read.
+std::string values_of(const std::string& path) {
+  const auto text = scene::read_text_file(path);
+  if (!text) return {};
+  const auto table = scene::parse_toml(*text, path);
+  if (!table) return {};
+  std::ostringstream values;
+  values << *table;
+  return values.str();
+}
+
+/// Files that a study rests on: with another one its report is no longer true.
+std::string records_of(const study::StudyFile& file) {
+  if (file.records.empty()) return {};
+  return fmt::format("\n\n# SHA-256 of the files that it rests on\n{}\n", fmt::join(file.records, "\n"));
+}
+
+std::string scenes_of_cases(const study::StudyFile& file) {
+  if (!file.study.kind.own_scenes) return {};
+  std::string text;
+  for (const study::StudyCase& each : file.cases) text += scene::to_toml(each.scene.scene);
+  return "\n\n# SHA-256 of the scenes of all cases\n" + store::sha256(text) + "\n";
+}
+
+using std::filesystem::path;
+
+/// In alphabetical order; none where there is no folder.
+std::vector<std::string> names_in(const path& folder) {
+  std::error_code failed;
+  return store::list_folder(folder, failed);
+}
+
 }  // namespace
+
+std::optional<std::string> prepare_output_folder(const std::filesystem::path& folder) {
+  std::error_code error, unknown;  // a name that is too long, say
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, unknown)) {
+    return fmt::format("{} is no folder and cannot be made one{}; allowed: a folder", folder.string(),
+                       error ? " (" + error.message() + ")" : "");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+    return fmt::format("{} may not be written to; allowed: a folder of yours", folder.string());
+  }
+  return std::nullopt;
+}
 
 ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {
   if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
@@ -57,6 +94,62 @@ std::vector<std::string> places_of(const std::filesystem::path& folder, const Na
   std::vector<std::string> places;
   for (const report::TextFile& each : texts) places.push_back((folder / each.name).string());
   return places;
+}
+
+store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
+  return store::make_manifest(
+      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}", run::model_version, values_of(file.file),
+                  scene::to_toml(file.scene.scene), records_of(file), scenes_of_cases(file)),
+      jobs);
+}
+
+bool same_study(const store::Manifest& one, const store::Manifest& other) {
+  return one.input_sha256 == other.input_sha256;
+}
+
+bool holds_store(const path& folder) {
+  return !store::results_files_in(folder).empty() || !names_in(folder / "cases").empty();
+}
+
+std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
+                                              const store::Manifest& manifest, bool update) {
+  const auto record = store::record_of_report(folder);
+  if (!record) return record.error().message;
+  std::vector<std::string> foreign = names_in(folder);
+  std::erase_if(foreign, [&](const std::string& name) {
+    return !kinds::may_write(kind, name) ||
+           store::state_of(folder, *record, name) != store::FileState::foreign;
+  });
+  if (!foreign.empty()) {
+    return fmt::format(
+        "{} holds files that launchsafe did not write ({}{}), and nothing is overwritten; move them away or "
+        "name another folder",
+        folder.string(), foreign.front(),
+        foreign.size() > 1 ? fmt::format(" and {} more", foreign.size() - 1) : "");
+  }
+  if (update || record->manifest.input_sha256.empty() || same_study(record->manifest, manifest))
+    return std::nullopt;
+  return fmt::format(
+      "{} holds the results of a different study or model, and nothing is overwritten; with --update the "
+      "report there moves to {} and stored cases are used where they fit; or name another folder",
+      folder.string(), (folder / "earlier-N").string());
+}
+
+void remove_leftovers(const path& folder) {
+  for (const std::string& name : names_in(folder)) store::remove_leftover(folder / name);
+}
+
+store::Result<path> take_folder(const path& folder, const StudyRecord& asked) {
+  const auto record = store::record_of_report(folder);
+  if (!record) return record.error();
+  if (same_study(record->manifest, asked.manifest)) return path{};
+  // The manifest last: what a kill leaves here is still known.
+  std::vector<std::string> names = record->names();
+  if (!names.empty()) names.emplace_back(store::manifest_name);
+  auto moved_to = store::set_aside(folder, names);
+  if (!moved_to) return moved_to;
+  if (auto error = store::write_study_record(folder, asked)) return *error;
+  return moved_to;
 }
 
 }  // namespace launchsafe::app

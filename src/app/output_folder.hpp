@@ -1,8 +1,14 @@
-// The places that a user names for results.
+// The folders that a user names for results, and that of a study: whether it may be used, and what becomes of
+// an earlier study's report in it.
 #pragma once
 
 #include "console.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/report.hpp"
+#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/study_record.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -23,5 +29,32 @@ std::vector<std::string> places_of(const std::filesystem::path& folder, const Na
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
 /// written, which it says.
 ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console);
+
+using store::StudyRecord;
+
+/// The manifest of a study: its input is the model version, what the study file says, without remarks and in
+/// sorted order, and the scene with what the study sets in it. Every case follows from these.
+store::Manifest study_manifest(const study::StudyFile& file, int jobs);
+
+/// Whether both ask the same of the same model.
+bool same_study(const store::Manifest& one, const store::Manifest& other);
+
+/// Whether the folder holds cases that a study stored.
+bool holds_store(const std::filesystem::path& folder);
+
+/// Why the results of a study may not go into the folder: it holds those of a different study and `update` is
+/// not set, or files of somebody else under names that the report needs. Nothing is changed.
+std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder, const kinds::Kind& kind,
+                                              const store::Manifest& manifest, bool update);
+
+/// Removes what killed processes left of report files that they were writing; while no other process is at
+/// work in the folder.
+void remove_leftovers(const std::filesystem::path& folder);
+
+/// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study to
+/// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
+/// Errors: conflict, write_failed, unreadable.
+store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
+                                                 const StudyRecord& asked);
 
 }  // namespace launchsafe::app

@@ -33,8 +33,7 @@ struct Selection {
   std::vector<std::pair<const PictureKind*, std::string>> left_out;
 
   bool has(std::string_view word) const {
-    return std::any_of(kinds.begin(), kinds.end(),
-                       [&](const PictureKind* kind) { return kind->word == word; });
+    return std::ranges::any_of(kinds, [&](const PictureKind* kind) { return kind->word == word; });
   }
 };
 
@@ -55,7 +54,7 @@ scene::Expected<std::vector<std::string>> named_kinds(const std::string& list) {
   std::vector<std::string> words = words_of(list);
   if (words.empty()) return fault(list);
   for (const std::string& word : words)
-    if (std::find(known.begin(), known.end(), word) == known.end()) return fault(word);
+    if (std::ranges::find(known, word) == known.end()) return fault(word);
   return words;
 }
 
@@ -65,7 +64,7 @@ scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vec
                                   bool as_tables) {
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
-    if (!named.empty() && std::find(named.begin(), named.end(), kind.word) == named.end()) continue;
+    if (!named.empty() && std::ranges::find(named, kind.word) == named.end()) continue;
     const std::string why = obstacle_to_kind(kind, drawn, as_tables);
     if (why.empty()) {
       selection.kinds.push_back(&kind);
@@ -86,8 +85,8 @@ std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, c
   const std::string found = scene::time_text(time);
   if (selection.has("fields")) {
     const auto snapshots = report::shown_snapshots(drawn);
-    const bool known = std::any_of(snapshots.begin(), snapshots.end(),
-                                   [&](const auto& each) { return report::is_of_time(each, time); });
+    const bool known =
+        std::ranges::any_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); });
     if (known) return std::nullopt;
     std::vector<std::string> times;
     for (const auto& each : snapshots) times.push_back(scene::time_text(each.time()));

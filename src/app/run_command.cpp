@@ -1,6 +1,6 @@
 // launchsafe run: one case.
 #include "commands.hpp"
-#include "explain_scene.hpp"
+#include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -35,8 +35,8 @@ namespace {
 using scene::Dimension;
 
 bool has_observation_points(const trace::BottomTrace& trace) {
-  return std::any_of(trace.stations.begin(), trace.stations.end(),
-                     [](const trace::Station& station) { return station.observation; });
+  return std::ranges::any_of(trace.stations,
+                             [](const trace::Station& station) { return station.observation; });
 }
 
 std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
@@ -372,9 +372,8 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   object["input_sha256"] = manifest.input_sha256;
   object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());
   console.print_json(object);
-  const bool finite = std::all_of(result.gaps.begin(), result.gaps.end(), [](const run::GapResult& gap) {
-    return std::isfinite(gap.at_stations.temperature);
-  });
+  const bool finite = std::ranges::all_of(
+      result.gaps, [](const run::GapResult& gap) { return std::isfinite(gap.at_stations.temperature); });
   if (!finite) {
     console.error("a skin temperature is not a number; every verdict on it is indeterminate");
     return ExitCode::indeterminate;

@@ -1,12 +1,12 @@
 // launchsafe study: many cases, kept as they end, then tables and an answer; with --dry-run what these would
 // cost.
 #include "commands.hpp"
-#include "forecast_text.hpp"
+#include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/forecast.hpp"
+#include "output_folder.hpp"
 #include "signals.hpp"
-#include "study_folder.hpp"
 #include "study_session.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +41,7 @@ std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const 
 bool knows_rate(const store::CaseStore* store) {
   if (store == nullptr) return false;
   const std::vector<store::RunRecord> entries = store->records();
-  return std::any_of(entries.begin(), entries.end(), [](const store::RunRecord& entry) {
+  return std::ranges::any_of(entries, [](const store::RunRecord& entry) {
     return entry.state == store::CaseState::done && entry.wall_time > 0 && entry.predicted_updates > 0;
   });
 }

@@ -6,7 +6,6 @@
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 #include "signals.hpp"
-#include "study_folder.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,7 +1,8 @@
 #include "launchsafe/kinds/read_study.hpp"
 
-#include "launchsafe/scene/input_content.hpp"
+#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "study_keys.hpp"

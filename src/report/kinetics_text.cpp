@@ -1,7 +1,7 @@
 #include "launchsafe/report/kinetics_text.hpp"
 
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/scene/decomposition.hpp"
+#include "launchsafe/scene/named_material.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "burning_bottom.hpp"
 
 #include "launchsafe/materials/deflagration.hpp"
-#include "launchsafe/scene/decomposition.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"
 

@@ -123,7 +123,7 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
   const auto same = [&](const Acceptance& each) {
     return each.key == name && each.value == acceptance.value;
   };
-  if (std::any_of(earlier.begin(), earlier.end(), same)) {
+  if (std::ranges::any_of(earlier, same)) {
     return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", name),
                     "each key once, or with several values");
   }
@@ -168,7 +168,7 @@ std::string acceptances_to_write(const std::vector<Implausible>& values) {
 }
 
 std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key) {
-  if (is_in_words(text) && !has_invisible(text) && std::none_of(text.begin(), text.end(), is_control))
+  if (is_in_words(text) && !has_invisible(text) && std::ranges::none_of(text, is_control))
     return std::nullopt;
   return error_at(
       place, key, fmt::format("a reason of {} characters", text.size()),

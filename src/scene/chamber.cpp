@@ -120,7 +120,7 @@ std::vector<ChamberFace> faces_at(const CutPlane& plane, const std::vector<Cell>
       face.end = face.across_x() ? plane.r_end(cell.row) : plane.x_end(cell.column);
       all.push_back(face);
     }
-  std::sort(all.begin(), all.end(), [](const ChamberFace& a, const ChamberFace& b) {
+  std::ranges::sort(all, [](const ChamberFace& a, const ChamberFace& b) {
     return std::tie(a.body, a.side, a.begin) < std::tie(b.body, b.side, b.begin);
   });
   std::vector<ChamberFace> joined;
@@ -152,7 +152,7 @@ Chamber chamber_of(const Scene& scene) {
     for (int column = ring->last + 1; column + 1 < plane.columns(); ++column)
       if (!plane.body({column, plane.barrel_row()})) gas.push_back({column, plane.barrel_row()});
     gas = filled_from(plane, std::move(gas));
-    const bool passes = std::any_of(gas.begin(), gas.end(), [&](const Cell& cell) {
+    const bool passes = std::ranges::any_of(gas, [&](const Cell& cell) {
       return cell.column == 0 || (cell.row == plane.barrel_row() && cell.column < ring->first);
     });
     if (passes) chamber.unclear = "a shell through which the chamber's gas passes the driving band";
@@ -171,7 +171,7 @@ Chamber chamber_of(const Scene& scene) {
 
 bool acts_on_rear_alone(const Scene& scene, const Chamber& chamber) {
   const double rear = extent_of(scene).x_end - length_tolerance(scene);
-  return std::all_of(chamber.faces.begin(), chamber.faces.end(), [&](const ChamberFace& face) {
+  return std::ranges::all_of(chamber.faces, [&](const ChamberFace& face) {
     return face.side == BodySide::x_end && scene.bodies[face.body].x_end >= rear;
   });
 }

@@ -34,7 +34,7 @@ double deviation_about(double centre, std::vector<double> values) {
 
 /// The first point of the launch: after the last one before the peak that lies below the level.
 std::size_t last_passage(const std::vector<double>& pressure, double level) {
-  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  const auto peak = std::ranges::max_element(pressure);
   const auto below = std::find_if(std::make_reverse_iterator(peak), pressure.rend(),
                                   [level](double each) { return each < level; });
   return static_cast<std::size_t>(pressure.rend() - below);
@@ -43,7 +43,7 @@ std::size_t last_passage(const std::vector<double>& pressure, double level) {
 /// Points that the rise has certainly not reached: the foot of the rise is not quiet, half of what is before
 /// it is left to that.
 std::vector<double> quiet_points(const std::vector<double>& pressure) {
-  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  const auto peak = std::ranges::max_element(pressure);
   const double lowest = *std::min_element(pressure.begin(), peak + 1);
   const std::size_t rise = last_passage(pressure, lowest + rise_share * (*peak - lowest));
   return {pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2)};
@@ -85,7 +85,7 @@ std::optional<InputError> find_offset(const PressureCurve& record, const GaugeCl
   const double found = cleaned.offset;
   cleaned.offset = *cleaning.offset;
   if (cleaned.quiet_points == 0) return std::nullopt;
-  const double peak = *std::max_element(record.pressure.begin(), record.pressure.end()) - found;
+  const double peak = *std::ranges::max_element(record.pressure) - found;
   const double allowed = std::max(cleaned.noise, resolution_share * peak);
   if (std::abs(cleaned.offset - found) <= allowed) return std::nullopt;
   return error_at(
@@ -105,7 +105,7 @@ Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& 
   if (auto error = find_offset(record, cleaning, cleaned, file)) return *error;
   std::vector<double> pressure = record.pressure;
   for (double& each : pressure) each -= cleaned.offset;
-  const auto peak = std::max_element(pressure.begin(), pressure.end());
+  const auto peak = std::ranges::max_element(pressure);
   cleaned.peak = *peak;
   cleaned.trigger =
       cleaning.trigger.value_or(std::max(trigger_share * cleaned.peak, noise_of_trigger * cleaned.noise));

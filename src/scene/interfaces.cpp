@@ -27,7 +27,7 @@ InputError fault_of(const SceneFile& file, const Interface& faces, const std::st
 std::optional<InputError> check_body(const SceneFile& file, const Interface& faces) {
   const Scene& scene = file.scene;
   const std::vector<std::string> touching = bodies_at_the_charge(scene);
-  if (std::find(touching.begin(), touching.end(), faces.body) != touching.end()) return std::nullopt;
+  if (std::ranges::find(touching, faces.body) != touching.end()) return std::nullopt;
   const Body* body = find_named(scene.bodies, faces.body);
   const char* what = body == nullptr           ? "which no body is called"
                      : is_charge(scene, *body) ? "which is a charge itself"
@@ -168,7 +168,7 @@ std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
   std::vector<std::string> names;
   for (const Body& body : scene.bodies) {
     if (is_charge(scene, body)) continue;
-    const bool touches = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& other) {
+    const bool touches = std::ranges::any_of(scene.bodies, [&](const Body& other) {
       return is_charge(scene, other) && share_a_face(scene, body, other);
     });
     if (touches) names.push_back(body.name);
@@ -209,8 +209,7 @@ std::optional<InputError> check_interfaces(const SceneFile& file) {
 std::string interfaces_as_toml(std::vector<Interface> interfaces) {
   const KeyDescription name{.kind = KeyKind::text};
   // In the order of names, in which files are read: the order in which a program made them says nothing.
-  std::stable_sort(interfaces.begin(), interfaces.end(),
-                   [](const Interface& a, const Interface& b) { return a.body < b.body; });
+  std::ranges::stable_sort(interfaces, {}, &Interface::body);
   std::string text;
   for (const Interface& faces : interfaces) {
     const auto add = [&](std::string_view key, const std::string& value) {
@@ -227,8 +226,7 @@ std::string interfaces_as_toml(std::vector<Interface> interfaces) {
 std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
   std::vector<InterfaceText> described;
   for (const std::string& body : bodies_at_the_charge(scene)) {
-    const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
-                                    [&](const Interface& each) { return each.body == body; });
+    const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
     if (faces == scene.interfaces.end() || !can_slide(*faces)) {
       described.push_back(
           {body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});

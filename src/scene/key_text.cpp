@@ -62,7 +62,7 @@ std::string example_of_range(const KeyDescription& key) {
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
 std::string string_as_toml(const std::string& string) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\'' && c != '\\'; };
-  if (!string.empty() && std::all_of(string.begin(), string.end(), is_plain)) return "'" + string + "'";
+  if (!string.empty() && std::ranges::all_of(string, is_plain)) return "'" + string + "'";
   std::ostringstream stream;
   stream << toml::value<std::string>(string);
   return stream.str();

@@ -92,9 +92,9 @@ bool is_cut_short(const Load& load) {
   // A gauge may have gone on after the pressure was gone.
   const PressureHistory history(load);
   const double over = share_when_over * history.stated_peak();
-  return history.at(*load.duration) > over ||
-         std::any_of(load.curve_time.begin(), load.curve_time.end(),
-                     [&](double time) { return time > *load.duration && history.at(time) > over; });
+  return history.at(*load.duration) > over || std::ranges::any_of(load.curve_time, [&](double time) {
+           return time > *load.duration && history.at(time) > over;
+         });
 }
 
 Load without_exit(Load load) {

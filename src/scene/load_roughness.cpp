@@ -111,8 +111,7 @@ Work work_of(const Load& load) {
   std::vector<double> pressures;
   for (const double time : history.marks()) pressures.push_back(history.at(time));
   const double stated = history.stated_peak();
-  const double scale =
-      stated / std::max(*std::max_element(load.curve_pressure.begin(), load.curve_pressure.end()), 1e-300);
+  const double scale = stated / std::max(*std::ranges::max_element(load.curve_pressure), 1e-300);
   const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
   const double least_swing =
       std::clamp(deviations_of_a_swing * noise, least_swing_share * stated, largest_swing_share * stated);
@@ -185,13 +184,13 @@ std::vector<std::size_t> lines_of(const std::vector<double>& powers, std::size_t
     for (std::size_t k = i - half_width; k <= i + half_width; ++k) line += powers[k];
     if (stands_out(powers, first, i, line)) bins.emplace_back(-line, i);
   }
-  std::sort(bins.begin(), bins.end());
+  std::ranges::sort(bins);
   std::vector<std::size_t> lines;
   for (const auto& [power, bin] : bins) {
     const auto is_near = [bin = static_cast<double>(bin)](std::size_t line) {
       return std::abs(bin / static_cast<double>(line) - 1.0) <= near;
     };
-    if (std::none_of(lines.begin(), lines.end(), is_near)) lines.push_back(bin);
+    if (std::ranges::none_of(lines, is_near)) lines.push_back(bin);
   }
   return lines;
 }

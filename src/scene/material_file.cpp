@@ -1,8 +1,7 @@
 // Files of materials and contacts, those that ship, decompositions of explosives, and where values come from.
 #include "input_text.hpp"
-#include "launchsafe/scene/decomposition.hpp"
-#include "launchsafe/scene/input_content.hpp"
 #include "launchsafe/scene/named_material.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
@@ -63,7 +62,7 @@ std::optional<InputError> check_source(const Source& source, const std::map<std:
   if (source.keys.empty())
     return error_at(places.at("keys"), "source.keys", "no key", "names of keys, such as \"density\"");
   for (const std::string& key : source.keys) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
+    if (std::ranges::find(known, key) == known.end()) {
       InputError error = unknown_key(places.at("keys"), key, known);
       error.found = fmt::format("\"{}\", which no key with a value here is called", key);
       error.key = "source.keys";
@@ -206,7 +205,7 @@ Expected<std::vector<Source>> read_sources(const toml::table& table, const std::
 
 const Source* source_of(const std::vector<Source>& sources, const std::string& key) {
   for (const Source& source : sources)
-    if (std::find(source.keys.begin(), source.keys.end(), key) != source.keys.end()) return &source;
+    if (std::ranges::find(source.keys, key) != source.keys.end()) return &source;
   return nullptr;
 }
 

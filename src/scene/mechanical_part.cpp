@@ -77,7 +77,7 @@ void clear_signs_of_zeros(const std::vector<Key<Owner>>& keys, Owner& owner) {
       if (is_negative_zero(*number)) key.set(owner, Value(0.0));
     } else {
       auto& numbers = std::get<std::vector<double>>(value);
-      if (std::none_of(numbers.begin(), numbers.end(), is_negative_zero)) continue;
+      if (std::ranges::none_of(numbers, is_negative_zero)) continue;
       for (double& each : numbers) clear_sign(each);
       key.set(owner, value);
     }
@@ -115,7 +115,7 @@ Scene mechanical_part(const Scene& scene) {
   unfelt.drop(scene_keys(), part);
   settle_materials(part, unfelt);
   settle_physics(plan, part.physics);
-  std::sort(part.output.snapshot_times.begin(), part.output.snapshot_times.end());
+  std::ranges::sort(part.output.snapshot_times);
   clear_signs_of_zeros(part);
   return part;
 }

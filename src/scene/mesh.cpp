@@ -27,7 +27,7 @@ class CellDensity {
         log_growth_(std::log(growth_)),
         reach_((largest_ - smallest_) / (growth_ - 1.0)),
         refined_(std::move(refined)) {
-    std::sort(refined_.begin(), refined_.end());
+    std::ranges::sort(refined_);
   }
 
   bool operator==(const CellDensity&) const = default;

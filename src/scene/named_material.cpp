@@ -83,7 +83,7 @@ Expected<NamedMaterial> read_material(const std::string& name, const toml::table
 std::optional<InputError> check_name(const toml::node& node, const std::string& name, const std::string& file,
                                      const std::vector<NamedMaterial>& known) {
   const bool is_law = find_named(usual_materials(), name) != nullptr;
-  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  const bool plain = !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
   if (plain && !is_law && find_named(known, name) == nullptr) return std::nullopt;
@@ -95,9 +95,9 @@ std::optional<InputError> check_name(const toml::node& node, const std::string& 
 /// Whether a key of the law that is not given is settled by one that is, as kinetics.set is by its numbers.
 bool is_settled(const NamedMaterial& material, const LawKey& key, const std::vector<LawKey>& keys) {
   const auto names = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
+    return std::ranges::find(list, name) != list.end();
   };
-  return std::any_of(keys.begin(), keys.end(), [&](const LawKey& other) {
+  return std::ranges::any_of(keys, [&](const LawKey& other) {
     return material.values.contains(other.scene_key) && (names(other.description.overrides, key.scene_key) ||
                                                          names(key.description.overrides, other.scene_key));
   });

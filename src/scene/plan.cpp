@@ -43,7 +43,7 @@ Term out(double value, std::string reason, double bound = 0.0) {
 Material material_to_conduct(const Scene& scene) {
   std::vector<Material> used = used_materials(scene);
   if (has_charge(scene)) std::erase_if(used, [](const Material& each) { return !is_explosive(each.law); });
-  return *std::max_element(used.begin(), used.end(), [&](const Material& a, const Material& b) {
+  return *std::ranges::max_element(used, [&](const Material& a, const Material& b) {
     return diffusion_length(a.law, end_time(scene.load)) < diffusion_length(b.law, end_time(scene.load));
   });
 }
@@ -186,8 +186,7 @@ Term plan_snapshots(const Scene& scene) {
 double crack_substeps(const Scene& scene, double time_step) {
   namespace law = materials::detail;
   const materials::ViscoScramParameters& strength = scene.charge().strength;
-  const double fastest =
-      *std::max_element(strength.relaxation_rates.begin(), strength.relaxation_rates.end());
+  const double fastest = *std::ranges::max_element(strength.relaxation_rates);
   const double x = time_step * fastest,
                q = materials::crack_strain_ratio(strength, strength.initial_crack_radius);
   if (!law::couples_too_strongly(x, q)) return 0.0;
@@ -279,7 +278,7 @@ double bulk_temperature_bound(const Scene& scene) {
   const double pressure = pressure_margin * setback_pressure(scene);
   const double bulk = charge.bulk_modulus();
   const auto& rates = charge.strength.relaxation_rates;
-  const auto slowest = static_cast<std::size_t>(std::min_element(rates.begin(), rates.end()) - rates.begin());
+  const auto slowest = static_cast<std::size_t>(std::ranges::min_element(rates) - rates.begin());
   const double work =
       (1.0 + charge.sliding_friction) * pressure * pressure / charge.strength.shear_moduli[slowest];
   const double compressed = scene.initial_temperature * std::exp(charge.grueneisen() * pressure / bulk);

@@ -21,8 +21,7 @@ bool is_plausible_number(const Plausible& plausible, double number) {
 }
 
 bool is_plausible_word(const Plausible& plausible, const std::string& word) {
-  return plausible.words.empty() ||
-         std::find(plausible.words.begin(), plausible.words.end(), word) != plausible.words.end();
+  return plausible.words.empty() || std::ranges::find(plausible.words, word) != plausible.words.end();
 }
 
 class Judge {
@@ -100,9 +99,7 @@ using Number = std::optional<double>;
 /// Of dry air, J/(kg K).
 constexpr double gas_constant_of_air = 287.05;
 
-double measured_peak(const Load& load) {
-  return *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
-}
+double measured_peak(const Load& load) { return *std::ranges::max_element(load.curve_pressure); }
 
 /// The largest pressure that the scene states, Pa, wherever in time it lies.
 double stated_peak(const Load& load) {
@@ -212,8 +209,7 @@ bool is_plausible(const KeyDescription& key, const Value& value) {
   if (const auto* word = std::get_if<std::string>(&value)) return is_plausible_word(plausible, *word);
   const auto& numbers = std::get<std::vector<double>>(value);
   if (key.kind == KeyKind::range) return is_plausible_number(plausible, numbers[1] - numbers[0]);
-  return std::all_of(numbers.begin(), numbers.end(),
-                     [&](double number) { return is_plausible_number(plausible, number); });
+  return std::ranges::all_of(numbers, [&](double number) { return is_plausible_number(plausible, number); });
 }
 
 std::vector<Implausible> implausible_values(const Scene& scene) {

@@ -121,7 +121,7 @@ bool is_named(const Column& column, std::string_view word) {
   const auto may_belong = [](char c) {
     return c == ' ' || c == '-' || std::isalpha(static_cast<unsigned char>(c)) != 0;
   };
-  return name.starts_with(word) && std::all_of(name.begin(), name.end(), may_belong);
+  return name.starts_with(word) && std::ranges::all_of(name, may_belong);
 }
 
 /// The error of a column whose unit is none of its dimension.

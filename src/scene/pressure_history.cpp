@@ -90,7 +90,7 @@ std::vector<double> marks_between(const Load& load, double begin, double end) {
     if (load.smoothing > 0.0) add(time - 0.5 * load.smoothing);
     if (load.smoothing > 0.0) add(time + 0.5 * load.smoothing);
   }
-  std::sort(marks.begin(), marks.end());
+  std::ranges::sort(marks);
   return marks;
 }
 
@@ -179,7 +179,7 @@ PressureHistory::State PressureHistory::largest() const {
 
 double PressureHistory::stated_peak() const {
   if (load_.curve_time.empty()) return load_.peak;
-  return scale_ * *std::max_element(load_.curve_pressure.begin(), load_.curve_pressure.end());
+  return scale_ * *std::ranges::max_element(load_.curve_pressure);
 }
 
 }  // namespace launchsafe::scene

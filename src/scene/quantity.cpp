@@ -16,6 +16,7 @@
 namespace launchsafe::scene {
 namespace {
 
+constexpr std::string_view between_ends = " to ";
 constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::memory) + 1;
 
 /// Most units are powers of ten of the SI unit, so that a decimal number converts without rounding twice. A
@@ -176,7 +177,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Length of the digits that a text begins with.
 std::size_t digits_of(std::string_view text) {
-  return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
+  return static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
 }
 
 /// Whether a comma without blanks around it may be meant as anything but the comma of a list: "0,5" and
@@ -351,10 +352,6 @@ Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension 
   const auto token = split(text, text, dimension);
   if (!token) return token.error();
   return convert(*token, text, dimension);
-}
-
-namespace {
-constexpr std::string_view between_ends = " to ";
 }
 
 bool is_range(std::string_view text) { return text.find(between_ends) != std::string_view::npos; }

@@ -113,8 +113,7 @@ const Body* body_under_charge(const Scene& scene) {
 }
 
 bool has_charge(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [&](const Body& body) { return is_charge(scene, body); });
+  return std::ranges::any_of(scene.bodies, [&](const Body& body) { return is_charge(scene, body); });
 }
 
 bool can_slide(const Interface& faces) {
@@ -124,8 +123,7 @@ bool can_slide(const Interface& faces) {
 std::vector<Interface> sliding_interfaces(const Scene& scene) {
   std::vector<Interface> sliding;
   std::copy_if(scene.interfaces.begin(), scene.interfaces.end(), std::back_inserter(sliding), can_slide);
-  std::sort(sliding.begin(), sliding.end(),
-            [](const Interface& a, const Interface& b) { return a.body < b.body; });
+  std::ranges::sort(sliding, {}, &Interface::body);
   return sliding;
 }
 

@@ -1,7 +1,6 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/scene/decomposition.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "scene_file.hpp"

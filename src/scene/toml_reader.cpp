@@ -37,15 +37,15 @@ struct Leaf {
 };
 
 bool is_prefix(const std::string& table, const std::vector<const KeyDescription*>& keys) {
-  return std::any_of(keys.begin(), keys.end(),
-                     [&](const KeyDescription* key) { return key->name.starts_with(table + "."); });
+  return std::ranges::any_of(keys,
+                             [&](const KeyDescription* key) { return key->name.starts_with(table + "."); });
 }
 
 void collect_leaves(const toml::table& table, const std::string& prefix,
                     const std::vector<std::string>& elsewhere, std::vector<Leaf>& leaves) {
   for (const auto& [key, node] : table) {
     std::string name = prefix + std::string(key.str());
-    if (std::find(elsewhere.begin(), elsewhere.end(), name) != elsewhere.end()) continue;
+    if (std::ranges::find(elsewhere, name) != elsewhere.end()) continue;
     const toml::table* inner = node.as_table();
     if (inner && !inner->empty()) {
       collect_leaves(*inner, name + ".", elsewhere, leaves);
@@ -137,7 +137,7 @@ Expected<std::vector<double>> read_numbers(const toml::node& node, const KeyDesc
 Expected<Value> checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
   for (const auto& [former, present] : key.former_words)
     if (word == former) return Value(present);
-  if (std::find(key.words.begin(), key.words.end(), word) != key.words.end()) return Value(word);
+  if (std::ranges::find(key.words, word) != key.words.end()) return Value(word);
   const std::string near = nearest_of(word, key.words);
   return error_for(place, key, '"' + word + '"', near.empty() ? near : '"' + near + '"');
 }
@@ -149,14 +149,12 @@ Expected<Value> checked_words(const std::string& list, const KeyDescription& key
   for (std::string part; std::getline(parts, part, ',');) {
     const std::string word(without_blanks_around(part));
     if (const auto known = checked_word(word, key, place); !known) return known.error();
-    if (std::find(found.begin(), found.end(), word) != found.end())
-      return error_for(place, key, '"' + word + "\" twice");
+    if (std::ranges::find(found, word) != found.end()) return error_for(place, key, '"' + word + "\" twice");
     found.push_back(word);
   }
   std::string ordered;
   for (const std::string& word : key.words)
-    if (std::find(found.begin(), found.end(), word) != found.end())
-      ordered += (ordered.empty() ? "" : ", ") + word;
+    if (std::ranges::find(found, word) != found.end()) ordered += (ordered.empty() ? "" : ", ") + word;
   return Value(ordered);
 }
 
@@ -323,7 +321,7 @@ InputError unknown_key(const Place& place, const std::string& name, const std::v
   if (siblings.empty()) {
     for (const std::string& candidate : known) {
       const std::string other = section_of(candidate);
-      if (other.empty() || std::find(siblings.begin(), siblings.end(), other) != siblings.end()) continue;
+      if (other.empty() || std::ranges::find(siblings, other) != siblings.end()) continue;
       siblings.push_back(other);
     }
     allowed = "the tables ";
@@ -368,15 +366,14 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
                                     const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<Leaf> leaves;
   collect_leaves(table, "", elsewhere, leaves);
-  std::stable_sort(leaves.begin(), leaves.end(), stands_before);
+  std::ranges::stable_sort(leaves, stands_before);
   std::vector<std::string> known = elsewhere;
   for (const KeyDescription* key : keys) known.push_back(key->name);
 
   ReadValues read;
   for (const Leaf& leaf : leaves) {
     const Place place = place_of(*leaf.node, file);
-    const auto key =
-        std::find_if(keys.begin(), keys.end(), [&](const auto* k) { return k->name == leaf.name; });
+    const auto key = std::ranges::find_if(keys, [&](const auto* k) { return k->name == leaf.name; });
     if (key == keys.end()) {
       if (!is_prefix(leaf.name, keys)) return unknown_key(place, leaf.name, known);
       if (leaf.node->is_table()) continue;
@@ -394,8 +391,7 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
       return error_for(place_of(table, file), *key, "nothing; the key is missing");
     }
   }
-  std::sort(read.values.begin(), read.values.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::sort(read.values, {}, [](const auto& each) { return each.first; });
   return read;
 }
 

@@ -34,17 +34,17 @@ Expected<NamesByLaw> names_by_law(const SceneFile& file, const Scene& scene) {
     if (named == nullptr && find_named(usual_materials(), name) == nullptr)
       return unknown_material(file, scene.bodies[i].name, name);
     std::vector<std::string>& names = by_law[named ? named->law : name];
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return by_law;
 }
 
 /// Whether the scene itself gives the key, or one that overrides it.
 bool scene_gives(const SceneFile& file, const std::string& name) {
-  return std::any_of(file.given.begin(), file.given.end(), [&](const auto& each) {
+  return std::ranges::any_of(file.given, [&](const auto& each) {
     if (each.second.of_material) return false;
     const std::vector<std::string>& overridden = find_key(scene_keys(), each.first)->overrides;
-    return each.first == name || std::find(overridden.begin(), overridden.end(), name) != overridden.end();
+    return each.first == name || std::ranges::find(overridden, name) != overridden.end();
   });
 }
 
@@ -167,7 +167,7 @@ std::optional<InputError> use_materials(SceneFile& file, Scene& scene) {
   if (!by_law) return by_law.error();
   std::map<std::string, std::string> renamed;  // materials that stand for their law
   for (const auto& [law, names] : *by_law) {
-    const bool has_own = std::find(names.begin(), names.end(), law) != names.end();
+    const bool has_own = std::ranges::find(names, law) != names.end();
     if (names.size() > 1 && is_explosive(find_material(scene, law)->law))
       return check_one_explosive(file, scene, names);
     if (names.size() > 1 && !has_own)

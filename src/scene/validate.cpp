@@ -41,8 +41,8 @@ Fault check_names(const SceneFile& file) {
 
 Fault check_charge_fits(const SceneFile& file) {
   const Scene& scene = file.scene;
-  const bool has_shell = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                     [&](const Body& body) { return !is_charge(scene, body); });
+  const bool has_shell =
+      std::ranges::any_of(scene.bodies, [&](const Body& body) { return !is_charge(scene, body); });
   if (!has_shell) return std::nullopt;
   const Extent shell = inert_extent(scene);
   const double tolerance = length_tolerance(scene);
@@ -161,9 +161,8 @@ Fault check_equation_of_state(const SceneFile& file) {
                       "the constants of one equation of state");
   const auto fault = std::visit([](const auto& eos) { return eos.fault(); }, file.scene.charge().eos);
   if (!fault) return std::nullopt;
-  const auto given = std::find_if(fault->keys.begin(), fault->keys.end(), [&](const std::string& key) {
-    return file.given.contains("charge." + key);
-  });
+  const auto given = std::ranges::find_if(
+      fault->keys, [&](const std::string& key) { return file.given.contains("charge." + key); });
   return fault_at(file, "charge." + (given != fault->keys.end() ? *given : fault->keys.front()), fault->found,
                   fault->allowed);
 }
@@ -231,7 +230,7 @@ Fault check_observation_points(const SceneFile& file) {
     const auto within = [&](double place, double begin, double end) {
       return place >= begin - tolerance && place <= end + tolerance;
     };
-    const bool in_charge = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    const bool in_charge = std::ranges::any_of(scene.bodies, [&](const Body& body) {
       return is_charge(scene, body) && within(point.x, body.x_begin, body.x_end) &&
              within(point.r, body.r_begin, body.r_end);
     });
@@ -288,8 +287,8 @@ Fault check_output(const SceneFile& file) {
                     "an interval of at most the load's duration, " + until);
   }
   std::vector<double> times = file.scene.output.snapshot_times;
-  std::sort(times.begin(), times.end());
-  if (const auto twice = std::adjacent_find(times.begin(), times.end()); twice != times.end())
+  std::ranges::sort(times);
+  if (const auto twice = std::ranges::adjacent_find(times); twice != times.end())
     return fault_at(file, "output.snapshots", time_text(*twice) + " twice", "each time once");
   const bool burns = file.scene.coupling == Coupling::two_way;
   const double last = burns ? duration + file.scene.combustion.duration : duration;

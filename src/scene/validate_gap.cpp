@@ -16,9 +16,9 @@ Fault check_gaps(const SceneFile& file) {
                     "one of the two");
   const char* key = cooled ? "gap.opens_by_cooling" : "gap.thickness";
   std::vector<double> gaps = file.scene.surface.gaps;
-  std::sort(gaps.begin(), gaps.end());
-  const auto twice = std::adjacent_find(gaps.begin(), gaps.end(),
-                                        [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
+  std::ranges::sort(gaps);
+  const auto twice =
+      std::ranges::adjacent_find(gaps, [](double a, double b) { return b - a <= 1e-9 * std::max(b, 1e-6); });
   if (twice != gaps.end()) {
     return fault_at(file, "gap.thickness", fmt::format("{} twice", length_text(*twice)), "each gap once");
   }
@@ -73,8 +73,8 @@ Fault check_closing(const SceneFile& file) {
     return closing("with nothing under the charge", "a body at the charge's bottom");
   for (const Body& body : scene.bodies) {
     if (!lies_under_charge(scene, body)) continue;
-    const auto faces = std::find_if(scene.interfaces.begin(), scene.interfaces.end(),
-                                    [&](const Interface& each) { return each.body == body.name; });
+    const auto faces =
+        std::ranges::find_if(scene.interfaces, [&](const Interface& each) { return each.body == body.name; });
     if (faces == scene.interfaces.end() || faces->condition != Condition::sliding)
       return closing(fmt::format("with a charge bonded to \"{}\" under it", body.name),
                      fmt::format("[interface.{}] with condition = \"sliding\" and its friction", body.name));

@@ -126,7 +126,7 @@ Fault check_hold(const SceneFile& file) {
       held[b] = true;
       reached.push_back(b);
     }
-  const auto loose = std::find(held.begin(), held.end(), false);
+  const auto loose = std::ranges::find(held, false);
   if (loose == held.end()) return std::nullopt;
   const Body& body = bodies[static_cast<std::size_t>(loose - held.begin())];
   return fault_at(

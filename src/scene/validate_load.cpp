@@ -67,7 +67,7 @@ Fault check_rescaling(const SceneFile& file) {
   constexpr double least_peak = 1.0;  // Pa
   const Load& load = file.scene.load;
   if (load.curve_pressure.empty() || !load.rescale_to_peak) return std::nullopt;
-  const double measured = *std::max_element(load.curve_pressure.begin(), load.curve_pressure.end());
+  const double measured = *std::ranges::max_element(load.curve_pressure);
   if (measured >= least_peak) return std::nullopt;
   return fault_at(file, "load.rescale_to_peak",
                   fmt::format("true with a curve whose largest pressure is {}", pressure_text(measured)),
@@ -190,8 +190,8 @@ Fault fault_of_load(const SceneFile& file) {
     return fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
   }
   const auto& times = load.curve_time;
-  const auto late = std::adjacent_find(times.begin(), times.end(),
-                                       [](double a, double b) { return !(b - a > least_curve_interval); });
+  const auto late =
+      std::ranges::adjacent_find(times, [](double a, double b) { return !(b - a > least_curve_interval); });
   if (late != times.end()) {
     return fault_at(file, "load.curve_time",
                     fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),

@@ -175,7 +175,7 @@ std::vector<std::string> list_folder(const std::filesystem::path& folder, std::e
   for (std::filesystem::directory_iterator entry(folder, status), end; !status && entry != end;
        entry.increment(status))
     found.push_back(entry->path().filename());
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   return found;
 }
 

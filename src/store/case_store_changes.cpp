@@ -20,9 +20,8 @@ constexpr std::array<std::pair<CaseState, const char*>, 4> states{{{CaseState::d
 SqlColumn<RunRecord> state_column() {
   return {"state", "TEXT NOT NULL", [](const RunRecord& record) { return SqlValue(to_string(record.state)); },
           [](RunRecord& record, const SqlValue& stored) {
-            const auto found = std::find_if(states.begin(), states.end(), [&](const auto& each) {
-              return SqlValue(std::string(each.second)) == stored;
-            });
+            const auto found = std::ranges::find_if(
+                states, [&](const auto& each) { return SqlValue(std::string(each.second)) == stored; });
             if (found != states.end()) record.state = found->first;
             return found != states.end();
           }};
@@ -221,7 +220,7 @@ void CaseStore::fill_in(RunRecord& record) const {
 
 void CaseStore::remark(const std::string& text) {
   const std::lock_guard lock(using_);
-  if (std::find(remarks_.begin(), remarks_.end(), text) != remarks_.end()) return;
+  if (std::ranges::find(remarks_, text) != remarks_.end()) return;
   remarks_.push_back(text);
 }
 

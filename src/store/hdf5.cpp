@@ -128,7 +128,7 @@ void Hdf5Writer::put(const std::string& name, const Label& label, hid_t type,
   const Hdf5Id set(
       H5Dcreate2(here(), name.c_str(), type, space.get(), H5P_DEFAULT, dataset_creation_.get(), H5P_DEFAULT),
       H5Dclose);
-  const bool empty = std::find(extent.begin(), extent.end(), hsize_t{0}) != extent.end();
+  const bool empty = std::ranges::find(extent, hsize_t{0}) != extent.end();
   if (!set.valid() || (!empty && H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) ||
       !write_text_attribute(set.get(), "units", label.units) ||
       !write_text_attribute(set.get(), "description", label.description))

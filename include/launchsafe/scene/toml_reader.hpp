@@ -164,4 +164,15 @@ Expected<std::vector<ReadOwner<Owner>>> read_tables(const toml::table& root, con
 /// The error for a name that no key has, with the nearest one that exists.
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known);
 
+/// What a file of input is of: people give a study where a scene is asked for, and the other way round.
+enum class InputContent { scene, study, materials, unknown };
+
+/// By its keys: a scene has bodies; a study names its kind or its scene; a file of materials has nothing but
+/// materials and contacts.
+InputContent content_of(const toml::table& root);
+
+/// The fault of a file that is clearly of something else than is wanted.
+std::optional<InputError> check_content(const toml::table& root, const std::string& file,
+                                        InputContent wanted);
+
 }  // namespace launchsafe::scene
