@@ -4,15 +4,11 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/shown_key.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <utility>
 
 namespace launchsafe::app {
 namespace {

@@ -1,20 +1,15 @@
 #include "built_in_texts.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
-#include "launchsafe/scene/input_error.hpp"
+#include "launchsafe/report/study_status.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <sstream>
-#include <string_view>
-#include <utility>
 
 namespace launchsafe::app {
-
 namespace {
 
 constexpr const char* description =
@@ -72,8 +67,17 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_jobs(command, study.jobs, "Cases at a time; as many as there are processors unless given");
   add_limits(command, study.memory, study.time_limit);
   add_longest_run(command, study.longest_run);
-  add_until(command, study.until);
-  add_shard(command, study.shard);
+  const auto read_time = [](const std::string& text) {
+    return report::next_clock_time(text, std::time(nullptr));
+  };
+  add_amount(command, "--until", study.until, read_time, "a time of the day such as 06:00, of the next 24 h",
+             "HH:MM",
+             "Stop at this local time, as on Ctrl-C: what was run is kept, the same command goes on");
+  const auto read_shard = [&shard = study.shard](const std::string& text) {
+    return study::parse_shard(text, shard);
+  };
+  add_read(command, "--shard", read_shard, "i/N such as 2/4", "i/N",
+           "Run only part i of N of the mechanical runs; see launchsafe merge");
   add_tolerance(command, study.tolerance);
   command.add_flag("--dry-run", study.dry_run,
                    "Say which mechanical runs it needs and why, and at what cost; write nothing");
@@ -123,8 +127,7 @@ void add_ask(CLI::App& app, CommandLine& line) {
                "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
   add_optional(command, "--set", ask.settings, "KEY=VALUE",
                "An input of the launch, or a list of values, of which all combinations are launches; those "
-               "that are not "
-               "set are as in the study's scene")
+               "that are not set are as in the study's scene")
       ->allow_extra_args(false);
   const auto read_gap = [](std::string_view text) {
     const auto gap = parse_scene_quantity<scene::Dimension::length>(text);

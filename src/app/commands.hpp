@@ -8,10 +8,6 @@
 
 #include <ctime>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::app {
 

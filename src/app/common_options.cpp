@@ -1,17 +1,13 @@
 #include "common_options.hpp"
 
-#include "launchsafe/report/study_status.hpp"
-
 #include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 namespace launchsafe::app {
-
 namespace {
 
 struct UnitFactor {
@@ -105,18 +101,6 @@ void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<
              "SIZE", "Memory of all running cases together, such as 8GB; most of what is free unless given");
   add_amount(command, "--time-limit", time_limit, parse_duration, allowed_durations, "DURATION",
              "Wall time after which a case is given up, such as 10min");
-}
-
-void add_until(CLI::App& command, std::optional<std::time_t>& until) {
-  const auto read = [](const std::string& text) { return report::next_clock_time(text, std::time(nullptr)); };
-  add_amount(command, "--until", until, read, "a time of the day such as 06:00, of the next 24 h", "HH:MM",
-             "Stop at this local time, as on Ctrl-C: what was run is kept, the same command goes on");
-}
-
-void add_shard(CLI::App& command, study::Shard& shard) {
-  const auto read = [&shard](const std::string& text) { return study::parse_shard(text, shard); };
-  add_read(command, "--shard", read, "i/N such as 2/4", "i/N",
-           "Run only part i of N of the mechanical runs; see launchsafe merge");
 }
 
 void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {

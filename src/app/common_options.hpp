@@ -6,12 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <ctime>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-
 namespace launchsafe::app {
 
 /// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
@@ -60,10 +54,6 @@ void add_longest_run(CLI::App& command, std::optional<double>& longest_run);
 void add_jobs(CLI::App& command, int& jobs, const char* meaning);
 /// --memory, bytes, and --time-limit, s.
 void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit);
-/// --until, seconds since the epoch.
-void add_until(CLI::App& command, std::optional<std::time_t>& until);
-/// --shard.
-void add_shard(CLI::App& command, study::Shard& shard);
 /// --tolerance, K.
 void add_tolerance(CLI::App& command, std::optional<double>& tolerance);
 /// --update.

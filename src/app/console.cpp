@@ -160,6 +160,11 @@ ExitCode fail_at_once(const char* message) {
   return ExitCode::failed;
 }
 
+std::atomic<bool>& stop_requested() {
+  static constinit std::atomic<bool> flag{false};
+  return flag;
+}
+
 void reserve_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;  // it is open

@@ -1,20 +1,15 @@
 // Where a command's words go: results to stdout, everything else to stderr, progress in place on a terminal;
-// the exit codes; and commands that a person can copy into a shell.
+// the exit codes; the flag by which a user stops it; and commands that a person can copy into a shell.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <nlohmann/json.hpp>
 
+#include <atomic>
 #include <chrono>
-#include <cstddef>
 #include <mutex>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::app {
 
@@ -78,6 +73,9 @@ class Console {
 /// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
 /// Allocates nothing, never throws.
 ExitCode fail_at_once(const char* message);
+
+/// True once the user wants the program to end. Whoever finds that nothing useful can follow may set it too.
+std::atomic<bool>& stop_requested();
 
 /// Opens descriptors 0 to 2 where the caller closed them, so that no file of ours gets one of these numbers
 /// and is written to as if it were stdout or stderr. To be called before anything else is opened. Writing to

@@ -128,8 +128,7 @@ std::string memory_text(const SlurmStudy& study) {
   }
   return fmt::format(
       "{:.0f} MiB are predicted for the program, its plan and the cases that run side by side; asked for are "
-      "{} "
-      "times that.",
+      "{} times that.",
       study.needs.memory / mebibyte, memory_factor);
 }
 

@@ -38,4 +38,15 @@ ExitCode explain_program(const ExplainArguments& arguments, Console& console);
 /// Prints the materials of a file.
 ExitCode explain_material_file(const std::filesystem::path& file, Console& console);
 
+// JSON schemas (draft 4) of scene and study files, from the keys that read them. Language servers of TOML
+// complete and check files by these.
+
+/// Of a scene file. What a schema cannot say, such as the range of a quantity with its unit, is in the
+/// descriptions, and in "unit", "range" and "example" beside every key.
+nlohmann::ordered_json scene_schema();
+/// Of a study file of any kind.
+nlohmann::ordered_json study_schema();
+/// Of a file of what is published, which studies name by `references`.
+nlohmann::ordered_json references_schema();
+
 }  // namespace launchsafe::app

@@ -5,21 +5,13 @@
 #include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-#include <string>
-#include <vector>
-
 namespace launchsafe::app {
-
 namespace {
 
 /// What cannot be read is left to the reader of scenes to complain about.

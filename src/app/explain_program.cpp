@@ -1,22 +1,14 @@
 // What launchsafe explains of itself: the keys of its files, what editors take, and materials with every
 // number and where it comes from.
 #include "explain.hpp"
-#include "key_schema.hpp"
-#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/kinetics_text.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::app {
 namespace {

@@ -12,9 +12,6 @@
 #include "launchsafe/study/scheduler.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
 
 namespace launchsafe::app {
 namespace {

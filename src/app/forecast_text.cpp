@@ -1,4 +1,3 @@
-#include "console.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -6,15 +5,10 @@
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <cstdint>
 
 namespace launchsafe::app {
 namespace {

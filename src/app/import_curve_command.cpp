@@ -3,23 +3,14 @@
 #include "explain.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace launchsafe::app {
-
 namespace {
 
 using scene::pressure_text, scene::time_text;

@@ -1,24 +1,18 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "built_in_texts.hpp"
 #include "commands.hpp"
-#include "key_schema.hpp"
+#include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "output_folder.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::app {
-
 namespace {
 
 constexpr double published_calibre = 0.155;  // m

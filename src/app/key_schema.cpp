@@ -1,5 +1,4 @@
-#include "key_schema.hpp"
-
+#include "explain.hpp"
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/named_material.hpp"
@@ -10,11 +9,8 @@
 
 #include <cmath>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace launchsafe::app {
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -164,11 +160,8 @@ Json array_of(Json table) { return {{"type", "array"}, {"items", std::move(table
 /// Tables each under a name of the user's.
 Json named(Json table) { return {{"type", "object"}, {"additionalProperties", std::move(table)}}; }
 
-const std::set<std::string>& scene_tables() {
-  static const std::set<std::string> tables{"body",     "interface", "observation_point", "accept", "source",
-                                            "material", "contact"};
-  return tables;
-}
+const std::set<std::string> scene_tables{"body",     "interface", "observation_point", "accept", "source",
+                                         "material", "contact"};
 
 /// A table that says where its values come from.
 Json with_sources(const std::string& table, const std::vector<scene::DocumentedKey>& keys, bool may_require) {
@@ -201,7 +194,7 @@ Json material_schema(const std::vector<scene::DocumentedKey>& keys, bool may_req
 /// All that one value of a scene is changed by: the keys of the scene, of its bodies and of its interfaces.
 Json changes_schema() {
   const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
-  Json schema = schema_without(scene_tables(), keys, false);
+  Json schema = schema_without(scene_tables, keys, false);
   schema["properties"]["body"] = named(schema_of_table("body", keys, false));
   schema["properties"]["interface"] = named(schema_of_table("interface.NAME", keys, false));
   schema["properties"]["material"] = material_schema(keys, false);
@@ -252,7 +245,7 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
 
 nlohmann::ordered_json scene_schema() {
   const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
-  Json schema = schema_without(scene_tables(), keys, true);
+  Json schema = schema_without(scene_tables, keys, true);
   for (const char* table : {"body", "observation_point", "accept", "source"})
     schema["properties"][table] = array_of(schema_of_table(table, keys));
   Json faces = schema_of_table("interface.NAME", keys, false);

@@ -1,16 +1,14 @@
 #include "commands.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/version.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <new>
-#include <string_view>
 
 namespace {
 
@@ -50,6 +48,35 @@ void become_faster_program(char** arguments) {
 void become_faster_program(char**) {}
 
 #endif
+
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+
+void request_stop(int) { stop_requested().store(true, std::memory_order_relaxed); }
+
+void stop_on(int signal) {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+  sigaction(signal, &action, nullptr);
+}
+
+/// `nohup` has SIGHUP ignored, and means it.
+bool is_ignored(int signal) {
+  struct sigaction present {};
+  return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
+}
+
+/// From here on the first SIGINT, SIGTERM or SIGHUP sets the flag of `stop_requested`, and a second one ends
+/// the program at once (files are whole or not there, so that is safe). Writing to a closed pipe or past a
+/// file-size limit becomes an error of the write instead of the program's end.
+void catch_signals() {
+  stop_on(SIGINT);
+  stop_on(SIGTERM);
+  if (!is_ignored(SIGHUP)) stop_on(SIGHUP);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 /// Version, commit, compiler, flags and libraries.
 std::string version_text() {

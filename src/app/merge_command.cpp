@@ -3,12 +3,7 @@
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 #include "study_session.hpp"
-
-#include <fmt/format.h>
-
-#include <string>
 
 namespace launchsafe::app {
 namespace {

@@ -5,13 +5,9 @@
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/sha256.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <optional>
 #include <sstream>
-#include <system_error>
-#include <vector>
 
 namespace launchsafe::app {
 namespace {

@@ -3,17 +3,9 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/result.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/study_file.hpp"
-
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::app {
 

@@ -1,18 +1,14 @@
 // launchsafe plot: pictures of one case, or their numbers.
 #include "commands.hpp"
 #include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <sstream>
-#include <utility>
 
 namespace launchsafe::app {
 namespace {

@@ -1,14 +1,9 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "commands.hpp"
-#include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/store/study_record.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
-
-#include <utility>
 
 namespace launchsafe::app {
 namespace {

@@ -11,25 +11,19 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <string_view>
 
 namespace launchsafe::app {
-
 namespace {
 
 using scene::Dimension;

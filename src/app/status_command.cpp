@@ -2,14 +2,11 @@
 #include "commands.hpp"
 #include "launchsafe/report/study_status.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
 #include <thread>
 
 namespace launchsafe::app {

@@ -4,14 +4,8 @@
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 #include "study_session.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::app {
 namespace {

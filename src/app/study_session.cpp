@@ -5,12 +5,8 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
-#include "signals.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
-
-#include <algorithm>
 
 namespace launchsafe::app {
 namespace {

@@ -3,22 +3,12 @@
 #pragma once
 
 #include "commands.hpp"
-#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/store/case_store.hpp"
-#include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/scheduler.hpp"
 
-#include <chrono>
 #include <condition_variable>
-#include <ctime>
-#include <filesystem>
-#include <memory>
-#include <mutex>
-#include <optional>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace launchsafe::app {
 

@@ -12,7 +12,6 @@
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/surface/skin.hpp"
-#include "signals.hpp"
 
 #include <fmt/format.h>
 

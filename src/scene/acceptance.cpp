@@ -1,13 +1,9 @@
 #include "launchsafe/scene/acceptance.hpp"
 
-#include "launchsafe/scene/quantity.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

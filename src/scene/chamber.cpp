@@ -5,12 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <numbers>
-#include <optional>
 #include <tuple>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

@@ -1,14 +1,11 @@
 #include "launchsafe/scene/pressure_curve.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <vector>
 
 namespace launchsafe::scene {
 namespace {

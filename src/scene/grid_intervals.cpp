@@ -1,6 +1,5 @@
 #include "launchsafe/scene/mesh.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 

@@ -2,7 +2,6 @@
 // they are of; and messages on what is wrong in them.
 #include "input_text.hpp"
 
-#include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <boost/locale/utf.hpp>
@@ -11,14 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cerrno>
-#include <cstddef>
 #include <cstring>
 #include <system_error>
-#include <vector>
 
 namespace launchsafe::scene {
 namespace {

@@ -4,9 +4,6 @@
 #include "launchsafe/scene/input_error.hpp"
 
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::scene {
 

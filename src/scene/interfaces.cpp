@@ -1,15 +1,11 @@
 // The tables [interface.NAME] and [contact.NAME] of a file: how bodies hold the charge.
 #include "launchsafe/scene/interfaces.hpp"
 
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

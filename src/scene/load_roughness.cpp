@@ -5,14 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstddef>
 #include <numbers>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::scene {
 namespace {

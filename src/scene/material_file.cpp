@@ -1,16 +1,12 @@
 // Files of materials and contacts, those that ship, decompositions of explosives, and where values come from.
 #include "input_text.hpp"
-#include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <set>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

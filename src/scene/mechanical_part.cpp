@@ -3,7 +3,6 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::scene {

@@ -4,13 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <optional>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

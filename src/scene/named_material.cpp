@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
-#include <optional>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

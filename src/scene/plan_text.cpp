@@ -5,13 +5,10 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/quantity.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace launchsafe::scene {
 namespace {

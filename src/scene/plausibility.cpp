@@ -3,15 +3,12 @@
 
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

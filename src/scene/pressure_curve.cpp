@@ -1,15 +1,12 @@
 #include "launchsafe/scene/pressure_curve.hpp"
 
 #include "input_text.hpp"
-#include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <string_view>
 
 namespace launchsafe::scene {
 namespace {

@@ -4,13 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <optional>
 #include <system_error>
 
 namespace launchsafe::scene {

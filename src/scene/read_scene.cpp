@@ -1,17 +1,14 @@
 #include "launchsafe/scene/read_scene.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/selective_inertia.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

@@ -3,10 +3,6 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// A file of studies/materials.

@@ -2,13 +2,9 @@
 
 #include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/named_material.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
-
-#include <string>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

@@ -1,10 +1,6 @@
 // The keys of the charge's bottom.
 #include "launchsafe/scene/scene_keys.hpp"
 
-#include <cstddef>
-#include <string>
-#include <utility>
-
 namespace launchsafe::scene {
 namespace {
 

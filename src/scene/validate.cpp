@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <tuple>
-#include <utility>
 
 namespace launchsafe::scene {
 namespace {

@@ -2,18 +2,13 @@
 // end.
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::scene {
 namespace {

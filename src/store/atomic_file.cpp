@@ -6,14 +6,9 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstddef>
-#include <limits>
 #include <random>
-#include <utility>
 
 namespace launchsafe::store {
 namespace {

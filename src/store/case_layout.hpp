@@ -2,13 +2,10 @@
 // those of snapshot_layout.hpp do.
 #pragma once
 
-#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "snapshot_layout.hpp"
 
 #include <array>
-#include <cstddef>
-#include <string>
 
 namespace launchsafe::store {
 

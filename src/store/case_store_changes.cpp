@@ -2,7 +2,6 @@
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/store_status.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 

@@ -2,12 +2,7 @@
 
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/store_status.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::store {
 namespace {

@@ -4,11 +4,6 @@
 #include "launchsafe/store/case_store.hpp"
 #include "posix_file.hpp"
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::store {
 
 /// The hashes of what has the name of a case file in a store, in order.

@@ -6,7 +6,6 @@
 #include <sqlite3.h>
 
 #include <bit>
-#include <string>
 
 namespace launchsafe::store {
 namespace {

@@ -8,14 +8,9 @@
 #include "launchsafe/store/hdf5.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <numeric>
-#include <string>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::store {
 

@@ -5,13 +5,7 @@
 #include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cstdint>
-#include <limits>
-#include <set>
 
 namespace launchsafe::store {
 namespace {

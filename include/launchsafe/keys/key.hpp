@@ -10,13 +10,8 @@
 #include <functional>
 #include <initializer_list>
 #include <limits>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::keys {
 

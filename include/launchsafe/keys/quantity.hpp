@@ -9,15 +9,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
-#include <functional>
-#include <initializer_list>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::keys {
 

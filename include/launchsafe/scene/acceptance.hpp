@@ -5,9 +5,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// Accepted by these names: bodies, constants of their materials, and what holds the charge, where they are

@@ -4,10 +4,6 @@
 
 #include "launchsafe/scene/scene.hpp"
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 namespace launchsafe::scene {
 
 enum class BodySide { x_begin, x_end, r_begin, r_end };

@@ -2,13 +2,6 @@
 #pragma once
 
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/scene.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::scene {
 

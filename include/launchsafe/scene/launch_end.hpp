@@ -4,9 +4,6 @@
 
 #include "launchsafe/scene/scene.hpp"
 
-#include <optional>
-#include <string>
-
 namespace launchsafe::scene {
 
 /// Share of its peak, over its base, below which a load no longer heats: heat goes with the square of the

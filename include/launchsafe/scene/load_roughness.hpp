@@ -4,10 +4,6 @@
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/scene.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be

@@ -5,8 +5,6 @@
 #include "launchsafe/scene/scene.hpp"
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace launchsafe::scene {
 

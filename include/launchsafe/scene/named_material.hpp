@@ -5,13 +5,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// A value that a file gives, and where.

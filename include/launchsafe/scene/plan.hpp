@@ -6,9 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::scene {
 

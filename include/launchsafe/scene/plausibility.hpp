@@ -3,13 +3,6 @@
 #pragma once
 
 #include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/scene/scene.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::scene {
 

@@ -4,11 +4,8 @@
 
 #include "launchsafe/scene/input_error.hpp"
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::scene {
 

@@ -4,10 +4,6 @@
 #include "launchsafe/keys/key.hpp"
 #include "launchsafe/scene/input_error.hpp"
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace launchsafe::scene {
 
 using keys::Dimension;

@@ -2,16 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::scene {
 

@@ -7,15 +7,6 @@
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
-
 namespace launchsafe::scene {
 
 enum class Symmetry { axisymmetric, plane_strain };

@@ -6,10 +6,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// Keys of the scene itself, in the order in which they are applied.

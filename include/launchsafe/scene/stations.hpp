@@ -3,9 +3,6 @@
 
 #include "launchsafe/scene/scene.hpp"
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::scene {
 
 /// A box at the charge's bottom, m.

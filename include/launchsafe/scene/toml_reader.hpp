@@ -3,24 +3,12 @@
 // struct it fills.
 #pragma once
 
-#include "launchsafe/keys/key.hpp"
-#include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <toml++/toml.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <functional>
-#include <limits>
 #include <map>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::scene {
 

@@ -4,11 +4,7 @@
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 namespace launchsafe::store {
 

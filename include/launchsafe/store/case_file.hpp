@@ -10,8 +10,6 @@
 #include "launchsafe/store/result.hpp"
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 namespace launchsafe::store {
 

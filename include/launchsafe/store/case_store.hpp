@@ -15,21 +15,12 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/store/database.hpp"
 #include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/result.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <vector>
 
 struct stat;
 

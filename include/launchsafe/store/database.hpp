@@ -13,12 +13,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <string>
 #include <type_traits>
 #include <unordered_map>
-#include <utility>
-#include <variant>
-#include <vector>
 
 struct sqlite3;
 struct sqlite3_stmt;

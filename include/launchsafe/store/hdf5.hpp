@@ -8,12 +8,7 @@
 #include <hdf5.h>
 
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::store {
 

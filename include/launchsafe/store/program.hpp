@@ -5,8 +5,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace launchsafe::store {
 

@@ -4,7 +4,6 @@
 #include "launchsafe/scene/input_error.hpp"
 
 #include <optional>
-#include <string>
 
 namespace launchsafe::store {
 

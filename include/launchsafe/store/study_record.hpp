@@ -8,8 +8,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace launchsafe::store {
 
