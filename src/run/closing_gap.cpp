@@ -212,20 +212,11 @@ void ClosingGap::note_motion(bool touches, double time) {
 }
 
 void ClosingGap::record(const TraceRecorder& recorder) {
-  double area = 0.0, opening = 0.0, pressure = 0.0, air = 0.0;
-  for (std::size_t column = 0; column < nodes_.size(); ++column) {
-    const Node& node = nodes_[column];
-    const double mean = columns_.mean_air(column);
-    area += node.area;
-    opening += node.area * node.opening;
-    pressure += node.area * node.pressure;
-    air += node.area * mean;
-  }
   history_.time.push_back(recorder.trace().time.back());
-  history_.opening.push_back(opening / area);
-  history_.gas_pressure.push_back(pressure / area);
+  history_.opening.push_back(mean([&](std::size_t column) { return nodes_[column].opening; }));
+  history_.gas_pressure.push_back(mean([&](std::size_t column) { return nodes_[column].pressure; }));
   skin_.time.push_back(history_.time.back());
-  skin_.air_temperature.push_back(air / area);
+  skin_.air_temperature.push_back(mean([&](std::size_t column) { return columns_.mean_air(column); }));
   for (const std::vector<std::size_t>& columns : columns_of_station_) {
     double hottest = 0.0;
     for (const std::size_t column : columns) hottest = std::max(hottest, nodes_[column].hottest);
@@ -236,27 +227,15 @@ void ClosingGap::record(const TraceRecorder& recorder) {
 }
 
 ClosingHistory ClosingGap::take_history(mpm::Simulation& simulation) {
+  using surface::FilmEnergy;
   const mpm::Contact& contact = contact_of(simulation);
-  double area = 0.0;
-  surface::FilmEnergy sum;
-  for (std::size_t column = 0; column < nodes_.size(); ++column) {
-    const Node& node = nodes_[column];
-    const surface::FilmEnergy& energy = columns_.energy(column);
-    area += node.area;
-    sum.charge += node.area * energy.charge;
-    sum.base += node.area * energy.base;
-    sum.gas += node.area * energy.gas;
-    sum.work += node.area * energy.work;
-    sum.friction += node.area * energy.friction;
-    sum.reaction += node.area * energy.reaction;
-    history_.work_on_gas += node.area * contact.gas_work(node.face, node.node);
-    skin_.energy_residual = std::max(skin_.energy_residual, energy.residual());
-  }
-  history_.energy = sum;
-  for (double* part :
-       {&history_.energy.charge, &history_.energy.base, &history_.energy.gas, &history_.energy.work,
-        &history_.energy.friction, &history_.energy.reaction, &history_.work_on_gas})
-    *part /= area;
+  for (double FilmEnergy::*part : {&FilmEnergy::charge, &FilmEnergy::base, &FilmEnergy::gas,
+                                   &FilmEnergy::work, &FilmEnergy::friction, &FilmEnergy::reaction})
+    history_.energy.*part = mean([&](std::size_t column) { return columns_.energy(column).*part; });
+  history_.work_on_gas =
+      mean([&](std::size_t column) { return contact.gas_work(nodes_[column].face, nodes_[column].node); });
+  for (std::size_t column = 0; column < nodes_.size(); ++column)
+    skin_.energy_residual = std::max(skin_.energy_residual, columns_.energy(column).residual());
   return std::move(history_);
 }
 

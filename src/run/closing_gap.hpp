@@ -53,6 +53,16 @@ class ClosingGap {
     double pressure_integral = 0;   ///< Pa s, over it
   };
 
+  /// Of what columns have, over the area of the bottom.
+  template <class OfColumn>
+  double mean(OfColumn of_column) const {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t column = 0; column < nodes_.size(); ++column) {
+      sum += nodes_[column].area * of_column(column);
+      area += nodes_[column].area;
+    }
+    return sum / area;
+  }
   static bool is_bottom(const scene::Scene& scene, const mpm::Contact& contact, std::size_t face);
   std::vector<Node> nodes_of_bottom(mpm::Simulation& simulation, const TraceRecorder& recorder);
   void find_columns_of_stations(const TraceRecorder& recorder);

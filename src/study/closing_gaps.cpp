@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace launchsafe::study {
 namespace {
@@ -37,10 +38,12 @@ double time_at_share(const scene::Load& load, double share) {
 
 CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   scene::Scene scene = closing_scene(input);
-  scene.surface.base = terms.base;
-  scene.surface.roughness = terms.roughness;
-  scene.surface.release = terms.release;
-  scene.surface.release_duration = terms.release_duration;
+  if (gap > terms.roughness) {  // others are one launch on whatever terms
+    scene.surface.base = terms.base;
+    scene.surface.roughness = terms.roughness;
+    scene.surface.release = terms.release;
+    scene.surface.release_duration = terms.release_duration;
+  }
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
@@ -158,16 +161,21 @@ std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& se
   return launches;
 }
 
-/// Computes launches and takes them in; those of one gap on one bound follow each other.
+/// Computes launches, the same one once, and takes them in; those of one gap on one bound follow each other.
 void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run) {
   std::vector<PlannedRun> runs;
+  std::map<std::string, std::size_t> known_runs;
+  std::vector<std::size_t> run_of;
   for (const Asked& each : launches) {
     const auto make = [&study, each] {
       return run_on(study.cases[each.search->index], *each.terms, each.gap);
     };
-    runs.push_back({make, cost_of(make())});
+    const CaseRun asked = make();
+    const auto [found, is_new] = known_runs.try_emplace(asked.hash, runs.size());
+    run_of.push_back(found->second);
+    if (is_new) runs.push_back({make, cost_of(asked)});
   }
-  std::vector<ClosingPoint> points(launches.size());
+  std::vector<ClosingPoint> points(runs.size());
   const auto makers = runs;
   run(std::move(runs),
       [&](std::size_t i, const FinishedRun& finished) { points[i] = point_of(makers[i].make(), finished); });
@@ -176,9 +184,9 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
     const bool first =
         i == 0 || launches[i].search != launches[i - 1].search || launches[i].gap != launches[i - 1].gap;
     if (first)
-      known.push_back(std::move(points[i]));
-    else
-      join(points[i], known.back());
+      known.push_back(points[run_of[i]]);
+    else if (run_of[i] != run_of[i - 1])
+      join(points[run_of[i]], known.back());
   }
 }
 
@@ -255,9 +263,9 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
   // An odd bit of round-off is no halving.
   const double halvings = std::ceil(std::log2(widest / study.tolerance) - 1e-9);
   const std::size_t gaps = scanned.size() + static_cast<std::size_t>(halvings);
-  std::size_t launches = 0;
+  std::size_t launches = 1;  // without a gap, on all terms
   for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
-    if (bound.unknown_for.empty()) launches += gaps * bound.terms.size();
+    if (bound.unknown_for.empty()) launches += (gaps - 1) * bound.terms.size();
   return launches;
 }
 

@@ -360,8 +360,9 @@ TEST(Sweep, ForeseesTheLaunchesOfGapsThatClose) {
   StudyOptions options;
   options.jobs = 1;
   const Forecast forecast = forecast_study(study, options, 1e6);
-  // Of two cases on two bounds: four gaps, and ten halvings of 0.06 cm down to the default of 0.0001 cm.
-  EXPECT_EQ(forecast.confirmations, 2u * 2u * (4u + 10u));
+  // Of two cases: one without a gap, and on two bounds three gaps, and ten halvings of 0.06 cm down to the
+  // default of 0.0001 cm.
+  EXPECT_EQ(forecast.confirmations, 2u * (1u + 2u * (3u + 10u)));
   EXPECT_GT(forecast.confirmation_time, 10.0 * (forecast.time - forecast.confirmation_time));
 }
 

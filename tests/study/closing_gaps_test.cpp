@@ -113,6 +113,16 @@ TEST(ClosingGaps, TheHottestReleaseAndTheSmoothestFacesAreTheCorner) {
   EXPECT_NEAR(evidence.corner_margin, ignition - point->maximum_temperature, 1e-9);
 }
 
+TEST(ClosingGaps, TheLaunchWithoutAGapIsMadeOnceForAllTerms) {
+  std::size_t without = 0;
+  const auto answers = answers_of(closing_study(), [&](const CaseRun& asked) {
+    if (*asked.skin_gap == 0.0) ++without;
+    return launch_of(asked, *asked.skin_gap == 0.0 ? 410.0 : 400.0);
+  });
+  EXPECT_EQ(without, 1u);
+  for (const ClosingAnswer& answer : answers) EXPECT_EQ(answer.at(0.0)->maximum_temperature, 410.0);
+}
+
 TEST(ClosingGaps, TheCornerLetsGoAsFastAsSoundOrFaster) {
   StudyCase input = closing_study().cases.front();
   const double passage = scene::transit_time(input.scene.scene);
