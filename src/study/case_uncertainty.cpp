@@ -276,7 +276,7 @@ std::string input_uncertainty_text(const Study& study) {
                 100.0 * assumed_load_spread, 100.0 * assumed_pulse_spread, assumed_temperature_spread);
   const std::string cooling =
       study.gaps_by_cooling
-          ? fmt::format(". A gap that cooling opens is thicker by what {:.3g} K more open, and by a tenth",
+          ? fmt::format(". A gap that cooling opens is thicker by what {:.3g} K more open, and by a quarter",
                         assumed_temperature_spread)
           : std::string{};
   return spread + cooling +

@@ -14,8 +14,8 @@ namespace launchsafe::study {
 inline constexpr double assumed_load_spread = 0.04;
 inline constexpr double assumed_temperature_spread = 12.0;  ///< K
 /// Of what cooling opens: the temperatures by which charge and shell fitted and are fired differ by as much
-/// more, and they expand by a tenth more unequally.
-inline constexpr double assumed_expansion_spread = 0.1;
+/// more, and they expand by a quarter more unequally, which holds what is plausible of the charge.
+inline constexpr double assumed_expansion_spread = 0.25;
 /// m, by which a gap that opened by cooling may be thicker; 0 of one that is stated.
 double cooling_spread(const scene::Scene& scene);
 /// Of the length of the pulse: a launch that lasts longer leaves the hot air more time.
