@@ -1,11 +1,51 @@
 // The table of kinds, and what several kinds share.
 #include "answer_tables.hpp"
+#include "launchsafe/kinds/accuracy.hpp"
+#include "launchsafe/kinds/calibration.hpp"
+#include "launchsafe/kinds/comparison.hpp"
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/sensitivity.hpp"
+#include "launchsafe/kinds/stability.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
+#include <tuple>
+
+/// Of every kind, so that none can be missing.
+struct launchsafe::study::KindSettings {
+  std::tuple<kinds::CriticalGapSettings, kinds::CalibrationSettings, kinds::SensitivitySettings,
+             kinds::AccuracySettings, kinds::StabilitySettings, kinds::ComparisonSettings>
+      of_kinds;
+};
 
 namespace launchsafe::kinds {
+
+template <class Settings>
+const Settings& settings_of(const study::Study& study) {
+  static const study::KindSettings defaults;
+  return std::get<Settings>((study.settings ? *study.settings : defaults).of_kinds);
+}
+
+template <class Settings>
+Settings& settings_of(study::Study& study) {
+  if (!study.settings) study.settings = std::make_shared<study::KindSettings>();
+  if (study.settings.use_count() > 1) study.settings = std::make_shared<study::KindSettings>(*study.settings);
+  return std::get<Settings>(study.settings->of_kinds);
+}
+
+template const CriticalGapSettings& settings_of(const study::Study&);
+template CriticalGapSettings& settings_of(study::Study&);
+template const CalibrationSettings& settings_of(const study::Study&);
+template CalibrationSettings& settings_of(study::Study&);
+template const SensitivitySettings& settings_of(const study::Study&);
+template SensitivitySettings& settings_of(study::Study&);
+template const AccuracySettings& settings_of(const study::Study&);
+template AccuracySettings& settings_of(study::Study&);
+template const StabilitySettings& settings_of(const study::Study&);
+template StabilitySettings& settings_of(study::Study&);
+template const ComparisonSettings& settings_of(const study::Study&);
+template ComparisonSettings& settings_of(study::Study&);
 
 using study::CaseAnswer, study::StudyFile;
 

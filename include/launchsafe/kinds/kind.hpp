@@ -76,17 +76,9 @@ struct Kind {
 /// What a study asks of its kind alone: CriticalGapSettings and the like; the defaults where it asks nothing.
 /// The second is for changing it.
 template <class Settings>
-const Settings& settings_of(const study::Study& study) {
-  static const Settings defaults;
-  const auto* own = std::any_cast<Settings>(std::as_const(study.settings).get());
-  return own ? *own : defaults;
-}
+const Settings& settings_of(const study::Study& study);
 template <class Settings>
-Settings& settings_of(study::Study& study) {
-  if (study.settings.use_count() != 1 || !std::any_cast<Settings>(study.settings.get()))
-    study.settings = std::make_shared<std::any>(settings_of<Settings>(std::as_const(study)));
-  return *std::any_cast<Settings>(study.settings.get());
-}
+Settings& settings_of(study::Study& study);
 
 /// Every kind of study there is: each is a row, with what its tables hold but for what a study asks.
 const std::vector<Kind>& kinds();

@@ -7,7 +7,6 @@
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/model_form.hpp"
 
-#include <any>
 #include <cstddef>
 #include <map>
 
@@ -182,12 +181,14 @@ struct StatedUncertainty {
   std::string because;  ///< the source, in words
 };
 
+/// What a kind of study alone asks. The module that has the kinds says what that is, and gives access to it
+/// (`kinds::settings_of`); here it is carried along.
+struct KindSettings;
+
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
-  /// What its kind alone asks. The module that has the kinds says what that is, and gives access to it
-  /// (`kinds::settings_of`). Shared by copies until one is changed; null: the defaults.
-  std::shared_ptr<std::any> settings;
+  std::shared_ptr<KindSettings> settings;  ///< shared by copies until one is changed; null: the defaults
   std::string title;
   bool demonstration = false;  ///< its shell, its launch or its firings are invented
   std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
