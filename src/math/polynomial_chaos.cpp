@@ -1,7 +1,5 @@
 #include "launchsafe/math/polynomial_chaos.hpp"
 
-#include "bootstrap.hpp"
-
 #include <Eigen/Dense>
 #include <boost/math/distributions/normal.hpp>
 

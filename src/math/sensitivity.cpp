@@ -1,15 +1,16 @@
 #include "launchsafe/math/sensitivity.hpp"
 
-#include "bootstrap.hpp"
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
 namespace launchsafe::math {
-
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -157,7 +158,31 @@ std::string too_few_rows(std::size_t used, std::size_t left_out, std::size_t nee
          std::to_string(needed) + " are needed";
 }
 
+/// Quantile of sorted values, linear between them; the first and last belong to 0 and 1.
+double sorted_quantile(const std::vector<double>& sorted, double share) {
+  const double position = share * static_cast<double>(sorted.size() - 1);
+  const std::size_t below = std::min(static_cast<std::size_t>(position), sorted.size() - 1);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const double rest = position - static_cast<double>(below);
+  return (1.0 - rest) * sorted[below] + rest * sorted[above];
+}
+
 }  // namespace
+
+std::vector<double> resampling_counts(std::size_t size, SplitMix64& random) {
+  std::vector<double> counts(size, 0.0);
+  for (std::size_t k = 0; k < size; ++k) counts[random.below(static_cast<std::uint32_t>(size))] += 1.0;
+  return counts;
+}
+
+Estimate with_interval(double value, std::vector<double> replicates, std::size_t size, double level) {
+  if (replicates.empty() || size < 2) return {value, no_estimate.lower, no_estimate.upper};
+  const double members = static_cast<double>(size);
+  const double student = boost::math::quantile(boost::math::students_t(members - 1.0), 0.5 * (1.0 - level));
+  const double tail = boost::math::cdf(boost::math::normal(), student * std::sqrt(members / (members - 1.0)));
+  std::sort(replicates.begin(), replicates.end());
+  return {value, sorted_quantile(replicates, tail), sorted_quantile(replicates, 1.0 - tail)};
+}
 
 std::vector<double> SaltelliDesign::point(std::size_t block, std::size_t row) const {
   assert(block < blocks() && row < rows);
