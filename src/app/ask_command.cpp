@@ -3,7 +3,7 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"

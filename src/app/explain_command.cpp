@@ -2,7 +2,7 @@
 #include "commands.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/section_drawing.hpp"
+#include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"

@@ -2,7 +2,7 @@
 // number and where it comes from.
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/kinetics_text.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"

@@ -5,7 +5,6 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/report/verdict_text.hpp"

@@ -1,7 +1,6 @@
-#include "launchsafe/report/cell_plot.hpp"
-
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
+#include "launchsafe/report/plot.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "launchsafe/report/page_sections.hpp"
+#include "launchsafe/report/page_texts.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

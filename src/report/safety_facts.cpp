@@ -1,6 +1,7 @@
 // What a safety report tells: rows of studies, what was selected from them, and what was computed besides.
 #include "safety_facts.hpp"
 
+#include "built_in_templates.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/study/study_cases.hpp"
@@ -15,10 +16,6 @@
 
 namespace launchsafe::report {
 namespace safety {
-
-// The templates that are built in, of src/report/templates.
-extern const char *const built_in_html, *const built_in_markdown, *const built_in_texts;
-
 namespace {
 
 /// Verdict rows that page one holds.
@@ -335,8 +332,8 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
 }  // namespace safety
 
 PageTemplates built_in_templates() {
-  PageTemplates templates{safety::built_in_html, safety::built_in_markdown, {}};
-  const auto built_in = texts_in(safety::built_in_texts, "texts");
+  PageTemplates templates{built_in_html, built_in_markdown, {}};
+  const auto built_in = texts_in(built_in_texts, "texts");
   for (const PageText& each : *built_in) templates.texts[each.id] = each.words;
   return templates;
 }
@@ -346,7 +343,7 @@ store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const PageTemplates& templates, const DocumentHead& document,
                                                  const DrawingLimits& limits) {
   const PageFacts facts = safety::facts_of(evidence, criterion);
-  return render_page(*texts_in(safety::built_in_texts, "texts"), facts, templates,
+  return render_page(*texts_in(built_in_texts, "texts"), facts, templates,
                      {{"format", "launchsafe safety report 3"},
                       {"title", evidence.main().title},
                       {"subject", evidence.main().scene.scene.title},

@@ -1,7 +1,6 @@
 // What was simulated: shell, load, inputs; and pictures of where and when it becomes hot.
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/section_drawing.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"

@@ -1,7 +1,7 @@
 #include "launchsafe/report/study_status.hpp"
 
+#include "built_in_templates.hpp"
 #include "launchsafe/report/number.hpp"
-#include "status_templates.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/shown_key.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 
@@ -10,9 +9,162 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace launchsafe::report {
+namespace {
+
+/// The unit of a text such as "18 ms" or "1780 J/(kg K)".
+std::string unit_of(const std::string& quantity) {
+  const std::size_t blank = quantity.find(' ');
+  return blank == std::string::npos ? std::string{} : quantity.substr(blank + 1);
+}
+
+/// Whether a unit is used for one of these quantities, or is a tenth of one that is: 1 mm is also 0.1 cm.
+bool suits(const std::string& unit, const std::vector<std::string>& used, scene::Dimension dimension) {
+  const double size = scene::in_unit(1.0, dimension, unit);  // pieces in one SI unit
+  return std::any_of(used.begin(), used.end(), [&](const std::string& each) {
+    return each == unit || std::lround(1e3 * size / scene::in_unit(1.0, dimension, each)) == 10'000;
+  });
+}
+
+/// The units to choose from: those that people use for single values, in the order of `units_of`.
+std::vector<std::string> candidate_units(const std::vector<double>& si_values, scene::Dimension dimension) {
+  std::vector<std::string> used, all_used, candidates;
+  for (const double value : si_values) used.push_back(unit_of(scene::format_quantity(value, dimension)));
+  for (int power = -12; power <= 15; ++power)
+    all_used.push_back(unit_of(scene::format_quantity(std::pow(10.0, power), dimension)));
+  for (const std::string& unit : scene::units_of(dimension)) {
+    const bool common = std::find(all_used.begin(), all_used.end(), unit) != all_used.end();
+    if (common && suits(unit, used, dimension)) candidates.push_back(unit);
+  }
+  return candidates;
+}
+
+/// What makes a number long: decimals and the zero before them; digits beyond three before the point count
+/// three times.
+std::size_t clutter(double value) {
+  const std::string text = significant(std::abs(value), 6);
+  if (text.find('e') != std::string::npos) return 2 * text.size();
+  const std::size_t whole = std::min(text.find('.'), text.size());
+  const std::size_t leading_zero = text.starts_with('0') && text.size() > 1 ? 1 : 0;
+  return text.size() - whole + leading_zero + (whole > 3 ? 3 * (whole - 3) : 0);
+}
+
+ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key,
+                       const std::vector<double>& si_values) {
+  ShownKey result{{.name = name, .heading = name, .meaning = key.sentence}, key.name};
+  // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
+  const bool dotted = name.find('.') != std::string::npos;
+  if (!dotted) std::replace(result.heading.begin(), result.heading.end(), '_', ' ');
+  std::replace(result.name.begin(), result.name.end(), '.', '_');
+  result.form = {Notation::significant, 6, key.dimension, unit_for(si_values, key.dimension)};
+  return result;
+}
+
+bool is_log_normal(const math::Distribution& distribution) {
+  return distribution.kind == math::Distribution::Kind::log_normal;
+}
+
+std::vector<double> marks_of(const math::Distribution& distribution) {
+  if (is_log_normal(distribution)) return {distribution.centre};
+  std::vector<double> values;
+  for (const double value : {distribution.lower, distribution.upper}) {
+    if (std::isfinite(value)) values.push_back(value);
+  }
+  if (distribution.kind == math::Distribution::Kind::normal) values.push_back(distribution.centre);
+  return values;
+}
+
+}  // namespace
+
+std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension) {
+  std::string best;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  std::size_t place = 0;  // the units come in the order of their use
+  for (const std::string& unit : candidate_units(si_values, dimension)) {
+    std::size_t total = place++;
+    for (const double value : si_values) total += clutter(scene::as_written(value, dimension, unit));
+    if (total >= least) continue;
+    least = total;
+    best = unit;
+  }
+  return best;
+}
+
+ShownKey shown(const study::Axis& axis) {
+  return shown_numbers(axis.name, axis.key, axis.distribution ? marks_of(*axis.distribution) : axis.values);
+}
+
+std::vector<ShownKey> shown_axes(const study::Study& study) {
+  std::vector<ShownKey> keys;
+  for (const study::Axis& axis : study.axes) keys.push_back(shown(axis));
+  return keys;
+}
+
+Quantities<std::vector<double>> axis_quantities(const study::Study& study) {
+  Quantities<std::vector<double>> quantities;
+  for (const study::Axis& axis : study.axes) {
+    const std::size_t place = quantities.size();
+    quantities.emplace_back(always(shown(axis)), [place](const std::vector<double>& coordinates) {
+      return place < coordinates.size() ? std::optional(coordinates[place]) : std::nullopt;
+    });
+  }
+  return quantities;
+}
+
+std::string plain_words(std::string name) {
+  name.erase(0, name.rfind('.') + 1);
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+std::string values_text(const ShownKey& key, const std::vector<double>& si_values) {
+  constexpr std::size_t most = 12;
+  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
+  if (si_values.size() > most) {
+    const auto [low, high] = std::minmax_element(si_values.begin(), si_values.end());
+    return fmt::format("{} values from {} to {}{}", si_values.size(), digits_of(*low, key.form),
+                       digits_of(*high, key.form), unit);
+  }
+  std::string text;
+  for (const double value : si_values) text += (text.empty() ? "" : ", ") + digits_of(value, key.form);
+  return text + unit;
+}
+
+std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
+  const auto number = [&key](double value_si) { return digits_of(value_si, key.form); };
+  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
+  if (is_log_normal(distribution))
+    return fmt::format("log-normal, {}{} ± {}", number(distribution.centre), unit,
+                       in_words(distribution.deviation, keys::significant(3, percent)));
+  if (distribution.kind != math::Distribution::Kind::normal) {
+    const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
+    return fmt::format("{} from {} to {}{}", uniform ? "uniform" : "log-uniform", number(distribution.lower),
+                       number(distribution.upper), unit);
+  }
+  std::string text =
+      fmt::format("normal, {} ± {}{}", number(distribution.centre), number(distribution.deviation), unit);
+  const bool below = std::isfinite(distribution.lower), above = std::isfinite(distribution.upper);
+  if (below && above)
+    return text + fmt::format(", cut off at {} and {}{}", number(distribution.lower),
+                              number(distribution.upper), unit);
+  if (below) text += fmt::format(", cut off below {}{}", number(distribution.lower), unit);
+  if (above) text += fmt::format(", cut off above {}{}", number(distribution.upper), unit);
+  return text;
+}
+
+std::string place_text(const std::vector<ShownKey>& keys, const std::vector<double>& coordinates) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i) {
+    // A pure number says nothing without its name.
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ",
+                        keys[i].form.unit.empty() ? keys[i].heading + " " : "", keys[i].text(coordinates[i]));
+  }
+  return text;
+}
+
 namespace {
 
 std::string values_or_distribution(const study::Axis& axis) {

@@ -1,5 +1,6 @@
 #include "launchsafe/report/verdict_text.hpp"
 
+#include "built_in_templates.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
@@ -8,7 +9,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
-#include "notes.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "launchsafe/report/gap_criterion.hpp"
+#include "launchsafe/report/safety_report.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-#include "launchsafe/report/section_drawing.hpp"
-
+#include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "report/gnuplot.hpp"

@@ -1,8 +1,7 @@
 // The pictures of one case: histories, profiles along the charge's bottom, and fields over the section; and
-// the numbers of some of them as tables.
+// the numbers of some of them as tables. Besides, the picture of a shell at rest.
 #pragma once
 
-#include "launchsafe/report/cell_plot.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/run/case_result.hpp"
@@ -67,5 +66,12 @@ std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn);
 bool is_of_time(const ShownSnapshot& snapshot, double time);
 
 store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits = {});
+
+/// Bodies in colours with their names in a legend, the lines of the grid, the axis of symmetry, the
+/// observation points with their names, and both axes in mm. A slender shell with a charge is drawn whole,
+/// and enlarged around the bottom of the charge. Names of points for which there is no room are left out, and
+/// the picture counts them. Needs at least one body. No other program takes part, and equal scenes have equal
+/// pictures.
+std::string section_svg(const scene::Scene& scene);
 
 }  // namespace launchsafe::report

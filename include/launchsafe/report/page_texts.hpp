@@ -1,7 +1,10 @@
 // The texts of a page under their names, and how they are filled with facts: rows as JSON, and what was
-// selected from them. What is said, where and in which digits stands in templates, not in C++.
+// selected from them. What is said, where and in which digits stands in templates, not in C++. Then, of
+// such texts, tables and figures, a page as files: for a browser, in Markdown, and in JSON for programs.
 #pragma once
 
+#include "launchsafe/report/plot.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/store/result.hpp"
 
 #include <nlohmann/json.hpp>
@@ -9,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::report {
@@ -69,5 +73,22 @@ struct PageTemplates {
 /// Those in a folder; what is not there, files or single texts, stays as it is built in. Errors: missing
 /// (none of the files is there), corrupt (no template: tags that do not fit together, a text without a name).
 store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates built_in);
+
+/// A figure, or an SVG that was drawn before.
+using Drawing = std::variant<Plot, CellPlot, std::string>;
+
+/// What a page tells.
+struct PageFacts {
+  Row facts = Row::object();                     ///< by the names that texts know
+  std::map<std::string, Drawing> drawings = {};  ///< by file; facts say which are shown, and where
+};
+
+/// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words
+/// `templates` may replace. `head`: "format", "title", "subject" and "answer" of the page. Whatever facts say
+/// is escaped, so that markup in it is shown. A figure that gnuplot does not draw is a remark, in the page
+/// too. Equal facts make equal files. Errors: corrupt (a template that cannot be rendered).
+store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
+                                          const PageTemplates& templates, const Row& head,
+                                          const DrawingLimits& limits = {});
 
 }  // namespace launchsafe::report
