@@ -1,7 +1,7 @@
 // What every stress case that completed must fulfil.
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/materials/product_gas.hpp"
-#include "launchsafe/run/judged_energy.hpp"
+#include "launchsafe/run/case_result.hpp"
 
 #include <fmt/format.h>
 

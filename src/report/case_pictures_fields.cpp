@@ -1,7 +1,7 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/run/snapshot_fields.hpp"
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>

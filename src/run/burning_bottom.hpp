@@ -8,9 +8,9 @@
 // other stations.
 #pragma once
 
+#include "charge_heat.hpp"
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "stepped_skin.hpp"
 
 #include <cmath>
 #include <limits>

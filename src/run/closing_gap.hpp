@@ -1,10 +1,10 @@
 // A gap whose air is closed in: the motion of its faces and the heat of its air, coupled.
 #pragma once
 
+#include "charge_heat.hpp"
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/surface/gap_columns.hpp"
-#include "trace_recorder.hpp"
 
 #include <limits>
 #include <vector>

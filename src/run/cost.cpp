@@ -1,6 +1,6 @@
 #include "launchsafe/run/cost.hpp"
 
-#include "launchsafe/run/snapshot_fields.hpp"
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/stations.hpp"

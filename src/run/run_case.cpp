@@ -4,7 +4,6 @@
 #include "launchsafe/scene/plan.hpp"
 #include "runner.hpp"
 #include "snapshot.hpp"
-#include "snapshot_taker.hpp"
 
 #include <fmt/format.h>
 

@@ -1,16 +1,14 @@
 // One mechanical run from its begin, or from a checkpoint, to its end.
 #pragma once
 
-#include "bulk_heat.hpp"
 #include "burning_bottom.hpp"
+#include "charge_heat.hpp"
 #include "closing_gap.hpp"
 #include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/run/judged_energy.hpp"
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "monitor.hpp"
-#include "snapshot_taker.hpp"
-#include "stepped_skin.hpp"
-#include "trace_recorder.hpp"
+#include "snapshot.hpp"
 
 #include <chrono>
 #include <limits>

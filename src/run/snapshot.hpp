@@ -1,9 +1,12 @@
-// Fields at one instant.
+// Snapshots: fields at one instant, and which of them a run takes, and when.
 #pragma once
 
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace launchsafe::run {
@@ -17,11 +20,48 @@ Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trac
 void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& trace,
               double ignition_temperature);
 
-/// Whether any body's plastic strain is above 0.
-bool has_yielded(const mpm::Simulation& simulation);
-/// Whether any crack is longer than at first by more than a thousandth.
-bool has_grown_crack(const mpm::Simulation& simulation);
-/// m, of the nodes of all faces whose bond has not held.
-double largest_slip(const mpm::Simulation& simulation);
+/// Snapshots at the times and events that a scene asks for.
+///
+/// One at a time is the state at the end of the step that reaches it, and so is the one at the largest
+/// chamber pressure, whose time is known beforehand. Growth of cracks, yield and slip are looked for at the
+/// samples of the trace: of the first two the state at the first sample that has them is kept, and of the
+/// slip that at the sample with the largest, which is known at the end. Ignition and the end of burning are
+/// told by the run.
+class SnapshotTaker {
+ public:
+  using Take = std::function<Snapshot()>;
+  explicit SnapshotTaker(const scene::Scene& scene);
+
+  /// Whether one of a time is due; then `take_due` is to be called.
+  bool is_due(double time) const { return next_ < due_.size() && due_[next_].time - time <= tolerance_; }
+  void take_due(double time, const Take& take);
+  /// At a sample of the trace.
+  void look_for_events(const mpm::Simulation& simulation, const Take& take);
+  /// An event has happened; only its first time counts.
+  void take_event(scene::Event event, const Take& take);
+  /// Nothing is left that has a time.
+  bool done() const { return next_ == due_.size(); }
+
+  /// All of them in order of time, one of each instant.
+  std::vector<Snapshot> finish();
+
+ private:
+  struct Due {
+    double time;  ///< s
+    std::optional<scene::Event> event;
+  };
+  bool wants(scene::Event event) const;
+  void keep(Snapshot shot, std::vector<scene::Event> events);
+
+  std::vector<Due> due_;  ///< in order of time
+  std::size_t next_ = 0;
+  double tolerance_;                                    ///< s, round-off of times
+  std::vector<scene::Event> wanted_;                    ///< not taken yet
+  double largest_slip_ = 0;                             ///< m
+  std::vector<std::shared_ptr<const Snapshot>> taken_;  ///< shared with the checkpoints of the run
+};
+
+/// Snapshots in order of time, and one with the events of all where several are of one instant.
+void merge_instants(std::vector<Snapshot>& snapshots);
 
 }  // namespace launchsafe::run

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/run/snapshot_fields.hpp"
 #include "launchsafe/store/hdf5.hpp"
 
 #include <algorithm>

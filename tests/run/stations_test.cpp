@@ -1,7 +1,7 @@
 // What stations read from particles whose state is made by hand.
 #include "launchsafe/scene/stations.hpp"
 
-#include "../../src/run/trace_recorder.hpp"
+#include "../../src/run/charge_heat.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

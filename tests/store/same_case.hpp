@@ -1,7 +1,7 @@
 // Whether two results are the same, bit by bit.
 #pragma once
 
-#include "launchsafe/run/snapshot_fields.hpp"
+#include "launchsafe/run/case_result.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
+#include "launchsafe/materials/law.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/film.hpp"
@@ -53,6 +54,14 @@ struct EnergyBalance {
   double drift() const;  ///< (kinetic + internal + damping + contact - external - body_force)/scale
 };
 
+/// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak, or of an atmosphere
+/// where that is more: drift is not judged on less, where it would be the first cells' share in the first
+/// steps, or round-off where there is no load.
+double least_judged_energy(const scene::Scene& scene);
+
+/// Impulse (N s) of a hundredth of an atmosphere on the base over the launch: likewise for momentum.
+double least_judged_impulse(const scene::Scene& scene);
+
 /// A row of the monitor history.
 struct MonitorSample {
   double time = 0;       ///< s
@@ -103,6 +112,25 @@ struct Snapshot {
   std::vector<BottomSkin> skins;    ///< of the case's gaps; none where the mechanics ran alone
   std::vector<FaceSnapshot> faces;  ///< of those that can slide, in the order of MechanicsResult::interfaces
 };
+
+/// A quantity of the particles, described once: case files, XDMF, pictures and tables go through the list.
+struct SnapshotField : materials::StateField {
+  std::vector<double> Snapshot::*values = nullptr;  ///< where it is; null for a law's, in Snapshot::state
+  bool always = false;                ///< whether files have it always, or where it was recorded
+  std::string_view title = {};        ///< of pictures; the meaning where there is none
+  std::string_view description = {};  ///< in files, likewise
+};
+
+/// All of them, in the order in which files list them and pictures are drawn.
+const std::vector<SnapshotField>& snapshot_fields();
+
+/// Its values in a snapshot, in SI, as many as particles; empty where the snapshot has not got it.
+const std::vector<double>& values_of(const Snapshot& snapshot, const SnapshotField& field);
+/// Likewise, to be filled.
+std::vector<double>& values_of(Snapshot& snapshot, const SnapshotField& field);
+
+/// Whether particles of a body have it.
+bool has_field(const scene::Scene& scene, const scene::Body& body, const SnapshotField& field);
 
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.
 struct LimiterCounts {
