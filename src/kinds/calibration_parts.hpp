@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/math/nonlinear_least_squares.hpp"
+#include "launchsafe/math/statistics.hpp"
 
 #include <nlohmann/json.hpp>
 

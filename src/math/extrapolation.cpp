@@ -1,5 +1,3 @@
-#include "launchsafe/math/extrapolation.hpp"
-
 #include "launchsafe/math/statistics.hpp"
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -24,6 +23,8 @@ constexpr double order_allowance = 0.1;
 constexpr double trusted_safety_factor = 1.25, cautious_safety_factor = 3.0;
 /// Half width, in differences between the values, where nothing may be extrapolated.
 constexpr double widening = 3.0;
+
+constexpr const char *method_of_three = "Celik et al. 2008", *method_of_more = "Eca & Hoekstra 2014";
 
 using Values = std::vector<double>;
 
@@ -46,7 +47,7 @@ double round_off_of(const Values& values) {
 }
 
 bool all_finite(const Values& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 /// Empty where the numbers can be used.
@@ -54,8 +55,8 @@ std::string fault_of(const Values& values, const Values& sizes, double formal_or
   if (values.empty()) return "there are no values";
   if (values.size() != sizes.size()) return "there are not as many sizes as values";
   if (!all_finite(values)) return "a value is not a finite number";
-  const bool increasing = std::adjacent_find(sizes.begin(), sizes.end(),
-                                             [](double a, double b) { return !(a < b); }) == sizes.end();
+  const bool increasing =
+      std::ranges::adjacent_find(sizes, [](double a, double b) { return !(a < b); }) == sizes.end();
   if (!all_finite(sizes) || !(sizes.front() > 0.0) || !increasing)
     return "the sizes are not positive and increasing";
   if (!(formal_order > 0.0) || !std::isfinite(formal_order)) return "the formal order is not above 0";
@@ -65,13 +66,11 @@ std::string fault_of(const Values& values, const Values& sizes, double formal_or
 /// The finest value and a reason why it is not more than that.
 Extrapolation finest_of(const Values& values, std::string method, std::string reason, double order,
                         double uncertainty) {
-  Extrapolation result;
-  result.reason = std::move(reason);
-  result.method = std::move(method);
-  result.order = order;
-  result.value = values.empty() ? not_a_number : values.front();
-  result.uncertainty = uncertainty;
-  return result;
+  return {.reason = std::move(reason),
+          .method = std::move(method),
+          .order = order,
+          .value = values.empty() ? not_a_number : values.front(),
+          .uncertainty = uncertainty};
 }
 
 /// Every difference has the other sign than the one before.
@@ -114,7 +113,7 @@ double finest_error(const Values& values, const Values& sizes, std::size_t fine,
 }
 
 Extrapolation from_three(const Values& values, const Values& sizes, double formal_order) {
-  const std::string method = "Celik et al. 2008";
+  const std::string method = method_of_three;
   const double widened = widening * range_of(values);
   const auto found = consistent_convergence(values, sizes);
   if (!found) return finest_of(values, method, "the values do not converge", not_a_number, widened);
@@ -132,13 +131,12 @@ Extrapolation from_three(const Values& values, const Values& sizes, double forma
         std::max(finest_error(values, sizes, 0, formal_order), finest_error(values, sizes, 1, formal_order));
     return finest_of(values, method, reason, found->order, cautious_safety_factor * error);
   }
-  Extrapolation result;
-  result.justified = true;
-  result.method = method;
-  result.order = found->order;
-  result.value = found->extrapolated;
-  result.uncertainty = trusted_safety_factor * finest_error(values, sizes, 0, found->order);
-  return result;
+  return {.justified = true,
+          .reason = {},
+          .method = method,
+          .order = found->order,
+          .value = found->extrapolated,
+          .uncertainty = trusted_safety_factor * finest_error(values, sizes, 0, found->order)};
 }
 
 // --- four values and more ---
@@ -190,9 +188,7 @@ std::optional<LeastSquares> weighted_fit(const Values& values, const Values& siz
 }
 
 double residual_sum(const LeastSquares& fit) {
-  double sum = 0.0;
-  for (const double residual : fit.residuals) sum += residual * residual;
-  return sum;
+  return std::inner_product(fit.residuals.begin(), fit.residuals.end(), fit.residuals.begin(), 0.0);
 }
 
 /// Regressors of phi = c0 + c1 (h^p - 1)/p, h in finest sizes. The same curves as phi0 + alpha h^p, but their
@@ -329,7 +325,7 @@ double uncertainty_of(const Fit& fit, double finest, double data_range, double s
 }
 
 Extrapolation from_four_or_more(const Values& values, const Values& sizes, double formal_order) {
-  const std::string method = "Eca & Hoekstra 2014";
+  const std::string method = method_of_more;
   const double widened = widening * range_of(values);
   const double data_range = range_of(values) / static_cast<double>(values.size() - 1);
   const Observed observed = observe(values, sizes, formal_order);
@@ -352,13 +348,12 @@ Extrapolation from_four_or_more(const Values& values, const Values& sizes, doubl
     return finest_of(values, method, reason, observed.order,
                      converges_badly ? std::max(uncertainty, widened) : uncertainty);
   }
-  Extrapolation result;
-  result.justified = true;
-  result.method = method;
-  result.order = observed.order;
-  result.value = fit->limit;
-  result.uncertainty = uncertainty;
-  return result;
+  return {.justified = true,
+          .reason = {},
+          .method = method,
+          .order = observed.order,
+          .value = fit->limit,
+          .uncertainty = uncertainty};
 }
 
 }  // namespace
@@ -369,20 +364,16 @@ Extrapolation extrapolate(const std::vector<double>& values, const std::vector<d
   if (!fault.empty()) return finest_of(values, "", fault, not_a_number, infinity);
   if (values.size() == 1) return finest_of(values, "", "there is one value only", not_a_number, infinity);
   const double round_off = round_off_of(values), range = range_of(values);
-  const std::string method = values.size() == 2   ? ""
-                             : values.size() == 3 ? "Celik et al. 2008"
-                                                  : "Eca & Hoekstra 2014";
-  if (range <= round_off) {
+  const bool three = values.size() == 3;
+  const std::string method = values.size() == 2 ? "" : three ? method_of_three : method_of_more;
+  if (range <= round_off)
     return finest_of(values, method, "the values are equal, so that no order shows", not_a_number,
                      round_off + range);
-  }
-  Extrapolation result;
-  if (values.size() == 2) {
-    result = finest_of(values, method, "there are two values only", not_a_number, widening * range);
-  } else {
-    result = values.size() == 3 ? from_three(values, sizes, formal_order)
-                                : from_four_or_more(values, sizes, formal_order);
-  }
+  if (values.size() == 2)
+    return finest_of(values, method, "there are two values only", not_a_number,
+                     std::max(widening * range, round_off));
+  Extrapolation result =
+      three ? from_three(values, sizes, formal_order) : from_four_or_more(values, sizes, formal_order);
   result.uncertainty = std::max(result.uncertainty, round_off);
   return result;
 }

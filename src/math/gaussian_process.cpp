@@ -1,4 +1,4 @@
-#include "launchsafe/math/gaussian_process.hpp"
+#include "launchsafe/math/surrogates.hpp"
 
 #include <Eigen/Dense>
 

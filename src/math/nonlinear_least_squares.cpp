@@ -1,5 +1,3 @@
-#include "launchsafe/math/nonlinear_least_squares.hpp"
-
 #include "launchsafe/math/statistics.hpp"
 
 #include <Eigen/Dense>
@@ -55,7 +53,7 @@ class Problem {
     auto found = residuals_(points);
     if (!found) return std::nullopt;
     for (const std::vector<double>& values : *found)
-      if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+      if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
         return std::nullopt;
     return found;
   }

@@ -1,4 +1,4 @@
-#include "launchsafe/math/polynomial_chaos.hpp"
+#include "launchsafe/math/surrogates.hpp"
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/normal.hpp>

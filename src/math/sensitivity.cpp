@@ -180,7 +180,7 @@ Estimate with_interval(double value, std::vector<double> replicates, std::size_t
   const double members = static_cast<double>(size);
   const double student = boost::math::quantile(boost::math::students_t(members - 1.0), 0.5 * (1.0 - level));
   const double tail = boost::math::cdf(boost::math::normal(), student * std::sqrt(members / (members - 1.0)));
-  std::sort(replicates.begin(), replicates.end());
+  std::ranges::sort(replicates);
   return {value, sorted_quantile(replicates, tail), sorted_quantile(replicates, 1.0 - tail)};
 }
 

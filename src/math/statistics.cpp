@@ -24,13 +24,13 @@ double student_quantile(double level, int degrees_of_freedom) {
 }
 
 bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 bool is_fittable(const std::vector<std::vector<double>>& rows, const std::vector<double>& y) {
   if (rows.empty() || rows.size() != y.size() || rows.front().empty() || !all_finite(y)) return false;
   const std::size_t width = rows.front().size();
-  return rows.size() >= width && std::all_of(rows.begin(), rows.end(), [&](const std::vector<double>& row) {
+  return rows.size() >= width && std::ranges::all_of(rows, [&](const std::vector<double>& row) {
            return row.size() == width && all_finite(row);
          });
 }
@@ -109,9 +109,7 @@ double explained_share(const std::vector<double>& y, double residual_sum) {
 }  // namespace
 
 double LeastSquares::at(const std::vector<double>& row) const {
-  double value = 0.0;
-  for (std::size_t k = 0; k < coefficients.size(); ++k) value += coefficients[k] * row[k];
-  return value;
+  return std::inner_product(coefficients.begin(), coefficients.end(), row.begin(), 0.0);
 }
 
 double LeastSquares::leverage(const std::vector<double>& row) const {
@@ -205,7 +203,7 @@ double bracketed_order(const std::array<double, 3>& values, double r21, double r
     return std::expm1(p * std::log(r31)) / std::expm1(p * std::log(r21)) - wanted;
   };
   constexpr double lowest = 1e-6, highest = 50.0;
-  if (!(excess(lowest) < 0.0 && excess(highest) > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(excess(lowest) < 0.0 && excess(highest) > 0.0)) return not_a_number;
   std::uintmax_t iterations = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, lowest, highest, boost::math::tools::eps_tolerance<double>(46), iterations);

@@ -1,4 +1,4 @@
-#include "launchsafe/math/extrapolation.hpp"
+#include "launchsafe/math/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "launchsafe/math/gaussian_process.hpp"
-
 #include "launchsafe/math/sampling.hpp"
+#include "launchsafe/math/surrogates.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "launchsafe/math/nonlinear_least_squares.hpp"
+#include "launchsafe/math/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // meshes tend to, the launch that was computed, and whether it says something of another one.
 #pragma once
 
-#include "launchsafe/math/extrapolation.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene.hpp"
 

@@ -2,9 +2,8 @@
 // computed.
 #pragma once
 
-#include "launchsafe/math/gaussian_process.hpp"
-#include "launchsafe/math/polynomial_chaos.hpp"
 #include "launchsafe/math/sampling.hpp"
+#include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <cstddef>
