@@ -31,7 +31,7 @@ Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<Ene
   // What is smaller is round-off beside the largest term.
   constexpr double smallest = 1e-8;
   const auto highest = [](const Series& series) {
-    return series.y.empty() ? 0.0 : *std::max_element(series.y.begin(), series.y.end());
+    return series.y.empty() ? 0.0 : *std::ranges::max_element(series.y);
   };
   double largest = 0.0;
   for (const Series& series : plot.series) largest = std::max(largest, highest(series));
@@ -157,7 +157,7 @@ std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
 
 std::string lacks_energy(const DrawnCase& drawn) {
   const auto& monitor = drawn.result.mechanics.monitor;
-  const bool moves = std::any_of(monitor.begin(), monitor.end(), [](const run::MonitorSample& sample) {
+  const bool moves = std::ranges::any_of(monitor, [](const run::MonitorSample& sample) {
     return sample.energy.external != 0.0 || sample.energy.kinetic != 0.0;
   });
   return moves ? "" : "its monitor recorded no energies";

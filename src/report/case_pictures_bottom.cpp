@@ -180,7 +180,7 @@ bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
 
 std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
   if (!skin.ignition) return skin.time.size();
-  return static_cast<std::size_t>(std::lower_bound(skin.time.begin(), skin.time.end(), skin.ignition->time) -
+  return static_cast<std::size_t>(std::ranges::lower_bound(skin.time, skin.ignition->time) -
                                   skin.time.begin());
 }
 
@@ -193,8 +193,7 @@ std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
   std::vector<std::size_t> rings;
   for (std::size_t i = 0; i < trace.stations.size(); ++i)
     if (!trace.stations[i].observation) rings.push_back(i);
-  std::stable_sort(rings.begin(), rings.end(),
-                   [&](std::size_t a, std::size_t b) { return trace.stations[a].r < trace.stations[b].r; });
+  std::ranges::stable_sort(rings, {}, [&](std::size_t ring) { return trace.stations[ring].r; });
   return rings;
 }
 

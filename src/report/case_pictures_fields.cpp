@@ -44,10 +44,9 @@ struct ScaleGroup {
 std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field) {
   std::vector<ScaleGroup> groups;
   for (const ScaleGroup& group : {ScaleGroup{"charge", true}, ScaleGroup{"shell", false}}) {
-    const bool has_it =
-        std::any_of(drawn.scene.bodies.begin(), drawn.scene.bodies.end(), [&](const scene::Body& body) {
-          return scene::is_charge(drawn.scene, body) == group.charges && has_field(drawn.scene, body, field);
-        });
+    const bool has_it = std::ranges::any_of(drawn.scene.bodies, [&](const scene::Body& body) {
+      return scene::is_charge(drawn.scene, body) == group.charges && has_field(drawn.scene, body, field);
+    });
     if (has_it) groups.push_back(group);
   }
   return groups;
@@ -269,8 +268,8 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   plot.cells = cells_of(drawn, field, shot);
   plot.outlines = outlines_of(drawn, shot);
   plot.enlargement = enlargement_of(drawn, shot);
-  const bool grey = std::any_of(plot.cells.begin(), plot.cells.end(),
-                                [](const FieldCell& cell) { return std::isnan(cell.value); });
+  const bool grey =
+      std::ranges::any_of(plot.cells, [](const FieldCell& cell) { return std::isnan(cell.value); });
   const auto groups = scale_groups(drawn, field);
   const run::GapResult* skin = is_temperature(field) && !shown.gap ? shown_skin(drawn, shot.time) : nullptr;
   if (skin != nullptr) add_skin(drawn, shot, *skin, plot);
@@ -290,8 +289,7 @@ bool varies(const std::vector<ColourScale>& scales) {
 std::vector<ShownSnapshot> chosen_snapshots(const DrawnCase& drawn) {
   std::vector<ShownSnapshot> chosen;
   for (const ShownSnapshot& each : shown_snapshots(drawn)) {
-    const bool wanted = std::any_of(drawn.times.begin(), drawn.times.end(),
-                                    [&](double time) { return is_of_time(each, time); });
+    const bool wanted = std::ranges::any_of(drawn.times, [&](double time) { return is_of_time(each, time); });
     if (drawn.times.empty() || wanted) chosen.push_back(each);
   }
   return chosen;
@@ -313,7 +311,7 @@ bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
 bool is_recorded(const DrawnCase& drawn, const Field& field, bool burning) {
   if (scale_groups(drawn, field).empty()) return false;
   const auto shown = shown_snapshots(drawn);
-  return std::any_of(shown.begin(), shown.end(), [&](const ShownSnapshot& each) {
+  return std::ranges::any_of(shown, [&](const ShownSnapshot& each) {
     return each.gap.has_value() == burning && !values_of(*each.snapshot, field).empty();
   });
 }
@@ -390,8 +388,7 @@ std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
 
 const PictureKind fields_kind{"fields",
                               "pressure, von Mises stress, crack radius, burnt share and temperature with "
-                              "the skin's at every snapshot, "
-                              "where they vary by 1 % at least",
+                              "the skin's at every snapshot, where they vary by 1 % at least",
                               lacks_fields, field_pictures, field_tables};
 
 }  // namespace launchsafe::report::detail

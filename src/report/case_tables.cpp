@@ -27,7 +27,7 @@ struct FaceRow {
 };
 
 double largest_in(const std::vector<double>& values) {
-  return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+  return values.empty() ? 0.0 : *std::ranges::max_element(values);
 }
 
 // --- combustion ---
@@ -244,7 +244,7 @@ Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run
 Table interface_table(const run::MechanicsResult& mechanics) {
   std::vector<FaceRow> rows;
   for (const run::InterfaceResult& faces : mechanics.interfaces) {
-    const auto hottest = std::max_element(faces.friction_heat.begin(), faces.friction_heat.end());
+    const auto hottest = std::ranges::max_element(faces.friction_heat);
     if (hottest != faces.friction_heat.end())
       rows.push_back({&faces, static_cast<std::size_t>(hottest - faces.friction_heat.begin())});
   }
@@ -298,8 +298,7 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
 
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
   if (gaps.empty()) return {};
-  const bool labelled =
-      std::any_of(gaps.begin(), gaps.end(), [](const AuditedGap& gap) { return !gap.label.empty(); });
+  const bool labelled = std::ranges::any_of(gaps, [](const AuditedGap& gap) { return !gap.label.empty(); });
   Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
   table.notes = noted("air_energy");
   table.notes.push_back(air_energy_statement(model, gaps, closing));

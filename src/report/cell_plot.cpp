@@ -144,6 +144,11 @@ std::string panel_marks(const CellPanel& panel) {
 
 constexpr std::string_view filled_boxes = "with boxxyerror fillstyle solid 1.0 noborder linecolor";
 
+/// The colours of values: viridis without its darkest part, so that black lines show everywhere. Its
+/// lightness rises evenly, so that it also reads in grey.
+constexpr const char* coloured =
+    "set palette defined (0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 '#f6e63c')\n";
+
 /// Range and look of a scale; its bar stands beside the whole section.
 std::string scale_commands(const ColourScale& scale, std::size_t index, const CellPanel& whole,
                            double page_height) {
@@ -152,7 +157,7 @@ std::string scale_commands(const ColourScale& scale, std::size_t index, const Ce
   return fmt::format(
       "{}set cbrange [{}:{}]\nset cblabel {} offset 1.5, 0\n"
       "set colorbox vertical user origin screen {}, screen {} size screen {}, screen {}\n",
-      index == 0 ? palette_command() : "set palette defined (0 '#f4f4f4', 1 '#4a4a4a')\n",
+      index == 0 ? coloured : "set palette defined (0 '#f4f4f4', 1 '#4a4a4a')\n",
       exact(scale.minimum - widened), exact(scale.maximum + widened), quoted(scale.label),
       exact(left / cell_page_width), exact(1.0 - whole.bottom() / page_height),
       exact(bar_width / cell_page_width), exact(whole.height() / page_height));
@@ -165,35 +170,29 @@ std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel
     return cell.scale == scale && std::isfinite(cell.value);
   });
   if (lines.empty()) return {};
-  const std::string block = fmt::format("{}_cells{}", name, scale);
-  return data_block(block, lines) +
-         fmt::format("plot ${} using 1:2:3:4:5:6:7 {} palette notitle\n", block, filled_boxes);
+  Commands commands;
+  commands.add(fmt::format("{}_cells{}", name, scale), lines,
+               fmt::format("1:2:3:4:5:6:7 {} palette notitle", filled_boxes));
+  return commands.text();
 }
 
 /// Cells without a value, and the edges of bodies over all cells.
 std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const std::string& name) {
-  std::string data;
-  std::vector<std::string> parts;
-  const std::string grey =
-      cell_lines(plot, panel, [](const FieldCell& cell) { return !std::isfinite(cell.value); });
-  if (!grey.empty()) {
-    data += data_block(name + "_grey", grey);
-    parts.push_back(fmt::format("${}_grey using 1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", name, filled_boxes));
-  }
-  const std::string beyond =
-      cell_lines(plot, panel, [&plot](const FieldCell& cell) { return is_beyond(plot, cell); });
-  if (!beyond.empty()) {
-    data += data_block(name + "_beyond", beyond);
-    parts.push_back(fmt::format(
-        "${}_beyond using 1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle", name));
-  }
-  for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
-    const std::string outline = fmt::format("{}_outline{}", name, i);
-    data += data_block(outline, outline_lines(plot.outlines[i], panel.r_begin < 0.0));
-    parts.push_back(
-        fmt::format("${} using 1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle", outline));
-  }
-  return data + fmt::format("plot {}\n", fmt::join(parts, ", \\\n     "));
+  Commands commands;
+  const auto add_cells = [&](const char* kind, auto is_wanted, const std::string& how) {
+    const std::string lines = cell_lines(plot, panel, is_wanted);
+    if (!lines.empty()) commands.add(name + kind, lines, how);
+  };
+  add_cells(
+      "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
+      fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes));
+  add_cells(
+      "_beyond", [&plot](const FieldCell& cell) { return is_beyond(plot, cell); },
+      "1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle");
+  for (std::size_t i = 0; i < plot.outlines.size(); ++i)
+    commands.add(fmt::format("{}_outline{}", name, i), outline_lines(plot.outlines[i], panel.r_begin < 0.0),
+                 "1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle");
+  return commands.text();
 }
 
 /// The axis of symmetry, to beyond the base.
@@ -225,12 +224,12 @@ constexpr std::string_view with_axes =
 
 std::string unfit(const CellPlot& plot) {
   if (plot.cells.empty()) return "it has no cells";
-  const bool are_cells = std::all_of(plot.cells.begin(), plot.cells.end(), [](const FieldCell& cell) {
+  const bool are_cells = std::ranges::all_of(plot.cells, [](const FieldCell& cell) {
     return std::isfinite(cell.x) && std::isfinite(cell.r) && cell.half_x > 0.0 && cell.half_r > 0.0;
   });
   if (!are_cells) return "a cell has no place or no extent";
   if (plot.outlines.empty()) return "it has no body";
-  const bool have_ranges = std::all_of(plot.scales.begin(), plot.scales.end(), [](const ColourScale& scale) {
+  const bool have_ranges = std::ranges::all_of(plot.scales, [](const ColourScale& scale) {
     return std::isfinite(scale.minimum) && std::isfinite(scale.maximum);
   });
   return have_ranges && !plot.scales.empty() ? "" : "its colours have no range";

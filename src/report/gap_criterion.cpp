@@ -95,8 +95,7 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
 std::size_t largest_gap_under(const GapCriterion& criterion, const std::vector<JudgedGap>& rows) {
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return rows[a].gap < rows[b].gap; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return rows[row].gap; });
   std::size_t largest = rows.size();
   for (const std::size_t each : order) {
     if (!criterion.met_by(rows[each])) break;

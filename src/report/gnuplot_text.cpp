@@ -3,6 +3,7 @@
 #include "launchsafe/report/number.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cctype>
 #include <cmath>
@@ -33,13 +34,13 @@ bool drawable(double value, Scale scale) {
 
 std::string coordinate(double value, Scale scale) { return drawable(value, scale) ? exact(value) : "NaN"; }
 
-std::string data_block(const std::string& name, const std::string& lines) {
-  return fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, lines);
+void Commands::add(const std::string& name, const std::string& lines, const std::string& how) {
+  settings += fmt::format("${} << END_OF_DATA\n{}END_OF_DATA\n", name, lines);
+  plots.push_back("$" + name + " using " + how);
 }
 
-std::string palette_command() {
-  return "set palette defined (0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 "
-         "'#f6e63c')\n";
+std::string Commands::text() const {
+  return settings + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
 }
 
 std::string page_commands(double width, double height) {

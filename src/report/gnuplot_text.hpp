@@ -18,13 +18,6 @@ bool drawable(double value, Scale scale);
 /// A coordinate; NaN, which gnuplot leaves out, where it has no place.
 std::string coordinate(double value, Scale scale);
 
-/// Lines of data under the name "$name".
-std::string data_block(const std::string& name, const std::string& lines);
-
-/// The colours of values: viridis without its darkest part, so that black lines show everywhere. Its
-/// lightness rises evenly, so that it also reads in grey.
-std::string palette_command();
-
 /// What begins the commands of a picture of this size in pixels.
 std::string page_commands(double width, double height);
 
@@ -44,10 +37,9 @@ struct Commands {
   std::string settings;
   std::vector<std::string> plots;
 
-  void add(const std::string& name, const std::string& lines, const std::string& how) {
-    settings += data_block(name, lines);
-    plots.push_back("$" + name + " using " + how);
-  }
+  /// Lines of data under the name "$name".
+  void add(const std::string& name, const std::string& lines, const std::string& how);
+  std::string text() const;
 };
 
 }  // namespace launchsafe::report

@@ -112,40 +112,33 @@ void add_series(const Plot& plot, Commands& commands) {
   }
 }
 
+/// Bands from edge to edge: along the second axes, which go from 0 to 1.
 void add_bands(const Plot& plot, Commands& commands) {
-  for (std::size_t i = 0; i < plot.vertical_bands.size(); ++i) {
-    const Band& band = plot.vertical_bands[i];
-    const std::string from = coordinate(band.from, plot.x.scale), to = coordinate(band.to, plot.x.scale);
-    commands.add(fmt::format("band{}", i), fmt::format("{0} 0\n{0} 1\n{1} 1\n{1} 0\n", from, to),
-                 fmt::format("1:2 axes x1y2 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
-                             title_of(band.label)));
-  }
-  for (std::size_t i = 0; i < plot.horizontal_bands.size(); ++i) {
-    const Band& band = plot.horizontal_bands[i];
-    const std::string from = coordinate(band.from, plot.y.scale), to = coordinate(band.to, plot.y.scale);
-    commands.add(fmt::format("level{}", i), fmt::format("0 {0}\n0 {1}\n1 {1}\n1 {0}\n", from, to),
-                 fmt::format("1:2 axes x2y1 with filledcurves closed fillcolor rgb '#e4e4e4' {}",
-                             title_of(band.label)));
-  }
+  const auto add = [&](const char* name, const std::vector<Band>& bands, Scale scale, const char* outline,
+                       const char* axes) {
+    for (std::size_t i = 0; i < bands.size(); ++i)
+      commands.add(fmt::format("{}{}", name, i),
+                   fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
+                               coordinate(bands[i].to, scale)),
+                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' {}", axes,
+                               title_of(bands[i].label)));
+  };
+  add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
+  add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
 }
 
-/// Lines from edge to edge: along the second axes, which go from 0 to 1.
+/// Lines, likewise.
 void add_lines(const Plot& plot, Commands& commands) {
-  constexpr std::string_view style = "with lines linewidth 1.3 linecolor rgb '#444444'";
-  for (std::size_t i = 0; i < plot.vertical_lines.size(); ++i) {
-    const Line& line = plot.vertical_lines[i];
-    const std::string at = coordinate(line.at, plot.x.scale);
-    commands.add(fmt::format("vertical{}", i), fmt::format("{0} 0\n{0} 1\n", at),
-                 fmt::format("1:2 axes x1y2 {} dashtype 2 {}", style,
-                             title_of(plot.named_in_place ? "" : line.label)));
-  }
-  for (std::size_t i = 0; i < plot.horizontal_lines.size(); ++i) {
-    const Line& line = plot.horizontal_lines[i];
-    const std::string at = coordinate(line.at, plot.y.scale);
-    commands.add(fmt::format("horizontal{}", i), fmt::format("0 {0}\n1 {0}\n", at),
-                 fmt::format("1:2 axes x2y1 {} dashtype 4 {}", style,
-                             title_of(plot.named_in_place ? "" : line.label)));
-  }
+  const auto add = [&](const char* name, const std::vector<Line>& lines, Scale scale, const char* ends,
+                       const char* axes, int dashes) {
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      commands.add(fmt::format("{}{}", name, i),
+                   fmt::format(fmt::runtime(ends), coordinate(lines[i].at, scale)),
+                   fmt::format("1:2 axes {} with lines linewidth 1.3 linecolor rgb '#444444' dashtype {} {}",
+                               axes, dashes, title_of(plot.named_in_place ? "" : lines[i].label)));
+  };
+  add("vertical", plot.vertical_lines, plot.x.scale, "{0} 0\n{0} 1\n", "x1y2", 2);
+  add("horizontal", plot.horizontal_lines, plot.y.scale, "0 {0}\n1 {0}\n", "x2y1", 4);
 }
 
 // --- names ---
@@ -292,8 +285,7 @@ std::string subtitle_command(const Plot& plot, double aside) {
   if (plot.subtitle.empty()) return {};
   return fmt::format(
       "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',12' textcolor "
-      "rgb "
-      "'#444444'\n",
+      "rgb '#444444'\n",
       quoted(plot.subtitle), aside);
 }
 
@@ -347,8 +339,8 @@ std::string unfit(const Plot& plot) {
     if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
       return "a series has a bar for every point: " + series.label;
   }
-  const bool has_points = std::any_of(plot.series.begin(), plot.series.end(),
-                                      [](const Series& series) { return !series.x.empty(); });
+  const bool has_points =
+      std::ranges::any_of(plot.series, [](const Series& series) { return !series.x.empty(); });
   return has_points ? "" : "it has no points";
 }
 
@@ -361,7 +353,7 @@ std::string drawing_commands(const Plot& plot, std::size_t width) {
   add_series(plot, commands);
   add_lines(plot, commands);
   text += names_in_place(plot, width);
-  return text + commands.settings + fmt::format("plot {}\n", fmt::join(commands.plots, ", \\\n     "));
+  return text + commands.text();
 }
 
 /// Row by row, each in a place as wide as the widest of them and as high as the highest of its row.

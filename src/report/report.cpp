@@ -15,11 +15,13 @@ namespace {
 /// Of a long table on a terminal.
 constexpr std::size_t most_printed_rows = 60;
 
-bool on_page(const ReportTable& table) {
-  return table.shown == Shown::page_and_terminal || table.shown == Shown::page;
-}
-bool on_terminal(const ReportTable& table) {
-  return table.shown == Shown::page_and_terminal || table.shown == Shown::terminal;
+/// The parts of a report that are tables, or pictures.
+template <class Item>
+std::vector<const Item*> items_of(const Report& report) {
+  std::vector<const Item*> items;
+  for (const auto& item : report.items)
+    if (const auto* one = std::get_if<Item>(&item)) items.push_back(one);
+  return items;
 }
 
 const std::string& rest_of(const ReportTable& table) { return table.rest.empty() ? table.csv : table.rest; }
@@ -39,17 +41,19 @@ std::string block_of(const Statement& statement, const std::vector<std::string>&
 }
 
 std::string block_of(const ReportTable& item, const std::vector<std::string>&) {
-  if (!on_page(item) || item.table.rows.empty()) return {};
+  const bool on_page = item.shown == Shown::page_and_terminal || item.shown == Shown::page;
+  if (!on_page || item.table.rows.empty()) return {};
   return to_markdown(first_rows(item.table, item.most_rows, rest_of(item)));
 }
 
 std::string block_of(const Picture& picture, const std::vector<std::string>& missing) {
-  if (std::find(missing.begin(), missing.end(), picture.file) != missing.end()) return {};
+  if (std::ranges::find(missing, picture.file) != missing.end()) return {};
   return fmt::format("![{}]({})\n", picture.alternative, picture.file);
 }
 
 std::string printed(const ReportTable& item, const std::filesystem::path& folder, std::size_t width) {
-  if (!on_terminal(item) || item.table.rows.empty()) return {};
+  const bool on_terminal = item.shown == Shown::page_and_terminal || item.shown == Shown::terminal;
+  if (!on_terminal || item.table.rows.empty()) return {};
   const std::size_t rows = item.table.rows.size();
   if (rows <= most_printed_rows) return to_text(item.table, width) + "\n";
   Table beginning = item.table;
@@ -62,9 +66,7 @@ std::string printed(const ReportTable& item, const std::filesystem::path& folder
 /// of those that are not there.
 std::vector<std::string> draw(const Report& report, const DrawingLimits& limits, RenderedReport& rendered) {
   std::vector<std::string> missing;
-  for (const auto& item : report.items) {
-    const auto* picture = std::get_if<Picture>(&item);
-    if (picture == nullptr) continue;
+  for (const Picture* picture : items_of<Picture>(report)) {
     if (missing.empty()) {
       auto svg = to_svg(picture->plot, "gnuplot", limits);
       if (svg) {
@@ -113,9 +115,7 @@ std::string to_markdown(const Report& report, const std::vector<std::string>& mi
 
 std::string to_text(const Report& report, const std::filesystem::path& folder, std::size_t width) {
   std::string text = report.launch.empty() ? "" : report.launch + "\n\n";
-  for (const auto& item : report.items) {
-    if (const auto* table = std::get_if<ReportTable>(&item)) text += printed(*table, folder, width);
-  }
+  for (const ReportTable* table : items_of<ReportTable>(report)) text += printed(*table, folder, width);
   return text + report.answer + "\n";
 }
 
@@ -158,16 +158,12 @@ std::string study_json(const study::StudyFile& study, const Report& report,
     head["assumed"] = assumed_json(study.study);
     add_acceptances(study::acceptances_of(study), head);
   }
-  for (const auto& item : report.items)
-    if (const auto* picture = std::get_if<Picture>(&item))
-      head["pictures"].push_back({{"file", picture->file}, {"shows", picture->alternative}});
+  for (const Picture* picture : items_of<Picture>(report))
+    head["pictures"].push_back({{"file", picture->file}, {"shows", picture->alternative}});
   std::string text = json_file_text(head);
   text.resize(text.rfind("\n}"));  // open the object again
-  std::vector<const ReportTable*> tables;
-  for (const auto& item : report.items) {
-    const auto* table = std::get_if<ReportTable>(&item);
-    if (table != nullptr && !table->member.empty()) tables.push_back(table);
-  }
+  std::vector<const ReportTable*> tables = items_of<ReportTable>(report);
+  std::erase_if(tables, [](const ReportTable* table) { return table->member.empty(); });
   while (!tables.empty()) {
     const std::string member = tables.front()->member;
     text += fmt::format(",\n  \"{}\": [", member);
@@ -195,7 +191,7 @@ store::SqlValue sql_value(const Cell& cell) {
 void add_rows(store::PlainTable& all, const Table& table) {
   std::vector<std::size_t> places;
   for (const Column& column : table.columns) {
-    const auto found = std::find(all.columns.begin(), all.columns.end(), column.name);
+    const auto found = std::ranges::find(all.columns, column.name);
     places.push_back(static_cast<std::size_t>(found - all.columns.begin()));
     if (found == all.columns.end()) all.columns.push_back(column.name);
   }
@@ -211,11 +207,9 @@ void add_rows(store::PlainTable& all, const Table& table) {
 
 std::vector<store::PlainTable> plain_tables(const Report& report) {
   std::vector<store::PlainTable> tables;
-  for (const auto& item : report.items) {
-    const auto* table = std::get_if<ReportTable>(&item);
-    if (table == nullptr || table->member.empty() || table->table.columns.empty()) continue;
-    auto found = std::find_if(tables.begin(), tables.end(),
-                              [&](const store::PlainTable& each) { return each.name == table->member; });
+  for (const ReportTable* table : items_of<ReportTable>(report)) {
+    if (table->member.empty() || table->table.columns.empty()) continue;
+    auto found = std::ranges::find(tables, table->member, &store::PlainTable::name);
     if (found == tables.end()) found = tables.insert(found, {table->member, {}, {}});
     add_rows(*found, for_programs(table->table));
   }
@@ -224,11 +218,9 @@ std::vector<store::PlainTable> plain_tables(const Report& report) {
 
 RenderedReport render_report(const Report& report, const DrawingLimits& limits) {
   RenderedReport rendered;
-  for (const auto& item : report.items) {
-    const auto* table = std::get_if<ReportTable>(&item);
-    if (table != nullptr && !table->csv.empty() && !table->table.rows.empty())
+  for (const ReportTable* table : items_of<ReportTable>(report))
+    if (!table->csv.empty() && !table->table.rows.empty())
       rendered.files.push_back({table->csv, to_csv(table->table)});
-  }
   rendered.files.insert(rendered.files.end(), report.files.begin(), report.files.end());
   const std::vector<std::string> missing = draw(report, limits, rendered);
   rendered.remarks.insert(rendered.remarks.end(), report.remarks.begin(), report.remarks.end());

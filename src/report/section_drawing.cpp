@@ -256,14 +256,13 @@ bool overlap(const Label& a, const Label& b) {
 
 /// Those for which there is room, from the axis outward.
 std::vector<Label> placed_labels(const Panel& panel, std::vector<const scene::ObservationPoint*> points) {
-  std::stable_sort(points.begin(), points.end(), [](const auto* a, const auto* b) { return a->r < b->r; });
+  std::ranges::stable_sort(points, {}, &scene::ObservationPoint::r);
   std::vector<Label> placed;
   for (const scene::ObservationPoint* point : points) {
     Label label{point, panel.x(point->x) + label_distance, text_width(point->name, label_size),
                 std::min(panel.y(point->r), panel.bottom() - 0.5 * label_height)};
     const auto in_the_way = [&] {
-      return std::find_if(placed.begin(), placed.end(),
-                          [&label](const Label& other) { return overlap(label, other); });
+      return std::ranges::find_if(placed, [&label](const Label& other) { return overlap(label, other); });
     };
     for (auto other = in_the_way(); other != placed.end(); other = in_the_way())
       label.middle = other->middle - label_height;

@@ -8,6 +8,7 @@
 #include <kainjow/mustache.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -23,21 +24,9 @@ constexpr int interrupted_code = 75, failed_code = 70;
 enum class State { finished, waiting, interrupted, silent, failed, running };
 
 const char* word_for(State state) {
-  switch (state) {
-    case State::finished:
-      return "finished";
-    case State::waiting:
-      return "waiting";
-    case State::interrupted:
-      return "interrupted";
-    case State::silent:
-      return "silent";
-    case State::failed:
-      return "failed";
-    case State::running:
-      return "running";
-  }
-  return "";
+  // In the order of State.
+  constexpr std::array words{"finished", "waiting", "interrupted", "silent", "failed", "running"};
+  return words.at(static_cast<std::size_t>(state));
 }
 
 /// Seconds since the epoch of "2026-03-01T09:30:00Z"; 0 for any other text.

@@ -9,8 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <set>
+#include <string_view>
 
 namespace launchsafe::report {
 namespace {
@@ -24,7 +25,7 @@ std::string unit_of(const std::string& quantity) {
 /// Whether a unit is used for one of these quantities, or is a tenth of one that is: 1 mm is also 0.1 cm.
 bool suits(const std::string& unit, const std::vector<std::string>& used, scene::Dimension dimension) {
   const double size = scene::in_unit(1.0, dimension, unit);  // pieces in one SI unit
-  return std::any_of(used.begin(), used.end(), [&](const std::string& each) {
+  return std::ranges::any_of(used, [&](const std::string& each) {
     return each == unit || std::lround(1e3 * size / scene::in_unit(1.0, dimension, each)) == 10'000;
   });
 }
@@ -36,7 +37,7 @@ std::vector<std::string> candidate_units(const std::vector<double>& si_values, s
   for (int power = -12; power <= 15; ++power)
     all_used.push_back(unit_of(scene::format_quantity(std::pow(10.0, power), dimension)));
   for (const std::string& unit : scene::units_of(dimension)) {
-    const bool common = std::find(all_used.begin(), all_used.end(), unit) != all_used.end();
+    const bool common = std::ranges::find(all_used, unit) != all_used.end();
     if (common && suits(unit, used, dimension)) candidates.push_back(unit);
   }
   return candidates;
@@ -57,8 +58,8 @@ ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key
   ShownKey result{{.name = name, .heading = name, .meaning = key.sentence}, key.name};
   // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
   const bool dotted = name.find('.') != std::string::npos;
-  if (!dotted) std::replace(result.heading.begin(), result.heading.end(), '_', ' ');
-  std::replace(result.name.begin(), result.name.end(), '.', '_');
+  if (!dotted) std::ranges::replace(result.heading, '_', ' ');
+  std::ranges::replace(result.name, '.', '_');
   result.form = {Notation::significant, 6, key.dimension, unit_for(si_values, key.dimension)};
   return result;
 }
@@ -175,8 +176,7 @@ std::string values_or_distribution(const study::Axis& axis) {
 }  // namespace
 
 bool varies(const study::Study& study, const std::string& key) {
-  return std::any_of(study.axes.begin(), study.axes.end(),
-                     [&key](const study::Axis& axis) { return axis.key.name == key; });
+  return std::ranges::any_of(study.axes, [&key](const study::Axis& axis) { return axis.key.name == key; });
 }
 
 std::string study_file_name(const study::StudyFile& study) {
@@ -196,31 +196,29 @@ std::string setup_text(const study::StudyFile& study) {
     text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
   for (const study::Axis& axis : study.study.axes)
     text += fmt::format("- `{}` is varied: {}\n", axis.key.name, values_or_distribution(axis));
-  const std::set<std::string> told({"symmetry",
-                                    "frame",
-                                    "barrel",
-                                    "load.peak",
-                                    "load.duration",
-                                    "load.muzzle_exit",
-                                    "load.muzzle_travel",
-                                    "numerics.cell_size",
-                                    "numerics.inertial_scaling",
-                                    "numerics.damping_time",
-                                    "charge.crack_radius",
-                                    "charge.flaw_size",
-                                    "gap.pressure",
-                                    "gap.air",
-                                    "gap.exchange",
-                                    "gap.exchange_time",
-                                    "friction.closure",
-                                    "friction.localisation",
-                                    "kinetics.set",
-                                    "kinetics.ignition_temperature"});
-  for (const scene::ListedKey& key : scene::list_keys(study.scene)) {
-    if (!told.contains(key.name)) continue;
-    if (varies(study.study, key.name)) continue;
-    text += fmt::format("- `{}` = {}\n", key.name, key.value);
-  }
+  constexpr std::string_view told[] = {"symmetry",
+                                       "frame",
+                                       "barrel",
+                                       "load.peak",
+                                       "load.duration",
+                                       "load.muzzle_exit",
+                                       "load.muzzle_travel",
+                                       "numerics.cell_size",
+                                       "numerics.inertial_scaling",
+                                       "numerics.damping_time",
+                                       "charge.crack_radius",
+                                       "charge.flaw_size",
+                                       "gap.pressure",
+                                       "gap.air",
+                                       "gap.exchange",
+                                       "gap.exchange_time",
+                                       "friction.closure",
+                                       "friction.localisation",
+                                       "kinetics.set",
+                                       "kinetics.ignition_temperature"};
+  for (const scene::ListedKey& key : scene::list_keys(study.scene))
+    if (std::ranges::find(told, key.name) != std::end(told) && !varies(study.study, key.name))
+      text += fmt::format("- `{}` = {}\n", key.name, key.value);
   if (const std::string measured = scene::measured_load_text(study.scene.scene.load); !measured.empty())
     text += fmt::format("- The measured pressure curve: {}\n", measured);
   for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene))

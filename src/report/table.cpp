@@ -110,8 +110,8 @@ std::vector<std::size_t> widths_of(const Grid& grid, std::size_t smallest) {
 }
 
 std::string on_one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  std::ranges::replace_if(
+      text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   return text;
 }
 
@@ -220,7 +220,7 @@ std::vector<std::string> keys_of(const Table& table) {
   for (const Column& column : table.columns) {
     const std::string wanted = column.key();
     std::string key = wanted;
-    for (int number = 2; std::find(keys.begin(), keys.end(), key) != keys.end(); ++number) {
+    for (int number = 2; std::ranges::find(keys, key) != keys.end(); ++number) {
       key = wanted + "_" + std::to_string(number);
     }
     keys.push_back(key);

@@ -134,16 +134,15 @@ Quantities<ShareRow> share_quantities() {
 }  // namespace
 
 Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
-  using study::GapVerdict, study::NamedIgnition, study::Uncertainty;
+  using study::GapVerdict, study::Judgement, study::NamedIgnition, study::Peak, study::Uncertainty,
+      surface::AirEnergy;
   using namespace quantity;
   return {
-      {temperature_max(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::temperature},
-      {temperature_max_place(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::point},
-      {temperature_max_time(), &VerdictRow::gap, &study::GapVerdict::maximum, &study::Peak::time},
-      {temperature_early(study.early_time), &VerdictRow::gap, &study::GapVerdict::early,
-       &study::Peak::temperature},
-      {for_programs(temperature_early_place()), &VerdictRow::gap, &study::GapVerdict::early,
-       &study::Peak::point},
+      {temperature_max(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::temperature},
+      {temperature_max_place(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::point},
+      {temperature_max_time(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::time},
+      {temperature_early(study.early_time), &VerdictRow::gap, &GapVerdict::early, &Peak::temperature},
+      {for_programs(temperature_early_place()), &VerdictRow::gap, &GapVerdict::early, &Peak::point},
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
                            "Hottest less coldest station at the end of what is read."}),
        &VerdictRow::gap, &GapVerdict::spread},
@@ -168,12 +167,12 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
        &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::load_curve},
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
-      {verdict(), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::verdict},
-      {reason(), &VerdictRow::gap, [](const study::GapVerdict& gap) { return study::reason_text(gap); }},
-      {for_programs(reason_code()), &VerdictRow::gap, &study::GapVerdict::judgement, &study::Judgement::code},
+      {verdict(), &VerdictRow::gap, &GapVerdict::judgement, &Judgement::verdict},
+      {reason(), &VerdictRow::gap, [](const GapVerdict& gap) { return study::reason_text(gap); }},
+      {for_programs(reason_code()), &VerdictRow::gap, &GapVerdict::judgement, &Judgement::code},
       {for_programs(Column{"cause", "cause", text(), "The beginning of the reason: what decided."}),
        &VerdictRow::gap,
-       [](const study::GapVerdict& gap) { return study::cause_text(gap.evidence, gap.judgement); }},
+       [](const GapVerdict& gap) { return study::cause_text(gap.evidence, gap.judgement); }},
       evidence_quantity("validity_warnings", study::validity_warnings_text,
                         "Why a completed run is no basis."),
       evidence_quantity("unaccepted", of_input<study::unaccepted_text>,
@@ -196,11 +195,9 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
       {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
                            "Share of reaction in the heating rate at ignition."}),
        &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::chemical_share},
-      {for_programs(skin_took()), &VerdictRow::gap, &study::GapVerdict::air, &surface::AirEnergy::taken},
-      {for_programs(compression_supplies()), &VerdictRow::gap, &study::GapVerdict::air,
-       &surface::AirEnergy::supplied},
-      {for_programs(taken_over_supplied()), &VerdictRow::gap, &study::GapVerdict::air,
-       &surface::AirEnergy::ratio}};
+      {for_programs(skin_took()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::taken},
+      {for_programs(compression_supplies()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::supplied},
+      {for_programs(taken_over_supplied()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::ratio}};
 }
 
 Quantities<study::CriticalGap> critical_gap_quantities() {
