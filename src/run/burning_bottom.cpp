@@ -91,7 +91,7 @@ BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecor
       Column column{p.body, j, {}, std::vector<double>(static_cast<std::size_t>(p.lattice.columns()), 0.0)};
       for (const scene::StationExtent& extent : scene::stations_of(simulation.scene())) {
         const double begin = std::max(low, extent.r_begin), end = std::min(high, extent.r_end);
-        const auto station = std::find_if(stations.begin(), stations.end(), [&](const trace::Station& each) {
+        const auto station = std::ranges::find_if(stations, [&](const trace::Station& each) {
           return !each.observation && each.name == extent.name;
         });
         if (!(end > begin) || station == stations.end()) continue;

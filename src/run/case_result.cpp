@@ -153,11 +153,10 @@ std::vector<SnapshotField> all_fields() {
   std::vector<SnapshotField> fields = common_fields();
   // Before what burns: pictures follow each other in this order.
   const auto add = [&](const StateField& field) {
-    const bool known = std::any_of(fields.begin(), fields.end(),
-                                   [&](const SnapshotField& each) { return each.name == field.name; });
+    const bool known = std::ranges::find(fields, field.name, &SnapshotField::name) != fields.end();
     if (!field.meaning.empty() && !known) fields.insert(fields.end() - 1, SnapshotField{field});
   };
-  materials::for_each_law([&](const auto& law) { std::for_each(law.state.begin(), law.state.end(), add); });
+  materials::for_each_law([&](const auto& law) { std::ranges::for_each(law.state, add); });
   return fields;
 }
 

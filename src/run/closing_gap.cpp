@@ -97,10 +97,8 @@ void ClosingGap::find_columns_of_stations(const TraceRecorder& recorder) {
     columns_of_station_[nodes_[column].station].push_back(column);
   for (std::size_t s = 0; s < stations.size(); ++s) {
     if (!columns_of_station_[s].empty()) continue;
-    const auto distance = [&](const Node& node) { return std::abs(node.place - stations[s].r); };
-    const auto nearest = std::min_element(nodes_.begin(), nodes_.end(), [&](const Node& a, const Node& b) {
-      return distance(a) < distance(b);
-    });
+    const auto nearest = std::ranges::min_element(
+        nodes_, {}, [&](const Node& node) { return std::abs(node.place - stations[s].r); });
     columns_of_station_[s].push_back(static_cast<std::size_t>(nearest - nodes_.begin()));
   }
 }

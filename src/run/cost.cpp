@@ -96,8 +96,8 @@ SnapshotSize snapshot_size(const scene::Scene& scene) {
   double numbers = of_particle;
   for (const SnapshotField& field : snapshot_fields()) {
     if (field.values == &Snapshot::burnt_share && !burns) continue;
-    const bool recorded = std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                                      [&](const scene::Body& body) { return has_field(scene, body, field); });
+    const bool recorded = std::ranges::any_of(
+        scene.bodies, [&](const scene::Body& body) { return has_field(scene, body, field); });
     if (recorded) numbers += 1.0;
   }
   SnapshotSize size;
@@ -138,8 +138,7 @@ std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const R
           fmt::format(", {} of it where every gap ignites and goes on through {:.3g} s of combustion",
                       days(cost.coupled / cautious_update_rate), scene.combustion.duration);
     error.allowed = fmt::format(
-        "a run of at most {}; larger cells or longer steps take less, and "
-        "--longest-run allows more",
+        "a run of at most {}; larger cells or longer steps take less, and --longest-run allows more",
         days(reach.longest_run));
     return error;
   }

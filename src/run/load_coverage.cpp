@@ -59,8 +59,7 @@ std::string is_over(const Load& load) {
   if (scene::is_cut_short(load))
     return fmt::format(
         "load.duration ends the simulation at {} with the load at {:.3g} % of its peak, and the launch is "
-        "over "
-        "at {}: it is cut short",
+        "over at {}: it is cut short",
         milliseconds(*load.duration), 100.0 * scene::share_left(load, *load.duration),
         milliseconds(scene::launch_end(load)));
   if (load.curve_time.empty() || scene::exit_time(load)) return {};
@@ -70,8 +69,7 @@ std::string is_over(const Load& load) {
   if (share <= scene::share_when_over && before <= 2.0 * scene::share_when_over) return {};
   return fmt::format(
       "the launch is not over: the load stands at {:.3g} % of its peak at its last point, {}; a record that "
-      "goes "
-      "on to {:g} % is needed, or load.muzzle_exit, when the shot leaves the barrel",
+      "goes on to {:g} % is needed, or load.muzzle_exit, when the shot leaves the barrel",
       100.0 * std::max(share, before), milliseconds(last), 100.0 * scene::share_when_over);
 }
 
@@ -103,7 +101,7 @@ std::string shows_its_peak(const Load& whole) {
   const double end = scene::end_time(load);
   const auto& pressure = load.curve_pressure;
   if (pressure.size() < 2) return {};
-  const auto top = std::max_element(pressure.begin(), pressure.end());
+  const auto top = std::ranges::max_element(pressure);
   const auto at = static_cast<std::size_t>(top - pressure.begin());
   const double before = at > 0 ? load.curve_time[at] - load.curve_time[at - 1] : 0.0;
   const double after = at + 1 < pressure.size() ? load.curve_time[at + 1] - load.curve_time[at] : 0.0;
@@ -121,8 +119,7 @@ std::string shows_its_peak(const Load& whole) {
     if (here < 0.5 * stated) continue;
     if (has_fallen)
       return fmt::format(
-          "the measured curve falls below a tenth of its peak and rises again by {}, as misread numbers "
-          "do",
+          "the measured curve falls below a tenth of its peak and rises again by {}, as misread numbers do",
           milliseconds(time));
     first_half = std::min(first_half, time);
     last_half = std::max(last_half, time);

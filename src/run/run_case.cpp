@@ -32,14 +32,15 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
   return result;
 }
 
-/// A launch in which the gap closes.
-CaseResult run_closing(const scene::Scene& scene, double gap, const RunOptions& options) {
+/// A run with a gap, to its end.
+CaseResult finished(Runner& runner, const scene::Scene& scene) {
   CaseResult result;
-  Runner runner(scene, options, gap);
   result.mechanics = runner.run();
   std::optional<ClosingHistory> closing = runner.take_closing();
   result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
   result.gaps.back().closing = std::move(closing);
+  result.gaps.back().combustion = runner.take_combustion(result.mechanics);
+  result.gaps.back().with_mechanics = true;
   return result;
 }
 
@@ -83,11 +84,7 @@ CaseResult continue_with_skin(const scene::Scene& scene, double gap, const Mecha
     }
     runner.continue_from(*checkpoints->runs[needed - 1]);
   }
-  result.mechanics = runner.run();
-  result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
-  result.gaps.back().combustion = runner.take_combustion(result.mechanics);
-  result.gaps.back().with_mechanics = true;
-  return result;
+  return finished(runner, scene);
 }
 
 /// What is missing of a case says nothing of its launch.
@@ -219,23 +216,19 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     own.checkpoints = true;
     return continue_with_skin(scene, gap, run_mechanics(scene, own), options);
   }
-  CaseResult result;
-  if (scene::closes(scene.surface, gap)) {
-    result = run_closing(scene, gap, options);
-  } else if (scene.surface.air_model != scene::AirModel::reservoir) {
-    // A film has a profile of its own at each station: they are integrated on a trace with a sample every few
-    // steps.
-    scene::Scene fine = scene;
-    fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
-    result.mechanics = run_mechanics(fine, options);
-    result.gaps.push_back(evaluate_gap(fine, result.mechanics.trace, gap));
-    add_skins(fine, result);
-  } else {
+  if (scene::closes(scene.surface, gap) || scene.surface.air_model == scene::AirModel::reservoir) {
     Runner runner(scene, options, gap);
-    result.mechanics = runner.run();
-    result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
+    return finished(runner, scene);
   }
+  // A film has a profile of its own at each station: they are integrated on a trace with a sample every few
+  // steps.
+  scene::Scene fine = scene;
+  fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
+  CaseResult result;
+  result.mechanics = run_mechanics(fine, options);
+  result.gaps.push_back(evaluate_gap(fine, result.mechanics.trace, gap));
   result.gaps.back().with_mechanics = true;
+  add_skins(fine, result);
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "runner.hpp"
 
 #include "launchsafe/run/processor_time.hpp"
-#include "launchsafe/run/stable_factor.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "snapshot.hpp"
@@ -128,11 +127,16 @@ void Runner::end_with_snapshot(double time) {
 MechanicsResult Runner::run() {
   const FlushDenormals flush;
   const double processor_start = thread_processor_time();
-  if (result_.steps == 0) begin();
+  if (result_.steps == 0) {
+    first_step_ = time_step_ = simulation_.stable_time_step();
+    take_monitor_sample(time_step_);
+    take_longer_sample(time_step_);
+    take_due_snapshots();
+  }
   while (!is_done() && result_.status == RunStatus::completed) {
     if (burning_ || result_.steps % steps_per_check == 0) {
       time_step_ = simulation_.stable_time_step();
-      check(time_step_, first_step_);
+      check();
       if (result_.status != RunStatus::completed) break;
     }
     // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
@@ -166,13 +170,6 @@ std::optional<CombustionHistory> Runner::take_combustion(const MechanicsResult& 
   history.energy_drift = largest_energy_drift(mechanics);
   history.wall_time = mechanics.wall_time;
   return history;
-}
-
-void Runner::begin() {
-  first_step_ = time_step_ = simulation_.stable_time_step();
-  take_monitor_sample(time_step_);
-  take_longer_sample(time_step_);
-  take_due_snapshots();
 }
 
 void Runner::take_due_snapshots() {
@@ -235,11 +232,8 @@ void Runner::advance(double dt) {
 }
 
 bool Runner::is_done() const {
-  return finished() || has_enough_checkpoints() || (ends_with_snapshots_ && snapshots_.done());
-}
-
-bool Runner::has_enough_checkpoints() const {
-  return checkpoints_ && checkpoints_->runs.size() >= enough_checkpoints_;
+  return finished() || (checkpoints_ && checkpoints_->runs.size() >= enough_checkpoints_) ||
+         (ends_with_snapshots_ && snapshots_.done());
 }
 
 void Runner::take_due_checkpoint() {
@@ -276,15 +270,15 @@ void Runner::end_now(CombustionEnd end) {
 
 bool Runner::finished() const { return end_ - simulation_.time() <= 1e-12 * launch_time_; }
 
-void Runner::check(double time_step, double first_step) {
+void Runner::check() {
   if (options_.stop != nullptr && options_.stop->load(std::memory_order_relaxed))
     return stop(RunStatus::interrupted, fmt::format("stopped at t = {:.6g} ms", 1e3 * simulation_.time()));
   if (seconds_since(start_) > options_.time_limit)
     return stop(RunStatus::timed_out, fmt::format("not done after {:.3g} s", options_.time_limit));
-  if (std::isfinite(time_step) && time_step < collapse_share * first_step)
+  if (std::isfinite(time_step_) && time_step_ < collapse_share * first_step_)
     return stop_now(RunStatus::time_step_collapse,
-                    fmt::format("the stable time step fell from {:.3g} s to {:.3g} s{}", first_step,
-                                time_step, step_remark(simulation_.scene())));
+                    fmt::format("the stable time step fell from {:.3g} s to {:.3g} s{}", first_step_,
+                                time_step_, step_remark(simulation_.scene())));
   check_energy(energy_of(simulation_));
   if (options_.progress && seconds_since(last_report_) > 0.25) {
     last_report_ = Clock::now();

@@ -50,15 +50,13 @@ class Runner {
  private:
   using Clock = std::chrono::steady_clock;
 
-  void begin();
   void advance(double dt);
-  bool has_enough_checkpoints() const;
   void take_due_checkpoint();
   void burn(double dt);
   void end_now(CombustionEnd end);
   bool finished() const;
   bool is_done() const;
-  void check(double time_step, double first_step);
+  void check();
   void check_step(double dt);
   void check_energy(const EnergyBalance& energy);
   void take_due_snapshots();

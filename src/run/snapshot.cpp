@@ -120,7 +120,7 @@ void add_place_of_bottom(const mpm::ParticleFields& p, double r, Snapshot& shot)
 void add_bottom(const mpm::Simulation& simulation, const std::vector<trace::Station>& stations,
                 Snapshot& shot) {
   for (const scene::StationExtent& extent : scene::stations_of(simulation.scene())) {
-    const bool recorded = std::any_of(stations.begin(), stations.end(), [&](const trace::Station& station) {
+    const bool recorded = std::ranges::any_of(stations, [&](const trace::Station& station) {
       return !station.observation && station.name == extent.name;
     });
     if (!recorded) continue;
@@ -182,7 +182,7 @@ void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& tr
               double ignition_temperature) {
   const surface::SkinHistory& skin = gap.skin;
   if (skin.time.empty()) return;
-  const auto next = std::lower_bound(skin.time.begin(), skin.time.end(), shot.time);
+  const auto next = std::ranges::lower_bound(skin.time, shot.time);
   const auto after = static_cast<std::size_t>(std::min(next, skin.time.end() - 1) - skin.time.begin());
   const std::size_t before = after == 0 ? 0 : after - 1;
   BottomSkin& bottom = shot.skins.emplace_back();
@@ -206,10 +206,9 @@ namespace {
 
 /// Whether any body's plastic strain is above 0.
 bool has_yielded(const mpm::Simulation& simulation) {
-  return std::any_of(simulation.bodies().begin(), simulation.bodies().end(), [](const mpm::AnyBody& any) {
+  return std::ranges::any_of(simulation.bodies(), [](const mpm::AnyBody& any) {
     const math::AlignedArray* strain = field_of(any, "plastic_strain");
-    return strain != nullptr &&
-           std::any_of(strain->begin(), strain->end(), [](double each) { return each > 0.0; });
+    return strain != nullptr && std::ranges::any_of(*strain, [](double each) { return each > 0.0; });
   });
 }
 
@@ -217,11 +216,11 @@ bool has_yielded(const mpm::Simulation& simulation) {
 bool has_grown_crack(const mpm::Simulation& simulation) {
   constexpr double grown = 1.001;
   const auto charges = simulation.bodies_of<materials::Charge>();
-  return std::any_of(charges.begin(), charges.end(), [](const mpm::Body<materials::Charge>& charge) {
+  return std::ranges::any_of(charges, [](const mpm::Body<materials::Charge>& charge) {
     const double longest = grown * charge.law.strength.initial_crack_radius;
     const math::AlignedArray& radius =
         charge.state[materials::field_index<materials::Charge>("crack_radius")];
-    return std::any_of(radius.begin(), radius.end(), [&](double each) { return each > longest; });
+    return std::ranges::any_of(radius, [&](double each) { return each > longest; });
   });
 }
 
@@ -245,7 +244,7 @@ SnapshotTaker::SnapshotTaker(const scene::Scene& scene)
     due_.push_back({scene::PressureHistory(scene.load).peak_time(), Event::peak_pressure});
     std::erase(wanted_, Event::peak_pressure);
   }
-  std::stable_sort(due_.begin(), due_.end(), [](const Due& a, const Due& b) { return a.time < b.time; });
+  std::ranges::stable_sort(due_, {}, &Due::time);
 }
 
 void SnapshotTaker::take_due(double time, const Take& take) {
@@ -286,13 +285,10 @@ std::vector<Snapshot> SnapshotTaker::finish() {
   return all;
 }
 
-bool SnapshotTaker::wants(Event event) const {
-  return std::find(wanted_.begin(), wanted_.end(), event) != wanted_.end();
-}
+bool SnapshotTaker::wants(Event event) const { return std::ranges::find(wanted_, event) != wanted_.end(); }
 
 void merge_instants(std::vector<Snapshot>& snapshots) {
-  std::stable_sort(snapshots.begin(), snapshots.end(),
-                   [](const Snapshot& a, const Snapshot& b) { return a.time < b.time; });
+  std::ranges::stable_sort(snapshots, {}, &Snapshot::time);
   std::vector<Snapshot> merged;
   for (Snapshot& shot : snapshots) {
     if (merged.empty() || merged.back().time != shot.time) {
@@ -301,7 +297,7 @@ void merge_instants(std::vector<Snapshot>& snapshots) {
     }
     std::vector<Event>& events = merged.back().events;
     events.insert(events.end(), shot.events.begin(), shot.events.end());
-    std::sort(events.begin(), events.end());
+    std::ranges::sort(events);
   }
   snapshots = std::move(merged);
 }

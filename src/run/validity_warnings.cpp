@@ -106,8 +106,8 @@ void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
     warnings.add("the run has no monitor history, so that its stability is not known");
     return;
   }
-  const auto broken = std::find_if_not(mechanics.monitor.begin(), mechanics.monitor.end(),
-                                       [](const MonitorSample& sample) { return is_finite(sample); });
+  const auto broken = std::ranges::find(mechanics.monitor, false,
+                                        [](const MonitorSample& sample) { return is_finite(sample); });
   if (broken != mechanics.monitor.end()) {
     warnings.add("the monitor history is not finite from sample {} on", broken - mechanics.monitor.begin());
   }
@@ -160,10 +160,8 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
   const scene::Extent charge = scene::charge_extent(scene);
   const double room = std::min(charge.x_end - charge.x_begin, charge.r_end);
   const auto warn = [&](const std::string& against) {
-    warnings.add(
-        "the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a "
-        "continuum law",
-        1e3 * crack, against);
+    warnings.add("the crack radius reaches {:.4g} mm, {}, where cracks are no matter of a continuum law",
+                 1e3 * crack, against);
   };
   if (crack > largest_crack_over_flaw * flaw) warn(fmt::format("{:.3g} flaw sizes", crack / flaw));
   const double initial = scene.charge().strength.initial_crack_radius, growth = crack - initial;
@@ -239,11 +237,10 @@ void check_bottom(const Scene& scene, Warnings& warnings) {
   const double bottom = scene::charge_extent(scene).x_end;
   for (const scene::Body& body : scene.bodies) {
     if (!is_charge(body) || body.x_end == bottom) continue;
-    const bool covered =
-        std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const scene::Body& behind) {
-          return is_charge(behind) && std::abs(behind.x_begin - body.x_end) <= touching &&
-                 behind.r_begin <= body.r_begin + touching && behind.r_end >= body.r_end - touching;
-        });
+    const bool covered = std::ranges::any_of(scene.bodies, [&](const scene::Body& behind) {
+      return is_charge(behind) && std::abs(behind.x_begin - body.x_end) <= touching &&
+             behind.r_begin <= body.r_begin + touching && behind.r_end >= body.r_end - touching;
+    });
     if (covered) continue;
     warnings.add(
         "the charge body \"{}\" ends {:.3g} mm before the charge's bottom, and its face is not looked at",
@@ -285,7 +282,7 @@ double static_pressure_on_bottom(const Scene& scene, double chamber_pressure) {
 
 void check_bearing(const Scene& scene, const trace::BottomTrace& trace, Warnings& warnings) {
   if (trace.samples() == 0) return;
-  const auto peak = std::max_element(trace.chamber_pressure.begin(), trace.chamber_pressure.end());
+  const auto peak = std::ranges::max_element(trace.chamber_pressure);
   const double asked = static_pressure_on_bottom(scene, *peak);
   if (asked <= scene.surface.air.initial_pressure) return;  // the trace tells no less than that of the air
   const double borne =
@@ -316,7 +313,7 @@ void check_stations(const Scene& scene, Warnings& warnings) {
 /// of 2.5, 1.25 and 0.834 mm.
 void check_bonds(const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
-    const auto held = std::count(faces.bonded.begin(), faces.bonded.end(), 1.0);
+    const auto held = std::ranges::count(faces.bonded, 1.0);
     const auto nodes = std::ssize(faces.bonded);
     if (held == 0 || held == nodes) continue;
     warnings.add(
@@ -327,7 +324,7 @@ void check_bonds(const MechanicsResult& mechanics, Warnings& warnings) {
 
 void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
-    const auto most = std::max_element(faces.overlap.begin(), faces.overlap.end());
+    const auto most = std::ranges::max_element(faces.overlap);
     if (most == faces.overlap.end() || *most <= largest_overlap_over_cell * scene.numerics.cell_size)
       continue;
     warnings.add("the charge and the body \"{}\" pass into each other by {:.3g} mm", faces.body, 1e3 * *most);

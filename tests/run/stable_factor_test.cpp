@@ -1,5 +1,4 @@
-#include "launchsafe/run/stable_factor.hpp"
-
+#include "../../src/run/monitor.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
