@@ -265,8 +265,7 @@ TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirG
 TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOtherwise) {
   const path closing = shipped("closing_gap_155mm");
   const std::string page = file_of({shipped("critical_gap_155mm"), closing}, "report.md");
-  EXPECT_TRUE(
-      has(page, "closing, worst corner): ignition at 0.00125 cm"));
+  EXPECT_TRUE(has(page, "closing, worst corner): ignition at 0.00125 cm"));
   EXPECT_TRUE(has(page, "**Both models of the gap"));
   EXPECT_TRUE(has(page, "is 0.02 cm, at 300 K before launch."))
       << "A is the main study, whichever comes first";
