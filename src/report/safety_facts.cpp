@@ -96,11 +96,12 @@ bool is_confirmed(const CaseEvidence& judged) {
 }
 
 /// Upper end of the probability that a gap (cm) ignites, by the launches that the sensitivity study drew at
-/// one at least as wide; nothing of another launch, or where the spread of the main study's inputs is
-/// assumed.
+/// one at least as wide; nothing of another launch, where one of them failed, or where the spread of the main
+/// study's inputs is assumed.
 double most_probable(double gap, const CaseEvidence& judged, const StudyEvidence* drawn) {
   if (drawn == nullptr || !is_of_same_launch(*drawn) || !judged.is_own() ||
       found_in(judged.study->study, "assumed").contains("input_uncertainty") ||
+      number_of(drawn->study, "failed") != 0.0 ||  // which may be those that ignite
       !(gap <= number_of(drawn->study, "gap_cm")))
     return study::not_a_number;
   return number_of(found_in(drawn->study, "ignition"), "probability_to");

@@ -249,23 +249,27 @@ TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
 
 // Issue 35: the upper bound of 95 % counts, and assumed spreads show nothing.
 TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirGap) {
-  const path study = copy_of("critical_gap_155mm");
+  const path study = copy_of("critical_gap_155mm"), drawn = copy_of("sensitivity");
   const auto recommended = [&](const std::string& text) {
     const auto criterion = parse_criterion(text, "works standard 12");
     return nlohmann::json::parse(
-        file_of({study, shipped("sensitivity")}, "report.json", *criterion))["answer"]["recommended_gap_cm"];
+        file_of({study, drawn}, "report.json", *criterion))["answer"]["recommended_gap_cm"];
   };
   EXPECT_TRUE(recommended("probability <= 0.05").is_null()) << "the spread of the inputs is assumed";
   change(study, [](auto& results) { results["assumed"].erase("input_uncertainty"); });
   // None of 96 launches ignites at 0.02 cm: 0 to 3.77 %.
   EXPECT_EQ(recommended("probability <= 0.05"), 0.02);
   EXPECT_TRUE(recommended("probability <= 0.01").is_null());
+  change(drawn, [](auto& results) { results["failed"] = 1; });
+  EXPECT_TRUE(recommended("probability <= 0.05").is_null()) << "one that failed may be one that ignites";
 }
 
 TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOtherwise) {
   const path closing = shipped("closing_gap_155mm");
   const std::string page = file_of({shipped("critical_gap_155mm"), closing}, "report.md");
-  EXPECT_TRUE(has(page, "closing, worst corner): ignition at 0.00125 cm"));
+  EXPECT_TRUE(
+      has(page.substr(0, page.find("## 2.")), "worst corner), it ignites at 0.00125 cm: no verdict of A"));
+  EXPECT_TRUE(has(page, "the base takes heat): no ignition up to 0.075 cm."));
   EXPECT_TRUE(has(page, "**Both models of the gap"));
   EXPECT_TRUE(has(page, "is 0.02 cm, at 300 K before launch."))
       << "A is the main study, whichever comes first";
