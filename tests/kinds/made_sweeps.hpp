@@ -1,0 +1,141 @@
+// Sweeps over the synthetic launch, and what tests ask of them.
+#pragma once
+
+#include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/study/case_answer.hpp"
+#include "launchsafe/study/forecast.hpp"
+#include "launchsafe/study/surrogate.hpp"
+#include "store/temporary_folder.hpp"
+#include "study/synthetic_launch.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+namespace launchsafe::study {
+
+using kinds::CriticalGapResult, kinds::run_critical_gap;
+
+inline bool any_failed(const std::vector<CaseAnswer>& answers) {
+  return !std::ranges::all_of(answers, &CaseAnswer::completed);
+}
+
+/// What varies: keys and their values.
+using VariedKeys = std::vector<std::pair<std::string, std::string>>;
+
+/// `synthetic_constants` without those that vary.
+inline std::string constants_beside(const VariedKeys& varied) {
+  std::string text;
+  std::istringstream lines(synthetic_constants);
+  for (std::string line; std::getline(lines, line);)
+    if (std::ranges::find(varied, line.substr(0, line.find(' ')), &VariedKeys::value_type::first) ==
+        varied.end())
+      text += line + '\n';
+  return text;
+}
+
+/// A sweep, answered as one of many cases however few it has.
+inline StudyFile sweep_of(const std::string& gaps, const VariedKeys& varied,
+                          const std::string& largest_gap = "0.2 cm", const std::string& more = {},
+                          const std::string& first = {}) {
+  return lean_study_of(
+      first + "largest_gap = \"" + largest_gap + "\"\n" + critical_text +
+      "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
+      "accept = [{ key = \"gap.exchange_time\", value = \"0.3 ms\", because = \"constants of a synthetic "
+      "launch\" }, { key = \"kinetics.ignition_temperature\", value = \"400 to 700 K\", because = \"bounds "
+      "are sought\" }, { key = \"calibration.interfaces\", value = \"base sliding, friction 0; nose sliding, "
+      "friction 0; wall sliding, friction 0\", because = \"a synthetic launch\" }]\n" +
+      (gaps.empty() ? gaps : "gaps = \"" + gaps + "\"\n") + vary(varied) + constants_beside(varied) + more);
+}
+
+/// Two pressures, two crack radii, and two exchange times, which are no matter of the mechanics.
+inline VariedKeys two_by_two_by_two(const std::string& times = "0.225, 0.3 ms") {
+  return {{"peak_pressure", "400, 496 MPa"}, {"crack_radius", "10, 100 um"}, {"gap.exchange_time", times}};
+}
+inline StudyFile two_by_two_by_two_of(const std::string& times = "0.225, 0.3 ms") {
+  return sweep_of("0, 0.02, 0.04 cm", two_by_two_by_two(times));
+}
+
+/// The synthetic launch, counting its runs by peak pressure.
+class Counting {
+ public:
+  Runners runners() {
+    Runners runners = synthetic_runners();
+    runners.mechanics = [this](const scene::Scene& scene, const run::RunOptions&) {
+      {
+        const std::lock_guard lock(mutex_);
+        ++runs_[scene.load.peak];
+      }
+      return outcome(scene);
+    };
+    return runners;
+  }
+  StudyOptions options(int jobs = 2) {
+    StudyOptions options;
+    options.jobs = jobs;
+    options.runners = runners();
+    return options;
+  }
+  int runs() const {
+    int sum = 0;
+    for (const auto& [peak, count] : runs_) sum += count;
+    return sum;
+  }
+  int runs_at(double peak) const { return runs_.contains(peak) ? runs_.at(peak) : 0; }
+
+  std::function<run::MechanicsResult(const scene::Scene&)> outcome = [](const scene::Scene& scene) {
+    return synthetic_mechanics(scene);
+  };
+
+ private:
+  std::mutex mutex_;
+  std::map<double, int> runs_;
+};
+
+inline std::vector<std::string> lines_of(const CriticalGapResult& result) {
+  std::vector<std::string> lines;
+  for (const CaseAnswer& answer : result.answers) lines.push_back(bytes_of(answer));
+  return lines;
+}
+
+/// Sweeps with a store in a folder of the test's own.
+class StoredSweep : public launchsafe::testing::TemporaryFolder {
+ protected:
+  CriticalGapResult run(const StudyFile& study, Counting& counting, Shard shard = {},
+                        double time_limit = std::numeric_limits<double>::infinity()) {
+    auto store = store::CaseStore::open(folder() / "results", {shard.part(), run::model_version, {}});
+    EXPECT_TRUE(store) << (store ? "" : store.error().message);
+    StudyOptions options = counting.options();
+    options.store = store->get();
+    options.shard = shard;
+    options.time_limit = time_limit;
+    CriticalGapResult result = run_critical_gap(study, options);
+    remarks_ = (*store)->remarks();
+    EXPECT_FALSE((*store)->flush());
+    return result;
+  }
+  Forecast foresee_in_store(const StudyFile& study) {
+    auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+    StudyOptions options;
+    options.jobs = 2;
+    options.store = store->get();
+    return forecast_study(study, options, 1e6);
+  }
+  std::vector<std::filesystem::path> case_files() const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder() / "results" / "cases")) {
+      if (entry.path().extension() == ".h5") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+  }
+  std::vector<std::string> remarks_;
+};
+
+}  // namespace launchsafe::study
