@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 
 namespace launchsafe::kinds {
 
@@ -40,10 +41,10 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label,
     const study::Uncertainty& uncertainty = row.uncertainty;
     series.x.push_back(shown_gap(row.gap));
     series.y.push_back(temperature);
-    // Of one that ignites at an end of the range no more is known.
-    const auto at_most = [&](double share) { return std::isfinite(share) ? share : row.margin; };
-    series.lower.push_back(temperature - at_most(uncertainty.total() - uncertainty.model_form));
-    series.upper.push_back(temperature + at_most(uncertainty.total()));
+    // Of one that ignites at an end of the range nothing is known but that.
+    const double below = uncertainty.total() - uncertainty.model_form;
+    series.lower.push_back(std::isfinite(below) ? temperature - below : temperature);
+    series.upper.push_back(temperature + uncertainty.total());
   }
   return series;
 }
@@ -104,8 +105,10 @@ void cut_above(double ignition, Plot& plot) {
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
   const double top = ignition + std::max(0.25 * (ignition - lowest), 20.0);
-  for (Series& series : plot.series)
+  for (Series& series : plot.series) {
     for (double& temperature : series.y) temperature = std::min(temperature, top);
+    std::ranges::replace(series.upper, std::numeric_limits<double>::infinity(), top);
+  }
   plot.y.maximum = top;
 }
 

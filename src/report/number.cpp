@@ -41,7 +41,12 @@ double cut(double value, int decimals, double direction) {
 
 std::string fixed(double value, int decimals) { return rounded(value, "{:.{}f}", decimals); }
 std::string scientific(double value, int decimals) { return rounded(value, "{:.{}e}", decimals); }
-std::string significant(double value, int digits) { return rounded(value, "{:.{}g}", digits); }
+std::string significant(double value, int digits) {
+  constexpr double least_power = 1e6;  // what people read as a power of ten
+  const std::string text = rounded(value, "{:.{}g}", digits);
+  if (text.find("e+") == std::string::npos || std::abs(value) >= least_power) return text;
+  return fixed(std::stod(text), 0);  // "180", not "1.8e+02"
+}
 
 double round_distance(double least) {
   const double decade = std::pow(10.0, std::floor(std::log10(least)));

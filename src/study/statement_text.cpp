@@ -50,8 +50,7 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
                            ? evidence.of_case->input.optimistic
                            : optimistic_by_run(evidence.of_case->friction_rise));
     case ReasonCode::beyond_firings:
-      return "no round with such a gap was fired without ignition, at such a pressure and temperature or "
-             "worse";
+      return "no round with a gap as thick was fired without ignition at such a pressure and temperature";
     case ReasonCode::critical_gap_indeterminate:
       return "the critical gap is indeterminate: " + to_string(judgement.critical_gap);
     case ReasonCode::several_crossings:
@@ -71,7 +70,7 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
     case ReasonCode::not_below_bound:
       return "the critical gap may be as small as " + bound_text(judgement.at_least);
     case ReasonCode::closing_unknown:
-      return "what a gap that closes does is not known here";
+      return "what this gap does where it closes is not known";
     case ReasonCode::closing_without_corner:
       return "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) "
              "were not computed, as in no study of many cases";
@@ -81,7 +80,7 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
                   ? fmt::format("the margin is {:.1f} K", evidence.closing.corner_margin)
                   : std::string("it ignites"));
     case ReasonCode::below_bound:
-      return fmt::format("below {}, the least that the critical gap can be", bound_text(judgement.at_least));
+      return "below the lower bound of the critical gap, " + bound_text(judgement.at_least);
   }
   return {};
 }

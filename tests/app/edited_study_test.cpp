@@ -153,7 +153,7 @@ class EditedStudy : public Program, public ::testing::WithParamInterface<int> {
     std::string page = read("page/report.md");
     page.erase(page.find("## 2."));
     std::erase(page, '\\');
-    EXPECT_NE(page.find("Accepted is " + slip.key + " = "), std::string::npos) << slip.text << page;
+    EXPECT_NE(page.find("Accepted: " + slip.key + " = "), std::string::npos) << slip.text << page;
     std::cout << "safe by its acceptance: " << slip.text << '\n';
   }
   Outcome run_study() {

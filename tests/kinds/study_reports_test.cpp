@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace {
 
@@ -163,6 +164,19 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   EXPECT_GE(plot.vertical_bands[0].to, 100.0 * critical.bounds.at_most - 1e-12);
   EXPECT_EQ(plot.vertical_bands[0].label, "critical gap: " + measured->text("cm"));
   ASSERT_EQ(plot.vertical_lines.size(), 1u);
+}
+
+TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
+  // The launch ignites at an end of an input's range: its T max has no upper bound.
+  CriticalGapResult result = one_case();
+  GapVerdict& row = result.details.front().verdicts[1];
+  row.uncertainty.input = std::numeric_limits<double>::infinity();
+  const report::Plot plot = kinds::temperature_plot(result);
+  const report::Series* computed = series_named(plot, study::to_string(row.judgement.verdict));
+  ASSERT_NE(computed, nullptr);
+  ASSERT_TRUE(plot.y.maximum);
+  EXPECT_EQ(computed->upper.back(), *plot.y.maximum);
+  EXPECT_EQ(computed->lower.back(), computed->y.back()) << "nothing is known of that end";
 }
 
 TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {

@@ -36,6 +36,8 @@ TEST(Number, SignificantDropsWhatIsNotNeeded) {
   EXPECT_EQ(significant(1.5e-5, 3), "1.5e-05");
   EXPECT_EQ(significant(496e6, 3), "4.96e+08");
   EXPECT_EQ(significant(0.25, 3), "0.25");
+  EXPECT_EQ(significant(184.4, 2), "180") << "no power of ten that people write out";
+  EXPECT_EQ(significant(-99.6, 1), "-100");
 }
 
 TEST(Number, ExactReadsBackTheSame) {

@@ -15,7 +15,7 @@ std::string fixed(double value, int decimals);
 /// `decimals` digits after the first: 1.50e-05. Not a number and infinity as in `fixed`.
 std::string scientific(double value, int decimals);
 
-/// `digits` significant digits, in whichever of the two notations is shorter; without trailing zeros.
+/// `digits` significant digits without trailing zeros; with a power of ten below 1e-4 and from 1e6 on.
 std::string significant(double value, int digits);
 
 /// The shortest text that reads back as exactly the same number; "NaN", "Infinity", "-Infinity" for the
