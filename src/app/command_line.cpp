@@ -237,8 +237,7 @@ void add_report(CLI::App& app, CommandLine& line) {
       add_command<ReportArguments>(app, line, "report", "Make the safety report of studies that were run");
   add_required(command, "study", report.studies, "STUDY_DIR...",
                "Folders of studies, at most one of each kind");
-  add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures")
-      ->required();
+  add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures");
   add_optional(command, "--criterion", report.criterion, "TEXT",
                "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"");
   add_optional(command, "--criterion-source", report.criterion_source, "TEXT",
@@ -251,6 +250,10 @@ void add_report(CLI::App& app, CommandLine& line) {
   command.add_flag("--pdf", report.pdf, "Also report.pdf, by Chromium or Chrome where one is there");
   add_place(command, "--templates", report.templates, "DIR", "folder",
             "Folder of templates in place of those built in: letterhead, language");
+  CLI::Option* index = command.add_flag(
+      "--index", report.index, "Instead: STUDY_DIR/index.html, which leads to all reports in folders there");
+  for (const char* other : {"--output", "--criterion", "--pdf", "--templates"})
+    index->excludes(command.get_option(other));
 }
 
 /// Whether --json is on a command line that is not read to its end.
@@ -304,6 +307,8 @@ std::string contradiction(const ExplainArguments& explain) {
   return {};
 }
 std::string contradiction(const ReportArguments& report) {
+  if (report.index && report.studies.size() != 1) return "report: --index is of one folder";
+  if (!report.index && report.output.empty()) return "--output is required";
   if (report.criterion.has_value() == report.criterion_source.has_value()) return {};
   return report.criterion ? "report: --criterion requires --criterion-source, which says who asks for it"
                           : "report: --criterion-source requires --criterion";

@@ -114,11 +114,12 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console);
 
 struct ReportArguments {
   std::vector<std::filesystem::path> studies;      ///< folders
-  std::filesystem::path output;                    ///< folder of the report
+  std::filesystem::path output;                    ///< folder of the report; empty with `index`
   std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
   std::optional<std::string> criterion, criterion_source;
   report::DocumentHead document;
-  bool pdf = false;  ///< also as PDF, by a browser
+  bool pdf = false;    ///< also as PDF, by a browser
+  bool index = false;  ///< instead: the page that leads to all reports of one folder
 };
 ExitCode perform(const ReportArguments& arguments, Console& console);
 

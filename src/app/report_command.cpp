@@ -1,5 +1,7 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "commands.hpp"
+#include "launchsafe/report/folder_index.hpp"
+#include "launchsafe/store/atomic_file.hpp"
 #include "output_folder.hpp"
 
 #include <fmt/format.h>
@@ -42,9 +44,33 @@ bool holds_study(const std::filesystem::path& folder) {
   return record && (!record->study.empty() || std::filesystem::exists(folder / "study.json"));
 }
 
+/// Puts the page in the place of an earlier one; any other index.html is somebody's.
+ExitCode write_index(const std::filesystem::path& folder, Console& console) {
+  const std::string page = report::index_page(folder);
+  if (page.empty())
+    return console.refuse(
+        fmt::format("report: {} holds no folder of a report; allowed: one that does, such "
+                    "as reports",
+                    folder.string()));
+  const std::filesystem::path file = folder / "index.html";
+  const auto present = store::read_file(file);
+  const bool absent = !present && present.error().kind == store::Error::Kind::missing;
+  if (!absent && !(present && present->starts_with(report::index_begin)))
+    return console.refuse(
+        fmt::format("report: {} is no page of launchsafe report --index, and nothing is "
+                    "overwritten; move it away",
+                    file.string()));
+  if (const auto error = store::write_file_atomically(file, page, store::IfExists::replace))
+    return console.end_with(*error);
+  console.print_text(file.string() + "\n");
+  console.print_json({{"files", {file.string()}}});
+  return ExitCode::done;
+}
+
 }  // namespace
 
 ExitCode perform(const ReportArguments& arguments, Console& console) {
+  if (arguments.index) return write_index(arguments.studies.front(), console);
   std::optional<report::GapCriterion> criterion;
   if (arguments.criterion) {
     auto parsed = report::parse_criterion(*arguments.criterion, arguments.criterion_source.value_or(""));

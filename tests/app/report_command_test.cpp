@@ -31,6 +31,20 @@ TEST_F(ReportCommand, WritesPageDataAndFiguresOfAStudyThatRan) {
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
 }
 
+TEST_F(ReportCommand, IndexLeadsToReportsAndTakesTheirPlaceNowhere) {
+  run_critical_gap();
+  ASSERT_EQ(run({"report", "out", "-o", "all/safety"}).code, 0);
+  ASSERT_EQ(run({"report", "--index", "all"}).code, 0);
+  EXPECT_NE(read("all/index.html").find("safety/report.html"), std::string::npos);
+  EXPECT_EQ(run({"report", "all", "--index"}).code, 0);  // again
+  write("all/index.html", "mine");
+  EXPECT_EQ(run({"report", "--index", "all"}).code, 2);
+  EXPECT_EQ(read("all/index.html"), "mine");
+  EXPECT_EQ(run({"report", "--index", "all", "out"}).code, 2);
+  EXPECT_EQ(run({"report", "--index", "all", "-o", "x"}).code, 2);
+  EXPECT_EQ(run({"report", "out"}).code, 2);
+}
+
 // Of a small shell: that of the main job is in studies/walkthroughs.
 TEST_F(ReportCommand, PagesOfTheStudyAndOfItsSafetyAreTheStoredOnes) {
   run_critical_gap();

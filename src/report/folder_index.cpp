@@ -1,0 +1,101 @@
+#include "launchsafe/report/folder_index.hpp"
+
+#include "built_in_templates.hpp"
+#include "launchsafe/store/atomic_file.hpp"
+
+#include <kainjow/mustache.hpp>
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace launchsafe::report {
+namespace {
+
+using std::filesystem::path;
+
+std::vector<std::string> names_in(const path& folder) {
+  std::error_code failed;
+  return store::list_folder(folder, failed);
+}
+
+/// Those of a safety report first, then the study's own.
+std::vector<std::string> pages_of(const std::vector<std::string>& names) {
+  std::vector<std::string> pages;
+  for (const std::string& name : names)
+    if (name.ends_with(".html") || name.ends_with(".md")) pages.push_back(name);
+  std::ranges::stable_partition(pages, [](const std::string& name) { return name.starts_with("report."); });
+  return pages;
+}
+
+/// The first lines of what a study answers, or what leads the first section of a safety report.
+Row findings_of(const Row& told) {
+  Row findings = Row::array();
+  std::istringstream lines(text_of(told, "answer"));
+  for (std::string line; std::getline(lines, line);) findings.push_back(line);
+  if (const Row& sections = found_in(told, "sections"); !sections.empty())
+    for (const Row& block : found_in(sections.front(), "blocks"))
+      if (text_of(block, "kind") == "lead") findings.push_back(text_of(block, "text"));
+  constexpr std::size_t most = 4;
+  if (findings.size() > most) findings.erase(findings.begin() + most, findings.end());
+  return findings;
+}
+
+/// The heading of a page in Markdown; empty where it has none.
+std::string heading_of(const path& file) {
+  const auto page = store::read_file(file);
+  return page && page->starts_with("# ") ? page->substr(2, page->find('\n') - 2) : std::string{};
+}
+
+/// What a folder holds, as the index names it; null where that is neither a page nor a picture.
+Row entry_of(const path& folder, const std::string& place) {
+  const std::vector<std::string> names = names_in(folder);
+  Row entry{{"place", place}, {"title", ""}, {"findings", Row::array()}};
+  for (const std::string& name : names)
+    if (name.ends_with(".svg")) entry["pictures"].push_back({{"file", place + "/" + name}, {"name", name}});
+  for (const std::string& name : pages_of(names))
+    entry["pages"].push_back({{"file", place + "/" + name}, {"name", name}});
+  if (!entry.contains("pages") && !entry.contains("pictures")) return {};
+  for (const char* results : {"report.json", "study.json"})
+    if (const auto text = store::read_file(folder / results)) {
+      const Row told = Row::parse(*text, nullptr, false);
+      entry["title"] = text_of(told, "title");
+      entry["findings"] = findings_of(told);
+    }
+  if (entry["title"] == "" && entry.contains("pages"))
+    entry["title"] = heading_of(folder / text_of(entry["pages"][0], "name"));
+  if (entry["title"] == "") entry["title"] = place;
+  return entry;
+}
+
+void add_parts(const path& root, const std::string& place, Row& parts) {
+  for (const std::string& name : names_in(root / place)) {
+    const std::string part = place + "/" + name;
+    if (!std::filesystem::is_directory(root / part)) continue;
+    if (Row entry = entry_of(root / part, part); !entry.is_null()) parts.push_back(std::move(entry));
+    add_parts(root, part, parts);
+  }
+}
+
+}  // namespace
+
+std::string index_page(const path& folder) {
+  Row entries = Row::array();
+  for (const std::string& name : names_in(folder)) {
+    if (!std::filesystem::is_directory(folder / name)) continue;
+    Row entry = entry_of(folder / name, name);
+    if (entry.is_null()) continue;
+    add_parts(folder, name, entry["parts"]);
+    entries.push_back(std::move(entry));
+  }
+  if (entries.empty()) return {};
+  // A board reads safety reports.
+  std::ranges::stable_partition(entries, [&](const Row& entry) {
+    return std::filesystem::exists(folder / text_of(entry, "place") / "report.html");
+  });
+  const Row facts{{"entries", std::move(entries)}};
+  const auto page = filled(index_template, {&facts}, kainjow::mustache::html_escape<std::string>);
+  return page ? index_begin + *page : std::string{};
+}
+
+}  // namespace launchsafe::report
