@@ -19,6 +19,14 @@ foreach(kind scene study references)
   list(APPEND told_files "${schema}")
 endforeach()
 
+set(completion "${told_dir}/launchsafe.bash")
+add_custom_command(OUTPUT "${completion}"
+  COMMAND sh -c "\"$0\" --bash-completion > \"${completion}\"" "$<TARGET_FILE:launchsafe>"
+  DEPENDS launchsafe
+  VERBATIM)
+install(FILES "${completion}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME launchsafe
+  COMPONENT program)
+
 # The manual page, of what --help says.
 find_program(LAUNCHSAFE_HELP2MAN help2man)
 if(LAUNCHSAFE_HELP2MAN)
@@ -34,7 +42,7 @@ if(LAUNCHSAFE_HELP2MAN)
 else()
   message(STATUS "help2man was not found: an installation will have no manual page")
 endif()
-add_custom_target(told ALL DEPENDS ${told_files} ${manual_page})
+add_custom_target(told ALL DEPENDS ${told_files} ${completion} ${manual_page})
 
 set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
 install(FILES ${told_files} DESTINATION "${data_dir}/schema" COMPONENT program)

@@ -18,6 +18,8 @@ extern const char* const firings_template;
 extern const char* const shard_template;
 extern const char* const merge_template;
 extern const char* const submit_template;
+/// A script for bash.
+extern const char* const completion_template;
 /// The record of reports/calibrate_table8.
 extern const char* const shipped_calibration;
 

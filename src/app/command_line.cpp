@@ -1,6 +1,7 @@
 #include "built_in_texts.hpp"
 #include "commands.hpp"
 #include "common_options.hpp"
+#include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/study_status.hpp"
 
 #include <fmt/format.h>
@@ -182,10 +183,12 @@ void add_plot(CLI::App& app, CommandLine& line) {
       app, line, "plot", "Draw a case: histories, profiles, and fields over the section");
   add_required(command, "case", plot.file, "CASE.h5", "Case file");
   add_folder(command, plot.output, "Folder for the pictures; CASE_pictures beside the file unless given");
-  add_optional(
-      command, "--what", plot.what, "LIST",
-      "pressure, fields, histories, profile, air, energy, combustion; all that the case has data for "
-      "unless given");
+  std::vector<const char*> kinds;
+  for (const report::PictureKind& kind : report::picture_kinds()) kinds.push_back(kind.word);
+  command
+      .add_option("--what", plot.what,
+                  "One or several, with commas between; all that the case has data for unless given")
+      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
   add_optional(command, "--times", plot.times, "LIST",
                "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
   command.add_flag("--csv", plot.tables,
@@ -322,6 +325,12 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer_of("launchsafe"));
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
+  const auto print_completion = [&app, &line] {
+    line.request = Information{bash_completion(app)};
+    throw CLI::Success();
+  };
+  app.add_flag_callback("--bash-completion", print_completion,
+                        "A script by which bash completes commands, options and their values: eval it");
   for (const auto add : {add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify,
                          add_explain, add_plot, add_init, add_import_curve, add_report})
     add(app, line);
@@ -343,7 +352,8 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&success) != nullptr;
     std::ostringstream help;
     app.exit(success, help, help);
-    line.request = Information{version ? std::string{} : help.str(), version};
+    if (version || !help.str().empty())
+      line.request = Information{version ? std::string{} : help.str(), version};
     line.json = asks_for_json(argument_count, arguments);
     return line;
   } catch (const CLI::ParseError& error) {

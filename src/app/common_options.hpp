@@ -48,6 +48,9 @@ CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amoun
   return add_read(command, name, read, allowed, type, meaning);
 }
 
+/// A script for bash that completes commands, options and what these take.
+std::string bash_completion(const CLI::App& app);
+
 /// --longest-run, s.
 void add_longest_run(CLI::App& command, std::optional<double>& longest_run);
 /// --jobs.

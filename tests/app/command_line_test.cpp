@@ -106,6 +106,30 @@ TEST_F(CommandLineProgram, AnOutputThatCannotBeWrittenIsAnError) {
   EXPECT_NE(read("stderr.txt").find("standard output"), std::string::npos);
 }
 
+// What bash offers for the last of these words.
+TEST_F(CommandLineProgram, BashCompletesCommandsOptionsAndWhatTheyTake) {
+  write("a.toml", "");
+  write("a.txt", "");
+  std::filesystem::create_directory(folder() / "folder");
+  write("complete.sh", "eval \"$(" LAUNCHSAFE_PROGRAM
+                       " --bash-completion)\"; COMP_WORDS=(launchsafe \"$@\"); COMP_CWORD=$#; _launchsafe; "
+                       "echo \"${COMPREPLY[*]}\"\n");
+  const std::pair<const char*, const char*> offers[] = {{"st", "study status\n"},
+                                                        {"report --i", "--index\n"},
+                                                        {"plot --what histories,fi", "histories,fields\n"},
+                                                        {"plot --what = air", "air\n"},
+                                                        {"ask out --set gap.th", "gap.thickness=\n"},
+                                                        {"explain --schema s", "scene study\n"},
+                                                        {"emit sl", "slurm\n"},
+                                                        {"run ''", "folder a.toml\n"},
+                                                        {"study a.toml -o ''", "folder\n"},
+                                                        {"study a.toml --jobs ''", "\n"}};
+  for (const auto& [words, offered] : offers) {
+    const Outcome outcome = run_in_shell(std::string("bash complete.sh ") + words);
+    EXPECT_EQ(outcome.out, offered) << words << outcome.err;
+  }
+}
+
 TEST_F(CommandLineProgram, VerifyPrintsATableThatTheFilterNarrows) {
   const Outcome outcome = run({"verify", "--filter", "JWL"});
   EXPECT_EQ(outcome.code, 0);
