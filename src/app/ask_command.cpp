@@ -42,7 +42,12 @@ struct AskedInput {
 
 /// The inputs with their values in the study's scene.
 Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record) {
-  const auto file = scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
+  // To read it once more takes a millisecond, and tells keys of its materials and interfaces alone.
+  const bool of_scene = std::ranges::all_of(record.keys, [](const std::string& name) {
+    return scene::find_key(scene::scene_keys(), name) != nullptr;
+  });
+  const auto file = of_scene ? scene::SceneFile{record.scene}
+                             : scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
   if (!file) return file.error();
   std::vector<AskedInput> inputs;
   for (const std::string& name : record.keys) {
@@ -84,8 +89,9 @@ std::optional<InputError> set_input(const std::string& given, std::vector<AskedI
 
 /// A value beyond what was computed; round-off apart.
 std::optional<InputError> check_ranges(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
+  const std::vector<study::InputRange> ranges = study::ranges_of(record);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const study::InputRange range = study::range_of(record, i);
+    const study::InputRange range = ranges[i];
     const double slack = 1e-9 * (range.upper - range.lower);
     const scene::Dimension dimension = inputs[i].key.dimension;
     for (const double value : inputs[i].values)

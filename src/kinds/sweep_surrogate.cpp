@@ -14,10 +14,10 @@ namespace {
 /// Shown numbers are SI times the scale.
 double scale_of(const keys::Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
 
-Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_t input) {
+Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_t input,
+               const study::InputRange& range) {
   const report::ShownKey key = report::shown_axes(study.study)[input];
   const math::Distribution& distribution = record.inputs.distributions[input];
-  const study::InputRange range = range_of(record, input);
   return {{"name", key.name},
           {"heading", key.heading},
           {"unit", key.form.unit},
@@ -62,8 +62,9 @@ Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
 std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
   Row fit{{"gap_cm", report::shown_gap(record.gap)},
           {"largest_gap_cm", report::shown_gap(study.study.largest_gap)}};
+  const std::vector<study::InputRange> ranges = ranges_of(record);
   for (std::size_t input = 0; input < record.keys.size(); ++input)
-    fit["inputs"].push_back(input_json(record, study, input));
+    fit["inputs"].push_back(input_json(record, study, input, ranges[input]));
   if (const auto& together = record.inputs.correlated)
     fit["correlated"] = {
         {"first", together->first}, {"count", together->count}, {"factor", together->factor}};

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <functional>
@@ -14,7 +15,7 @@
 namespace launchsafe::math {
 namespace {
 
-constexpr int highest_degree = 6;
+constexpr int highest_tried_degree = 6;
 /// Candidates of a degree for each point; one with more is not tried. Among very many some fit any points,
 /// and their leave-one-out error does not tell: with degree 5, 20 candidates a point, a fit to 64 launches
 /// missed 232 others by 0.42 K and 0.0020 mm, with degree 3 by 0.33 K and 0.0010 mm, of leave-one-out errors
@@ -25,35 +26,49 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
+/// Lengths of the polynomials of degree 0 to `highest_chaos_degree`, by which they become orthonormal.
+using Lengths = std::array<double, highest_chaos_degree + 1>;
+Lengths lengths_of(ChaosBasis basis) {
+  Lengths lengths{};
+  for (std::size_t n = 0; n < lengths.size(); ++n) {
+    const auto degree = static_cast<double>(n);
+    lengths[n] = basis == ChaosBasis::legendre ? 1.0 / std::sqrt(2.0 * degree + 1.0)
+                                               : std::sqrt(std::tgamma(degree + 1.0));
+  }
+  return lengths;
+}
+
 /// Orthonormal polynomials of degree 0 to `degree` of one input at u.
-std::vector<double> polynomials(ChaosBasis basis, int degree, double u) {
-  std::vector<double> values{1.0};
+void fill_polynomials(ChaosBasis basis, int degree, double u, double* values) {
+  static const std::array<Lengths, 2> lengths{lengths_of(ChaosBasis::legendre),
+                                              lengths_of(ChaosBasis::hermite)};
   const double x = coordinate(basis, u);
   double before = 0.0, here = 1.0;
+  values[0] = 1.0;
   for (int n = 0; n < degree; ++n) {
     const double next = basis == ChaosBasis::legendre ? ((2 * n + 1) * x * here - n * before) / (n + 1)
                                                       : x * here - n * before;
     before = here;
     here = next;
-    const double norm = basis == ChaosBasis::legendre ? 1.0 / std::sqrt(2.0 * (n + 1) + 1.0)
-                                                      : std::sqrt(std::tgamma(n + 2.0));
-    values.push_back(here / norm);
+    values[n + 1] = here / lengths[static_cast<std::size_t>(basis)][static_cast<std::size_t>(n) + 1];
   }
+}
+
+/// Those of all inputs, degree + 1 of each.
+std::vector<double> polynomials_at(const std::vector<ChaosBasis>& inputs, int degree, const double* point) {
+  const auto count = static_cast<std::size_t>(degree) + 1;
+  std::vector<double> values(inputs.size() * count);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    fill_polynomials(inputs[i], degree, point[i], &values[i * count]);
   return values;
 }
 
-double product(const std::vector<int>& degrees, const std::vector<std::vector<double>>& of_inputs) {
+double product(const std::vector<int>& degrees, const std::vector<double>& of_inputs) {
+  const std::size_t count = of_inputs.size() / degrees.size();
   double value = 1.0;
   for (std::size_t i = 0; i < degrees.size(); ++i)
-    value *= of_inputs[i][static_cast<std::size_t>(degrees[i])];
+    if (degrees[i] > 0) value *= of_inputs[i * count + static_cast<std::size_t>(degrees[i])];
   return value;
-}
-
-std::vector<std::vector<double>> polynomials_at(const std::vector<ChaosBasis>& inputs, int degree,
-                                                const double* point) {
-  std::vector<std::vector<double>> values;
-  for (std::size_t i = 0; i < inputs.size(); ++i) values.push_back(polynomials(inputs[i], degree, point[i]));
-  return values;
 }
 
 /// All products whose degrees add up to no more than `degree`, the constant first, low degrees before high.
@@ -216,9 +231,10 @@ FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
 
 FitValue FittedForm::at(const std::vector<double>& functions) const {
   assert(functions.size() == weights.size());
-  const Vector of = vector_of(functions);
+  const Eigen::Map<const Vector> of(functions.data(), index(functions.size()));
+  const Eigen::Map<const Vector> by(weights.data(), of.size());
   const Eigen::Map<const Matrix> products(matrix.data(), of.size(), of.size());
-  return {of.dot(vector_of(weights)), offset + of.dot(products * of)};
+  return {of.dot(by), offset + of.dot(products * of)};
 }
 
 double PolynomialChaos::at(const std::vector<double>& point) const {
@@ -250,7 +266,7 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
   }
   const Vector values_there = vector_of(rows.values);
   chaos.leave_one_out = std::numeric_limits<double>::infinity();
-  for (int degree = 1; degree <= highest_degree; ++degree) {
+  for (int degree = 1; degree <= highest_tried_degree; ++degree) {
     const auto candidates = candidates_of(inputs.size(), degree);
     if (candidates.size() > most_candidates_a_point * chaos.points) break;
     const Pursuit found = pursue(matrix_of(inputs, candidates, degree, rows.points), values_there);

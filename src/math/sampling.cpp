@@ -87,7 +87,7 @@ double open_unit(std::uint64_t word) { return (static_cast<double>(word >> 12) +
 std::uint64_t nested_scramble(std::uint32_t digits, std::uint64_t key) {
   const std::uint64_t leaf = (std::uint64_t{1} << 32) | digits;
   std::uint64_t flips = 0;
-  for (int bit = 31; bit >= 0; --bit) flips = (flips << 1) | (hashed(key, leaf >> (bit + 1)) >> 63);
+  for (std::uint64_t bit = 0; bit < 32; ++bit) flips |= hashed(key, leaf >> (bit + 1)) >> 63 << bit;
   return ((digits ^ flips) << 32) | (hashed(key, leaf) >> 32);
 }
 

@@ -11,20 +11,37 @@
 namespace launchsafe::scene {
 namespace {
 
-/// What `read(table, file, those of the files before)` finds in all of them. A fault is one of the program
-/// itself, which tests find.
+/// A fault of a shipped file is one of the program itself, which tests find.
+template <class Value>
+Value without_fault(Expected<Value> value) {
+  if (value) return std::move(*value);
+  fmt::print(stderr, "{}\n", value.error().message());
+  std::abort();
+}
+
+struct BuiltInTable {
+  std::string file;
+  toml::table table;
+};
+const std::vector<BuiltInTable>& built_in_tables() {
+  static const std::vector<BuiltInTable> tables = [] {
+    std::vector<BuiltInTable> parsed;
+    for (const BuiltInText& each : built_in_materials()) {
+      const std::string file = "the shipped " + each.file;
+      parsed.push_back({file, without_fault(parse_toml(each.text, file))});
+    }
+    return parsed;
+  }();
+  return tables;
+}
+
+/// What `read(table, file, those of the files before)` finds in all of them.
 template <class Named, class Read>
 std::vector<Named> read_built_in(Read&& read) {
   std::vector<Named> all;
-  for (const BuiltInText& each : built_in_materials()) {
-    const std::string file = "the shipped " + each.file;
-    const auto table = parse_toml(each.text, file);
-    auto named = table ? read(*table, file, all) : Expected<std::vector<Named>>(table.error());
-    if (!named) {
-      fmt::print(stderr, "{}\n", named.error().message());
-      std::abort();
-    }
-    all.insert(all.end(), named->begin(), named->end());
+  for (const auto& [file, table] : built_in_tables()) {
+    const std::vector<Named> named = without_fault(read(table, file, all));
+    all.insert(all.end(), named.begin(), named.end());
   }
   return all;
 }

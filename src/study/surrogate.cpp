@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace launchsafe::study {
 namespace {
@@ -180,21 +181,21 @@ std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput ou
   return chosen;
 }
 
-InputRange range_of(const SurrogateRecord& record, std::size_t input) {
-  const math::Distribution& distribution = record.inputs.distributions[input];
-  if (record.inputs.bases()[input] == math::ChaosBasis::legendre)
-    return {distribution.lower, distribution.upper};
-  InputRange range;
-  bool is_first = true;
-  for (std::size_t row = 0; row < record.points.size() / record.keys.size(); ++row) {
+std::vector<InputRange> ranges_of(const SurrogateRecord& record) {
+  const std::size_t inputs = record.keys.size();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::vector<InputRange> ranges(inputs, {infinity, -infinity});
+  for (std::size_t row = 0; row < record.points.size() / inputs; ++row) {
     if (std::ranges::binary_search(record.held_out, row)) continue;
-    const double value =
-        record.inputs.values_at(math::point_of_row(record.points, row, record.keys.size()))[input];
-    range = is_first ? InputRange{value, value}
-                     : InputRange{std::min(range.lower, value), std::max(range.upper, value)};
-    is_first = false;
+    const auto values = record.inputs.values_at(math::point_of_row(record.points, row, inputs));
+    for (std::size_t i = 0; i < inputs; ++i)
+      ranges[i] = {std::min(ranges[i].lower, values[i]), std::max(ranges[i].upper, values[i])};
   }
-  return range;
+  const std::vector<math::ChaosBasis> bases = record.inputs.bases();
+  for (std::size_t i = 0; i < inputs; ++i)
+    if (bases[i] == math::ChaosBasis::legendre)
+      ranges[i] = {record.inputs.distributions[i].lower, record.inputs.distributions[i].upper};
+  return ranges;
 }
 
 PredictedIgnitions predicted_ignitions(const SurrogateRecord& record, double gap,

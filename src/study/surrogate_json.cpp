@@ -12,7 +12,6 @@ constexpr RecordFormat surrogate_format{
     "launchsafe surrogate 2", "surrogate.json",
     "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with surrogate = true"};
 constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
-constexpr int highest_degree = 20;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 const scene::Limits any_number = scene::between(-1e30, 1e30);
 const std::vector<std::string> kinds{"uniform", "log-uniform", "normal", "log-normal"};
@@ -103,7 +102,7 @@ void describe_values(RecordObject& object, std::vector<double>& values, std::siz
 }
 
 void describe_chaos(RecordObject& object, math::PolynomialChaos& chaos, std::size_t inputs) {
-  object.value("degree", chaos.degree, 0, highest_degree);
+  object.value("degree", chaos.degree, 0, math::highest_chaos_degree);
   object.value("leave_one_out", chaos.leave_one_out, OrNone{any_number});
   object.list(
       "terms", chaos.terms, 0, most_terms, "terms of a polynomial",

@@ -32,8 +32,8 @@ TEST(Sweep, AFitOverItsCasesIsHeldAgainstThoseBetweenOthers) {
   EXPECT_FALSE(record->drawn);
   EXPECT_EQ(record->fitted(), 42u);
   EXPECT_EQ(record->held_out.size(), 30u);
-  EXPECT_DOUBLE_EQ(range_of(*record, 0).lower, 290.0);
-  EXPECT_DOUBLE_EQ(range_of(*record, 0).upper, 306.0);
+  EXPECT_DOUBLE_EQ(ranges_of(*record)[0].lower, 290.0);
+  EXPECT_DOUBLE_EQ(ranges_of(*record)[0].upper, 306.0);
   const SurrogateOutput* critical = record->predicted("critical_gap");
   ASSERT_NE(critical, nullptr);
   ASSERT_NE(record->predicted("temperature_max_0.02cm"), nullptr);

@@ -160,9 +160,9 @@ TEST(Surrogate, IsLessSureFartherOut) {
 // All of a uniform; of a normal what the fitted launches span.
 TEST(Surrogate, IsAskedWhereLaunchesWereFitted) {
   const SurrogateRecord record = some_record();
-  EXPECT_DOUBLE_EQ(range_of(record, 0).lower, 400e6);
-  EXPECT_DOUBLE_EQ(range_of(record, 0).upper, 600e6);
-  const InputRange localisation = range_of(record, 1);
+  EXPECT_DOUBLE_EQ(ranges_of(record)[0].lower, 400e6);
+  EXPECT_DOUBLE_EQ(ranges_of(record)[0].upper, 600e6);
+  const InputRange localisation = ranges_of(record)[1];
   EXPECT_GT(localisation.lower, 1350.0 * std::exp(-0.05 * 3.0));
   EXPECT_LT(localisation.upper, 1350.0 * std::exp(0.05 * 3.0));
 }

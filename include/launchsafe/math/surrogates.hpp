@@ -45,6 +45,9 @@ struct FittedForm {
   FitValue at(const std::vector<double>& functions) const;
 };
 
+/// No polynomial has a higher degree.
+inline constexpr int highest_chaos_degree = 20;
+
 /// A product of polynomials, one of each input, with its coefficient in the output's unit.
 struct ChaosTerm {
   std::vector<int> degrees;

@@ -67,21 +67,22 @@ class RecordObject {
   /// To be written.
   RecordObject() = default;
   /// To be read.
-  RecordObject(const nlohmann::ordered_json& given, std::string path, RecordReader& reader)
-      : json_(given), path_(std::move(path)), reader_(&reader) {}
+  RecordObject(nlohmann::ordered_json& given, std::string path, RecordReader& reader)
+      : json_(&given), path_(std::move(path)), reader_(&reader) {}
+  RecordObject(const RecordObject&) = delete;
 
   bool reading() const { return reader_ != nullptr; }
   RecordReader& reader() const { return *reader_; }
-  nlohmann::ordered_json& operator[](const std::string& key) { return json_[key]; }
+  nlohmann::ordered_json& operator[](const std::string& key) { return (*json_)[key]; }
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   /// A value, with what `RecordReader::read` has to know to take it.
   template <class Value, class... Allowed>
   void value(const std::string& key, Value& value, const Allowed&... allowed) {
     if (reading())
-      reader_->read(json_[key], path_of(key), value, allowed...);
+      reader_->read((*this)[key], path_of(key), value, allowed...);
     else
-      json_[key] = value;
+      (*this)[key] = value;
   }
   /// Parts by their own descriptions; of a list `allowed` says how many there may be.
   template <class Part, class Describe>
@@ -94,10 +95,11 @@ class RecordObject {
   void model_version(int& version, const char* anew);
   /// "scene", as text; `what` says which it should be.
   void scene(scene::Scene& scene, const char* what);
-  const nlohmann::ordered_json& json() const { return json_; }
+  const nlohmann::ordered_json& json() const { return *json_; }
 
  private:
-  nlohmann::ordered_json json_ = nlohmann::ordered_json::object();
+  nlohmann::ordered_json written_ = nlohmann::ordered_json::object();
+  nlohmann::ordered_json* json_ = &written_;
   std::string path_;
   RecordReader* reader_ = nullptr;
 };
@@ -111,8 +113,8 @@ nlohmann::ordered_json json_by(const Describe& describe, Value value) {
 
 /// Takes an object with the keys of its description, those of `head` before them, and no others.
 template <class Value, class Describe>
-void read_object(const nlohmann::ordered_json& given, const std::string& path, RecordReader& reader,
-                 Value& value, const Describe& describe, std::vector<std::string> head = {}) {
+void read_object(nlohmann::ordered_json& given, const std::string& path, RecordReader& reader, Value& value,
+                 const Describe& describe, std::vector<std::string> head = {}) {
   const nlohmann::ordered_json known = json_by(describe, Value{});
   for (const auto& [key, unused] : known.items()) head.push_back(key);
   if (!reader.has_keys(given, path, head)) return;
@@ -123,15 +125,15 @@ void read_object(const nlohmann::ordered_json& given, const std::string& path, R
 template <class Part, class Describe>
 void RecordObject::part(const std::string& key, Part& part, const Describe& describe) {
   if (reading())
-    read_object(json_[key], path_of(key), *reader_, part, describe);
+    read_object((*this)[key], path_of(key), *reader_, part, describe);
   else
-    json_[key] = json_by(describe, part);
+    (*this)[key] = json_by(describe, part);
 }
 
 template <class Part, class Describe>
 void RecordObject::list(const std::string& key, std::vector<Part>& parts, std::size_t fewest,
                         std::size_t most, const char* allowed, const Describe& describe) {
-  nlohmann::ordered_json& list = json_[key];
+  nlohmann::ordered_json& list = (*this)[key];
   if (!reading()) {
     list = nlohmann::ordered_json::array();
     for (const Part& part : parts) list.push_back(json_by(describe, part));
@@ -165,7 +167,7 @@ template <class Record, class Describe>
 scene::Expected<Record> parse_record(const std::string& text, const std::string& file,
                                      const RecordFormat& format, const Describe& describe) {
   RecordReader reader(file);
-  const auto object = reader.parse(text, format.name, format.file, format.study);
+  auto object = reader.parse(text, format.name, format.file, format.study);
   Record record;
   if (object) read_object(*object, "", reader, record, describe, {format.head[0], format.head[1]});
   if (!reader.fault()) reader.check_digest(*object, content_by(format, describe, record));

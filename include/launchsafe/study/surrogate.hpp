@@ -128,12 +128,12 @@ class Surrogate {
 std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput output, std::size_t count,
                                       std::uint64_t seed);
 
-/// From where to where an input may be asked for, SI: all of a distribution that ends, and of a normal as far
+/// From where to where inputs may be asked for, SI: all of a distribution that ends, and of a normal as far
 /// as launches were fitted.
 struct InputRange {
   double lower = 0, upper = 0;
 };
-InputRange range_of(const SurrogateRecord& record, std::size_t input);
+std::vector<InputRange> ranges_of(const SurrogateRecord& record);
 
 /// Launches drawn from the inputs, by whether their critical gap is no larger than a gap.
 struct PredictedIgnitions {
