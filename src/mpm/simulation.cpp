@@ -18,7 +18,8 @@ auto with(Form& form, F&& f) {
 
 }  // namespace
 
-Simulation::Simulation(scene::Scene scene, int threads) : scene_(std::move(scene)), load_(scene_.load) {
+Simulation::Simulation(scene::Scene scene, int threads)
+    : scene_(std::move(scene)), load_(scene_.load), pressure_(load_.at(0.0)) {
   for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
     bodies_.push_back(make_body(scene_, static_cast<int>(i)));
   for_each_body([&](const ParticleFields& p) {
@@ -53,6 +54,7 @@ void Simulation::continue_from(const Simulation& other) {
   std::get<TotalLagrangian>(form_).continue_from(std::get<TotalLagrangian>(other.form_));
   body_force_on_bodies_ = other.body_force_on_bodies_;
   time_ = other.time_;
+  pressure_ = load_.at(time_);
   energy_ = other.energy_;
   balance_ = other.balance_;
   events_ = other.events_;
@@ -97,26 +99,29 @@ double Simulation::stable_time_step() const {
   return with(form_, [](const auto& form) { return form.stable_time_step(); });
 }
 
-double Simulation::frame_acceleration(double time) const {
-  return scene_.frame == scene::Frame::co_moving ? load_.at(time) * loaded_area_ / total_mass_ : 0.0;
+double Simulation::frame_acceleration(double time) const { return acceleration_under(load_.at(time)); }
+
+double Simulation::acceleration_under(double pressure) const {
+  return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
 }
 
 void Simulation::step(double dt) {
   balance_ = energy_;
   const double damping_time = scene_.numerics.damping_time;
   // The acceleration is taken when the pressure is, so that the two balance.
-  const StepInput input{dt, load_.at(time_), frame_acceleration(time_),
+  const StepInput input{dt, pressure_, acceleration_under(pressure_),
                         damping_time > 0.0 ? std::exp(-dt / damping_time) : 1.0,
                         scene_.numerics.pic_fraction};
   const StepTotals totals = with(form_, [&](auto& form) { return form.step(input); });
-  add_to_energy(totals, dt);
   time_ += dt;
+  pressure_ = load_.at(time_);
+  add_to_energy(totals, input);
 }
 
 /// Work of forces that change in the step counts with their mean, as stresses do.
-void Simulation::add_to_energy(const StepTotals& totals, double dt) {
-  const double pressure = 0.5 * (load_.at(time_) + load_.at(time_ + dt));
-  const double acceleration = 0.5 * (frame_acceleration(time_) + frame_acceleration(time_ + dt));
+void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin) {
+  const double dt = begin.dt, pressure = 0.5 * (begin.pressure + pressure_);
+  const double acceleration = 0.5 * (begin.acceleration + acceleration_under(pressure_));
   const ParticleTotals& p = totals.particles;
   const NodeTotals& n = totals.nodes;
   // The motion of all as one mass takes its energy from the work on it to the last digit and says nothing of

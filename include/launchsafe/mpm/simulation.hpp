@@ -56,7 +56,7 @@ class Simulation {
 
   double time() const { return time_; }
   const scene::Scene& scene() const { return scene_; }
-  double chamber_pressure() const { return load_.at(time_); }  ///< Pa
+  double chamber_pressure() const { return pressure_; }  ///< Pa
   /// Acceleration (m/s2) of the co-moving frame at a time; 0 in the lab frame.
   double frame_acceleration(double time) const;
   /// The balance at the begin of the last step, where all its parts are known at one time.
@@ -121,7 +121,8 @@ class Simulation {
 
  private:
   /// Inertial over true mass of a body.
-  void add_to_energy(const StepTotals& totals, double dt);
+  void add_to_energy(const StepTotals& totals, const StepInput& begin);
+  double acceleration_under(double pressure) const;
 
   scene::Scene scene_;
   scene::PressureHistory load_;
@@ -131,6 +132,7 @@ class Simulation {
   double loaded_area_ = 0;           ///< m2 per radian or metre
   double body_force_on_bodies_ = 0;  ///< N per radian or metre, axial, of body forces on single bodies
   double time_ = 0;
+  double pressure_ = 0;  ///< Pa, in the chamber at the present time
   std::uint64_t particles_ = 0;
   EnergyTotals energy_;   ///< at the present time, without the kinetic energy
   EnergyTotals balance_;  ///< at the begin of the last step
