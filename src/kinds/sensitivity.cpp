@@ -199,11 +199,9 @@ void summarise(const Study& study, OutputSensitivity& output) {
     if (samples_inputs(study, i) && std::isfinite(output.values[i])) sample.push_back(output.values[i]);
   }
   if (sample.size() < 2) return;
-  const auto count = static_cast<double>(sample.size());
-  output.mean = std::accumulate(sample.begin(), sample.end(), 0.0) / count;
-  double squares = 0;
-  for (const double value : sample) squares += (value - output.mean) * (value - output.mean);
-  output.deviation = std::sqrt(squares / (count - 1.0));
+  const auto [mean, squares] = math::moments_of(sample);
+  output.mean = mean;
+  output.deviation = std::sqrt(squares / static_cast<double>(sample.size() - 1));
 }
 
 void estimate(const SensitivityResult& result, OutputSensitivity& output) {

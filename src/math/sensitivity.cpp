@@ -1,5 +1,7 @@
 #include "launchsafe/math/sensitivity.hpp"
 
+#include "launchsafe/math/statistics.hpp"
+
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -36,18 +38,6 @@ std::vector<double> sample_outputs(std::size_t blocks, const std::vector<double>
     values.push_back(rows[k + SaltelliDesign::block_b]);
   }
   return values;
-}
-
-/// Mean, NaN of nothing, and sum of the squared differences from it.
-struct Moments {
-  double mean, squares;
-};
-
-Moments moments_of(const std::vector<double>& values) {
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-  double squares = 0.0;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, squares};
 }
 
 double largest_size(const std::vector<double>& values) {

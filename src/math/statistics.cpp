@@ -1,5 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
+#include <Eigen/Dense>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_t.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -16,6 +17,8 @@
 namespace launchsafe::math {
 
 namespace {
+
+using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -35,90 +38,28 @@ bool is_fittable(const std::vector<std::vector<double>>& rows, const std::vector
          });
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// a -= factor b.
-void subtract(std::vector<double>& a, double factor, const std::vector<double>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= factor * b[i];
-}
-
-/// X = Q R by Gram-Schmidt, every column orthogonalised twice, which keeps Q orthogonal to round-off.
-struct Factors {
-  std::vector<std::vector<double>> q;  ///< orthonormal columns
-  std::vector<std::vector<double>> r;  ///< r[i][j], upper triangle
-};
-
-/// Nothing where a column hardly differs from what the ones before it span.
-std::optional<Factors> factorised(const std::vector<std::vector<double>>& rows) {
-  const std::size_t width = rows.front().size();
-  Factors factors{{}, std::vector<std::vector<double>>(width, std::vector<double>(width, 0.0))};
-  for (std::size_t k = 0; k < width; ++k) {
-    std::vector<double> column;
-    for (const std::vector<double>& row : rows) column.push_back(row[k]);
-    const double length = std::sqrt(dot(column, column));
-    for (int pass = 0; pass < 2; ++pass) {
-      for (std::size_t i = 0; i < k; ++i) {
-        const double part = dot(factors.q[i], column);
-        factors.r[i][k] += part;
-        subtract(column, part, factors.q[i]);
-      }
-    }
-    const double left = std::sqrt(dot(column, column));
-    if (!(left > 1e-13 * length)) return std::nullopt;
-    factors.r[k][k] = left;
-    for (double& value : column) value /= left;
-    factors.q.push_back(std::move(column));
-  }
-  return factors;
-}
-
-/// x with R x = b, R upper triangular.
-std::vector<double> back_substituted(const std::vector<std::vector<double>>& r, std::vector<double> b) {
-  for (std::size_t k = b.size(); k-- > 0;) {
-    b[k] /= r[k][k];
-    for (std::size_t i = 0; i < k; ++i) b[i] -= r[i][k] * b[k];
-  }
-  return b;
-}
-
-/// (X^T X)^-1 = R^-1 R^-T, row by row.
-std::vector<double> inverse_normal_of(const std::vector<std::vector<double>>& r) {
-  const std::size_t width = r.size();
-  std::vector<double> inverse(width * width, 0.0);
-  for (std::size_t k = 0; k < width; ++k) {
-    std::vector<double> unit(width, 0.0);
-    unit[k] = 1.0;
-    const std::vector<double> column = back_substituted(r, unit);  // of R^-1
-    for (std::size_t i = 0; i < width; ++i) {
-      for (std::size_t j = 0; j < width; ++j) inverse[i * width + j] += column[i] * column[j];
-    }
-  }
-  return inverse;
-}
-
 /// Share of the variance about the mean that the fit explains; 1 for data without variance.
 double explained_share(const std::vector<double>& y, double residual_sum) {
-  const double mean = std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
-  double total = 0.0;
-  for (const double value : y) total += (value - mean) * (value - mean);
+  const double total = moments_of(y).squares;
   return total > 0.0 ? 1.0 - residual_sum / total : 1.0;
 }
 
 }  // namespace
+
+Moments moments_of(const std::vector<double>& values) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double squares = 0.0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, squares};
+}
 
 double LeastSquares::at(const std::vector<double>& row) const {
   return std::inner_product(coefficients.begin(), coefficients.end(), row.begin(), 0.0);
 }
 
 double LeastSquares::leverage(const std::vector<double>& row) const {
-  const std::size_t size = coefficients.size();
-  double value = 0.0;
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t j = 0; j < size; ++j) value += row[i] * inverse_normal[i * size + j] * row[j];
-  }
-  return value;
+  const auto x = VectorXd::Map(row.data(), static_cast<Index>(row.size()));
+  return x.dot(MatrixXd::Map(inverse_normal.data(), x.size(), x.size()) * x);
 }
 
 double LeastSquares::prediction_half_width(const std::vector<double>& row, double level) const {
@@ -129,27 +70,30 @@ double LeastSquares::prediction_half_width(const std::vector<double>& row, doubl
 std::optional<LeastSquares> least_squares(const std::vector<std::vector<double>>& rows,
                                           const std::vector<double>& y) {
   if (!is_fittable(rows, y)) return std::nullopt;
-  const std::optional<Factors> factors = factorised(rows);
-  if (!factors) return std::nullopt;
-  const std::size_t width = rows.front().size();
+  const auto height = static_cast<Index>(rows.size()), width = static_cast<Index>(rows.front().size());
+  MatrixXd x(height, width);
+  for (Index i = 0; i < height; ++i)
+    x.row(i) = VectorXd::Map(rows[static_cast<std::size_t>(i)].data(), width);
+  const Eigen::HouseholderQR<MatrixXd> factors(x);
+  const auto r = factors.matrixQR().topRows(width).triangularView<Eigen::Upper>();
+  // A column that hardly differs from what the ones before it span.
+  for (Index k = 0; k < width; ++k)
+    if (!(std::abs(factors.matrixQR()(k, k)) > 1e-13 * x.col(k).norm())) return std::nullopt;
+  const auto values = VectorXd::Map(y.data(), height);
+  const VectorXd coefficients = factors.solve(values), residuals = values - x * coefficients;
+  const MatrixXd root = r.solve(MatrixXd::Identity(width, width)), inverse = root * root.transpose();
 
   LeastSquares fit;
-  std::vector<double> projected, rest = y;
-  for (const std::vector<double>& column : factors->q) {
-    projected.push_back(dot(column, rest));
-    subtract(rest, projected.back(), column);
-  }
-  fit.coefficients = back_substituted(factors->r, projected);
-  for (std::size_t i = 0; i < rows.size(); ++i) fit.residuals.push_back(y[i] - fit.at(rows[i]));
-  fit.inverse_normal = inverse_normal_of(factors->r);
-  fit.degrees_of_freedom = static_cast<int>(rows.size() - width);
-  const double residual_sum = dot(fit.residuals, fit.residuals);
+  fit.coefficients.assign(coefficients.begin(), coefficients.end());
+  fit.residuals.assign(residuals.begin(), residuals.end());
+  fit.inverse_normal.assign(inverse.data(), inverse.data() + inverse.size());
+  fit.degrees_of_freedom = static_cast<int>(height - width);
+  const double residual_sum = residuals.squaredNorm();
   fit.residual_deviation =
       fit.degrees_of_freedom > 0 ? std::sqrt(residual_sum / fit.degrees_of_freedom) : not_a_number;
   fit.r_squared = explained_share(y, residual_sum);
-  for (std::size_t k = 0; k < width; ++k) {
-    fit.standard_errors.push_back(fit.residual_deviation * std::sqrt(fit.inverse_normal[k * width + k]));
-  }
+  for (Index k = 0; k < width; ++k)
+    fit.standard_errors.push_back(fit.residual_deviation * std::sqrt(inverse(k, k)));
   return fit;
 }
 

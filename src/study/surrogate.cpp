@@ -27,14 +27,6 @@ std::variant<math::FittedChaos, math::FittedProcess> fitted(const SurrogateRecor
   return math::FittedChaos(output.fit.chaos, rows.points);
 }
 
-double variance_of(const std::vector<double>& values) {
-  const double count = static_cast<double>(values.size());
-  double mean = 0.0, squares = 0.0;
-  for (const double value : values) mean += value / count;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return squares / count;
-}
-
 }  // namespace
 
 std::vector<double> UncertainInputs::values_at(const std::vector<double>& point) const {
@@ -122,7 +114,8 @@ void fit_output(const SurrogateRecord& record, SurrogateOutput& output, std::siz
   const double mean_square = squares / static_cast<double>(error.launches);
   error.root_mean_square = std::sqrt(mean_square);
   error.largest = largest;
-  error.unexplained = mean_square / variance_of(known.values);
+  error.unexplained =
+      mean_square * static_cast<double>(known.values.size()) / math::moments_of(known.values).squares;
   if (!(error.unexplained <= most_unexplained))
     output.reason = fmt::format("the fit misses {:.2g} % of the variance at evaluations that it has not seen",
                                 100.0 * error.unexplained);

@@ -11,6 +11,12 @@
 
 namespace launchsafe::math {
 
+/// Mean, NaN of nothing, and sum of the squared differences from it.
+struct Moments {
+  double mean, squares;
+};
+Moments moments_of(const std::vector<double>& values);
+
 /// Ordinary least squares y = sum_k coefficient_k x_k + error, errors independent with one unknown variance.
 /// With no degrees of freedom left the fit goes through all points and every uncertainty is NaN.
 struct LeastSquares {
