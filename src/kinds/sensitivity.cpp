@@ -183,14 +183,14 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
   return make_saltelli(study);
 }
 
-double number_of(const OutputSensitivity& of, const study::CaseAnswer& answer,
-                 const study::StudyCase& input) {
+double number_of(const OutputSensitivity& of, const SensitivityResult& result, std::size_t evaluation) {
+  const study::CaseAnswer& answer = result.answers[evaluation];
   if (of.output == SensitivityOutput::critical_gap)
     return answer.completed() ? answer.critical.value : study::not_a_number;
   const double temperature = temperature_of(answer, 0, of.inert);
-  return of.output == SensitivityOutput::margin
-             ? input.scene.scene.charge().kinetics.ignition_temperature - temperature
-             : temperature;
+  if (of.output == SensitivityOutput::maximum_temperature) return temperature;
+  const study::StudyCase input = result.study.cases[evaluation];
+  return input.scene.scene.charge().kinetics.ignition_temperature - temperature;
 }
 
 void summarise(const Study& study, OutputSensitivity& output) {
@@ -278,7 +278,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
   output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const study::CaseAnswer& answer = result.answers[i];
-    output.values.push_back(number_of(output, answer, result.study.cases[i]));
+    output.values.push_back(number_of(output, result, i));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
     if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;

@@ -21,7 +21,7 @@ class CellDensity {
         largest_(std::max(smallest, largest)),
         growth_(largest_ > smallest_ ? growth : 1.0),
         log_growth_(std::log(growth_)),
-        reach_((largest_ - smallest_) / (growth_ - 1.0)),
+        reach_(growth_ > 1.0 ? (largest_ - smallest_) / (growth_ - 1.0) : 0.0),
         refined_(std::move(refined)) {
     std::ranges::sort(refined_);
   }
