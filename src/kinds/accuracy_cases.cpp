@@ -104,6 +104,7 @@ Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes
   if (!known.insert(scene::to_toml(scene->scene)).second) return std::nullopt;
   study::StudyCase made = study::case_of(label_of(changes), std::move(*scene));
   made.own_conditions = true;
+  if (made.closing) made.scene.scene.surface.gaps = study.study.gaps;
   study.cases.add(std::move(made));
   return std::nullopt;
 }
@@ -276,7 +277,10 @@ Fault read_accuracy(const StudySource& source, StudyFile& study) {
 
 Kind accuracy_kind() {
   return {
-      .traits = {.name = "accuracy", .gives_verdicts = false, .bounds_critical_gaps = false},
+      .traits = {.name = "accuracy",
+                 .gives_verdicts = false,
+                 .bounds_critical_gaps = false,
+                 .closing_gaps = study::ClosingGaps::compared},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys())}),
       .tables = {{"settings", {}}, {variant_key, {}}},
       .read = read_accuracy,

@@ -83,8 +83,8 @@ class VariantMaker {
   Fault add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
             const toml::table& acceptances) {
     StudyFile own = start(calibration);
-    std::optional<study::AccuracyRecord> record;
-    if (Fault fault = settle_scene(source_, overrides, own, record)) return fault;
+    study::AccuracyRecords records;
+    if (Fault fault = settle_scene(source_, overrides, own, records)) return fault;
     if (Fault fault = check_load_axes(own)) return fault;
     for (const study::Axis& axis : own.study.axes) {
       if (own.overrides.contains(axis.key.name))

@@ -290,7 +290,7 @@ CriticalGapResult run_critical_gap(const study::StudyFile& study, const StudyOpt
 
 Kind critical_gap_kind() {
   return {
-      .traits = {.name = "critical-gap", .keeps_answers = true, .judges_closing_gaps = true},
+      .traits = {.name = "critical-gap", .keeps_answers = true, .closing_gaps = study::ClosingGaps::beside},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
                       calibration_record_keys(), uncertainty_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},

@@ -357,8 +357,7 @@ std::string limiter_remark(const CriticalGapResult& result) {
 }
 
 void add_details(const CriticalGapResult& result, report::Report& report) {
-  if (ReportTable table{closing_table(result), "closing.csv", "closing"}; !table.table.rows.empty())
-    report.items.push_back(std::move(table));
+  for (ReportTable& table : closing_tables(result)) report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
     report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
   std::vector<report::NamedGap> cases;

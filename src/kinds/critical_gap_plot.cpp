@@ -1,6 +1,7 @@
 // T max against gap, of a critical-gap study in detail, and what it tells of gaps that close, beside the
 // reservoir.
 #include "critical_gap_tables.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
@@ -12,7 +13,8 @@
 namespace launchsafe::kinds {
 
 using keys::fixed, keys::text;
-using report::Mark, report::Plot, report::Series, report::shown_gap, report::Style, report::Table;
+using report::Mark, report::Plot, report::ReportTable, report::Series, report::shown_gap, report::Style,
+    report::Table;
 using study::CaseOutcome, study::ClosingAnswer, study::ClosingPoint, study::GapVerdict, study::not_a_number,
     study::Use;
 
@@ -168,18 +170,29 @@ struct ClosingRow {
     const auto found = std::ranges::find(outcome->verdicts, gap, &GapVerdict::gap);
     return found == outcome->verdicts.end() ? nullptr : &*found;
   }
-  const ClosingPoint* point(std::size_t bound) const { return outcome->closing[bound].at(gap); }
+  /// On a bound by its name; nullptr where it was not computed.
+  const ClosingPoint* point(std::string_view bound) const {
+    const auto answer = std::ranges::find(outcome->closing, bound, &ClosingAnswer::name);
+    return answer == outcome->closing.end() ? nullptr : answer->at(gap);
+  }
+  double temperature(std::string_view bound) const {
+    const ClosingPoint* found = point(bound);
+    return found != nullptr ? found->maximum_temperature : not_a_number;
+  }
 };
 
-/// K, on a bound by its place in closing_bounds.
-auto temperature_on(std::size_t bound) {
-  return [bound](const ClosingRow& row) {
-    const ClosingPoint* point = row.point(bound);
-    return point != nullptr ? point->maximum_temperature : not_a_number;
-  };
+auto temperature_on(const char* bound) {
+  return [bound](const ClosingRow& row) { return row.temperature(bound); };
 }
 
-constexpr std::size_t nominal_bounds = 2, corner = 2;
+/// K, by which T max is higher on one bound than on another; NaN where either ignites.
+auto hotter_on(const char* bound, const char* than) {
+  return [=](const ClosingRow& row) {
+    const ClosingPoint *hotter = row.point(bound), *cooler = row.point(than);
+    const bool known = hotter != nullptr && cooler != nullptr && !hotter->ignited && !cooler->ignited;
+    return known ? hotter->maximum_temperature - cooler->maximum_temperature : not_a_number;
+  };
+}
 
 std::string bound_name(const ClosingAnswer& answer) {
   return said("critical_gap.closing_bound", {{answer.name, true}}).front();
@@ -193,31 +206,63 @@ std::string why_unknown(const ClosingRow& row) {
   return {};
 }
 
+/// A column of kelvins.
+report::Column kelvins(const char* name, const char* label, const char* meaning) {
+  return {name, label, fixed(1, keys::kelvin), meaning};
+}
+
 report::Quantities<ClosingRow> closing_quantities() {
-  const auto heading = [](const char* name, const char* label, const char* meaning) {
-    return report::Column{name, label, fixed(1, keys::kelvin), meaning};
-  };
   return {
       {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
       {quantity::gap(), &ClosingRow::gap},
-      {heading("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
+      {kelvins("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
        [](const ClosingRow& row) {
          return row.verdict() != nullptr ? row.verdict()->maximum.temperature : not_a_number;
        }},
-      {heading("temperature_max_conducting", "closing, base conducts",
+      {kelvins("temperature_max_conducting", "closing, base conducts",
                "Highest temperature at any depth where the gap closes and its base takes heat."),
-       temperature_on(0)},
-      {heading("temperature_max_insulated", "base insulated",
+       temperature_on("conducting")},
+      {kelvins("temperature_max_insulated", "base insulated",
                "Highest temperature at any depth where the gap closes and its base takes no heat."),
-       temperature_on(1)},
-      {heading("temperature_max_corner", "worst corner",
+       temperature_on("insulated")},
+      {kelvins("temperature_max_corner", "worst corner",
                "Highest temperature at any depth on the worst terms: insulated, smoothest, worst release."),
-       temperature_on(corner)},
+       temperature_on("corner")},
       {{"corner_place", "at", text(), "Station of that."},
-       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->place : std::string{}; }},
+       [](const ClosingRow& row) {
+         return row.point("corner") ? row.point("corner")->place : std::string{};
+       }},
       {{"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there."},
-       [](const ClosingRow& row) { return row.point(corner) ? row.point(corner)->release : not_a_number; }},
+       [](const ClosingRow& row) {
+         return row.point("corner") ? row.point("corner")->release : not_a_number;
+       }},
+      {kelvins("corner_numerical", "of its computation",
+               "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
+       [](const ClosingRow& row) {
+         const ClosingPoint* corner = row.point("corner");
+         return corner != nullptr && !corner->ignited ? corner->at_most - corner->maximum_temperature
+                                                      : not_a_number;
+       }},
       {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
+}
+
+/// What is not known of a gap that closes, an interval each, with what its worst end adds to T max where all
+/// before it stand at theirs.
+report::Quantities<ClosingRow> closing_share_quantities() {
+  return {
+      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+      {quantity::gap(), &ClosingRow::gap},
+      {kelvins("own_terms", "own terms, base conducts", "T max on the case's own terms."),
+       temperature_on("conducting")},
+      {kelvins("of_base", "the base takes no heat", "What that adds."), hotter_on("insulated", "conducting")},
+      {kelvins("of_roughness", "smoothest faces", "What faces of 1 um add to it."),
+       hotter_on("smooth", "insulated")},
+      {kelvins("of_release", "worst release", "What the worst instant of release adds to both."),
+       hotter_on("corner", "smooth")},
+      {kelvins("corner", "worst corner", "The sum: T max on the worst terms."), temperature_on("corner")},
+      {kelvins("of_melting", "were the charge to melt",
+               "What melting would add with an insulated base; no verdict rests on it."),
+       hotter_on("melting", "insulated")}};
 }
 
 /// What one bound says of the critical gap.
@@ -251,6 +296,28 @@ report::Quantities<BoundRow> closing_bound_quantities() {
        &ClosingAnswer::upper},
       {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
        [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
+}
+
+/// By which kinetics the cases of rows may ignite, and whether records say how far T max may be off.
+report::Row closing_facts(const std::vector<ClosingRow>& rows) {
+  report::Row facts{{"kinetics", report::Row::array()}, {"others", report::Row::array()}};
+  const auto add = [&facts](const char* list, const std::string& name) {
+    report::Row& names = facts[list];
+    if (std::find(names.begin(), names.end(), report::Row(name)) == names.end()) names.push_back(name);
+  };
+  bool recorded = true;
+  for (const ClosingRow& row : rows) {
+    const scene::Scene& scene = row.outcome->input.scene.scene;
+    const auto counting = study::kinetics_of(scene);
+    for (const auto& each : counting) add("kinetics", each.name);
+    for (const scene::Decomposition& each : scene::shipped_decompositions())
+      if (std::ranges::find(counting, each.name, &materials::KineticsParameters::name) == counting.end())
+        add("others", each.name);
+    const ClosingPoint& corner = *row.point("corner");
+    if (std::isfinite(corner.at_most) && !corner.ignited) recorded = recorded && corner.recorded;
+  }
+  facts["recorded"] = recorded;
+  return facts;
 }
 
 }  // namespace
@@ -289,7 +356,7 @@ report::Quantities<study::CaseAnswer> closing_gap_quantities() {
 
 std::vector<std::string> closing_answer(const CriticalGapResult& result) {
   report::Row facts{{"bounds", report::Row::array()}};
-  for (std::size_t bound = 0; bound < nominal_bounds; ++bound) {
+  for (std::size_t bound = 0; bound < 2; ++bound) {
     std::size_t ignite = 0, unknown = 0;
     double smallest = not_a_number;
     std::string name;
@@ -312,16 +379,23 @@ std::vector<std::string> closing_answer(const CriticalGapResult& result) {
   return said("critical_gap.closing_answer", facts);
 }
 
-Table closing_table(const CriticalGapResult& result) {
+std::vector<ReportTable> closing_tables(const CriticalGapResult& result) {
   std::vector<ClosingRow> rows;
   for (const CaseOutcome& outcome : result.details) {
     if (outcome.closing.empty()) continue;
-    for (const ClosingPoint& point : outcome.closing.front().points)
-      if (outcome.closing[corner].at(point.gap) != nullptr) rows.push_back({&outcome, point.gap});
+    for (const ClosingPoint& point : outcome.closing.front().points) {
+      const ClosingRow row{&outcome, point.gap};
+      if (row.point("corner") != nullptr) rows.push_back(row);
+    }
   }
-  Table table = report::table_of("Where the gap closes", closing_quantities(), rows);
-  if (!rows.empty()) table.notes = said("critical_gap.note.closing");
-  return table;
+  if (rows.empty()) return {};
+  Table temperatures = report::table_of("Where the gap closes", closing_quantities(), rows);
+  temperatures.notes = said("critical_gap.note.closing");
+  Table shares =
+      report::table_of("What the worst end of each interval adds", closing_share_quantities(), rows);
+  shares.notes = said("critical_gap.note.closing_shares", closing_facts(rows));
+  return {{std::move(temperatures), "closing.csv", "closing"},
+          {std::move(shares), "closing_shares.csv", "closing_shares"}};
 }
 
 Table closing_bound_table(const CriticalGapResult& result) {
@@ -338,7 +412,7 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   report::Plot plot;
   plot.title = "Critical gap by the reservoir: " + report::reads_as(outcome.critical);
   for (const ClosingAnswer& answer : outcome.closing)
-    if (std::isfinite(answer.upper))
+    if (std::isfinite(answer.upper) && (answer.is_nominal() || answer.is_worst_corner()))
       plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
                        report::centimetres(answer.upper);
   plot.named_in_place = true;
@@ -352,6 +426,7 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
     reservoir.add(report::shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
   plot.series.push_back(std::move(reservoir));
   for (const ClosingAnswer& answer : outcome.closing) {
+    if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
     report::Series series{bound_name(answer)};
     for (const ClosingPoint& point : answer.points)
       if (point.ignited || std::isfinite(point.maximum_temperature))
@@ -365,6 +440,7 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
 
 std::vector<ResultTable> closing_results() {
   return {{"closing", "closing.csv", keys::described(closing_quantities())},
+          {"closing_shares", "closing_shares.csv", keys::described(closing_share_quantities())},
           {"closing_bounds", "closing_bounds.csv", keys::described(closing_bound_quantities())}};
 }
 

@@ -18,7 +18,7 @@ std::vector<report::Column> axis_effect_columns();
 
 /// T max (of cases in detail) and the critical gap where the gap closes, and a picture of one case in detail;
 /// nothing where no gap does.
-report::Table closing_table(const CriticalGapResult& result);
+std::vector<report::ReportTable> closing_tables(const CriticalGapResult& result);
 report::Table closing_bound_table(const CriticalGapResult& result);
 /// Both nominal bounds of a case, in words.
 report::Quantities<study::CaseAnswer> closing_gap_quantities();

@@ -47,7 +47,8 @@ Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   std::vector<study::Change> changes;
   for (const study::Leaf& leaf : study::leaves_as_written(*overrides.node->as_table()))
     if (Fault fault = add_override(leaf, overrides.name, study, changes)) return fault;
-  auto changed = with_changes(study.scene, changes, study.study.kind.judges_closing_gaps);
+  const bool may_close = study.study.kind.closing_gaps != study::ClosingGaps::refused;
+  auto changed = with_changes(study.scene, changes, may_close);
   if (!changed) return changed.error();
   study.scene = std::move(*changed);
   return std::nullopt;
@@ -57,7 +58,8 @@ Fault check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (scene.surface.model == scene::GapModel::closing && !study.study.kind.judges_closing_gaps)
+  if (scene.surface.model == scene::GapModel::closing &&
+      study.study.kind.closing_gaps == study::ClosingGaps::refused)
     return fault_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
   if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load)) {
     return fault_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
@@ -225,7 +227,7 @@ scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
 }
 
 Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study,
-                   std::optional<study::AccuracyRecord>& record) {
+                   study::AccuracyRecords& records) {
   auto scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
   if (!scene) return scene.error();
   study.scene = std::move(*scene);
@@ -235,12 +237,12 @@ Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& 
   if (Fault fault = use_calibration(study, source.folder)) return fault;
   if (Fault fault = scene::check_expected_velocity(study.scene)) return fault;
   if (Fault fault = read_model_form(study, source.folder)) return fault;
-  auto read = read_record(study, source.folder);
+  auto read = read_records(study, source.folder);
   if (!read) return read.error();
-  record = std::move(*read);
+  records = std::move(*read);
   const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
   if (std::isfinite(wanted)) {
-    if (Fault fault = choose_setting(study, record, wanted)) return fault;
+    if (Fault fault = choose_setting(study, records, wanted)) return fault;
   }
   return check_scene(study);
 }
@@ -274,11 +276,11 @@ scene::Expected<StudyFile> read_study_table(const StudySource& source, const std
   if (Fault fault = check_bare_uncertainties(source.root, keys, study.file)) return *fault;
   if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
   if (Fault fault = read_keys(source.root, **kind, keys, study)) return *fault;
-  std::optional<study::AccuracyRecord> record;
-  if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, record))
+  study::AccuracyRecords records;
+  if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, records))
     return unnumbered(*fault, study.file);
   if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);
-  if (!study.study.kind.own_scenes) settle_uncertainty(study, record);
+  if (!study.study.kind.own_scenes) settle_uncertainty(study, records);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 }

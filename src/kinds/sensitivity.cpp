@@ -133,6 +133,10 @@ Fault check_fit_of_draws(const StudyFile& study) {
                   fmt::format("{} to {} samples", fewest, most_fitted));
 }
 
+bool is_closing(const StudyFile& study) {
+  return study.scene.scene.surface.model == scene::GapModel::closing;
+}
+
 /// Errors are asked of a fit, and leave it room for more samples.
 Fault check_asked_errors(const StudyFile& study) {
   const auto& own = settings_of<SensitivitySettings>(study.study);
@@ -141,6 +145,9 @@ Fault check_asked_errors(const StudyFile& study) {
     if (study.places.contains(key) && !is_fit)
       return fault_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
   const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
+  if (is_closing(study) && !std::isnan(own.critical_gap_error))
+    return fault_at(study, "error_of_critical_gap", "a gap that closes, each of which is a launch of its own",
+                    "error_of_temperature");
   if (asks && own.most_samples < own.samples)
     return fault_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
                     fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
@@ -176,6 +183,12 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
     const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
     return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
                     fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+  }
+  // Each draw is launched at that gap where it closes.
+  if (is_closing(study)) {
+    auto own = scene::with_key(study.scene, "gap.thickness", gaps, place_of_key(study, "gaps"));
+    if (!own) return own.error();
+    study.scene = std::move(*own);
   }
   if (Fault fault = check_asked_errors(study)) return fault;
   if (is_by_fit(study.study)) return make_chaos_samples(study);
@@ -235,7 +248,8 @@ Kind sensitivity_kind() {
       .traits = {.name = "sensitivity",
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false,
-                 .keeps_answers = true},
+                 .keeps_answers = true,
+                 .closing_gaps = study::ClosingGaps::compared},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
                       own_keys(sensitivity_keys())}),
       .tables = {vary_table()},
@@ -298,7 +312,8 @@ SensitivityResult run_sensitivity(const study::StudyFile& study, const study::St
       [](SensitivityResult& result) {
         for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,
                                   SensitivityOutput::margin})
-          result.outputs.push_back(sensitivity_of(result, output));
+          if (output != SensitivityOutput::critical_gap || !is_closing(result.study))
+            result.outputs.push_back(sensitivity_of(result, output));
       });
 }
 

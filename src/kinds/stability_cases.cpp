@@ -252,7 +252,7 @@ Kind stability_kind() {
       .traits = {.name = "stability",
                  .gives_verdicts = false,
                  .own_scenes = true,
-                 .judges_closing_gaps = true,
+                 .closing_gaps = study::ClosingGaps::launched,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {study_table_of("group", case_keys())},

@@ -208,7 +208,8 @@ StudyKeys uncertainty_keys() {
   const StudyKeys records{
       scene::text_key("accuracy", Standing::input,
                       "Path of the record of an accuracy study, accuracy.json, from the study file's folder; "
-                      "it gives the numerical uncertainty of every setting in it.",
+                      "it gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that "
+                      "which was made of such a scene; one of gaps that close is of them alone.",
                       "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
       study_number("setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
                    "Replaces the scene's numerics by the cheapest setting of the record that knows the "

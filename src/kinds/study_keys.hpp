@@ -97,7 +97,7 @@ scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
 /// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
 /// becomes that of the study, if it names one.
 study::Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                          study::StudyFile& study, std::optional<study::AccuracyRecord>& record);
+                          study::StudyFile& study, study::AccuracyRecords& records);
 
 /// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
 /// it states. Needs the overrides.

@@ -139,6 +139,14 @@ std::vector<Key<Charge>> heat_keys() {
                         between(45e-6, 1e-4), "explosives that are cast or pressed have 45 to 90 µm/(m K)",
                         Role{ActsOn::surface, Part::free}),
               "54.6 µm/(m K), as Composition B has it"),
+      always_plausible(
+          number_key("melting_temperature", Dimension::temperature, between(200, 2e3), Standing::literature,
+                     "Temperature at which it melts; see gap.melts.", &Charge::melting_temperature),
+          "no verdict rests on melting", Role{ActsOn::surface, Part::free}),
+      always_plausible(
+          number_key("heat_of_melting", Dimension::specific_energy, between(0, 1e6), Standing::assumed,
+                     "Heat that melting takes; see gap.melts.", &Charge::heat_of_melting),
+          "no verdict rests on melting", Role{ActsOn::surface, Part::free}),
   };
 }
 

@@ -182,8 +182,12 @@ bool is_of_shell(const std::string& key) {
          key.starts_with("charge.") || key.starts_with("elastic.") || key.starts_with("material.");
 }
 
-/// A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
+/// A launch whose gap closes stands beside one whose air is a reservoir, where there is one. The accuracy of
+/// such launches, or what they depend on, says nothing of the reservoir.
 void tell_closing(std::vector<StudyEvidence>& studies) {
+  for (StudyEvidence& study : studies)
+    if (closes(study) && (study.tells == Tells::accuracy || study.tells == Tells::sensitivity))
+      study.tells = Tells::nothing;
   const auto is_reservoir = [](const StudyEvidence& study) {
     return study.tells == Tells::launch && !closes(study);
   };

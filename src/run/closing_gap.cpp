@@ -33,7 +33,9 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
       release_(simulation.scene().surface.release),
       release_duration_(
           simulation.scene().surface.release_duration.value_or(scene::transit_time(simulation.scene()))),
-      columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load)) {
+      often_(simulation.scene().surface.turns),
+      columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load),
+               surface::GapColumns::numerics_of(model_.surface)) {
   mpm::Contact& contact = contact_of(simulation);
   for (std::size_t face = 0; face < contact.faces(); ++face)
     if (is_bottom(simulation.scene(), contact, face))
@@ -131,7 +133,8 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
       return;
     }
     if (node.closing_speed > 0.0)
-      longest_step_ = std::min(longest_step_, most_closed * (opening - gas.covolume) / node.closing_speed);
+      longest_step_ =
+          std::min(longest_step_, most_closed / often_ * (opening - gas.covolume) / node.closing_speed);
     node.pressure_integral += 0.5 * dt * (node.pressure + pressure);
     node.pressure = pressure;
     touches = touches || opening <= floor_ * (1.0 + 1e-9);
@@ -143,8 +146,8 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
 }
 
 bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
-  return std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
-         std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
+  return often_ * std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
+         often_ * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
 }
 
 void ClosingGap::follow_heat(std::size_t column, mpm::Contact& contact, const TraceRecorder& recorder,

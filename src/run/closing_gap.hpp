@@ -79,6 +79,7 @@ class ClosingGap {
   double floor_;             ///< m
   double release_;           ///< s, yet to come or under way; 0: none is
   double release_duration_;  ///< s
+  double often_;             ///< as scene::Surface::turns
   surface::GapColumns columns_;
   surface::SkinHistory skin_;
   ClosingHistory history_;

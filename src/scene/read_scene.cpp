@@ -3,6 +3,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/selective_inertia.hpp"
 #include "scene_file.hpp"
 
@@ -348,8 +349,7 @@ std::string own_materials(const Scene& scene) {
                                 exact_toml({.kind = KeyKind::text}, material.title));
           for (const Key<Law>& key : Law::parameters()) {
             const std::string name = key_in_material(Law::name, key.name);
-            // It came later than what is stored, and does nothing there.
-            if (key.dimension == Dimension::expansion && !scene.surface.opens_by_cooling &&
+            if (!is_of_use(key, scene) &&
                 source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) == nullptr)
               continue;
             text +=

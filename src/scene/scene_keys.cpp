@@ -23,6 +23,17 @@ Key<Scene> title_key() {
       "it is for people", remark);
 }
 
+}  // namespace
+
+bool is_of_use(const KeyDescription& number, const Scene& scene) {
+  if (number.dimension == Dimension::expansion) return scene.surface.opens_by_cooling.has_value();
+  const bool of_melting =
+      number.name == "charge.melting_temperature" || number.name == "charge.heat_of_melting";
+  return !of_melting || scene.surface.melts;
+}
+
+namespace {
+
 /// The keys of a law as those of the scene's first material of it.
 template <class Law>
 Keys keys_of_law() {
@@ -35,8 +46,10 @@ Keys keys_of_law() {
       };
   }
   for (Key<Scene>& key : keys)
-    if (key.dimension == Dimension::expansion)
-      key.is_written = [](const Scene& scene) { return scene.surface.opens_by_cooling.has_value(); };
+    if (!is_of_use(key, Scene{}))
+      key.is_written = [number = KeyDescription(key)](const Scene& scene) {
+        return is_of_use(number, scene);
+      };
   keys.push_back(title_key<Law>());
   return keys;
 }

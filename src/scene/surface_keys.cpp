@@ -6,6 +6,30 @@ namespace {
 
 bool is_closing(const Surface& surface) { return surface.model == GapModel::closing; }
 
+/// How finely a closing gap is resolved; written where that is not as usual, for the sake of what is stored.
+std::vector<Key<Surface>> resolution_keys() {
+  std::vector<Key<Surface>> keys{
+      plausibly(number_key("air_cells", Dimension::count, between(4, 1024), Standing::assumed,
+                           "Cells in which a closing gap resolves its air.", &Surface::air_cells),
+                between(16, 256), "coarser ones were never compared with finer ones"),
+      plausibly(number_key("depth_cells", Dimension::count, between(5, 1024), Standing::assumed,
+                           "Cells in which a closing gap resolves the depth of the charge that heat reaches; "
+                           "that of the base has three fifths of them.",
+                           &Surface::depth_cells),
+                between(20, 320), "coarser ones were never compared with finer ones"),
+      plausibly(number_key("turns", Dimension::number, between(0.1, 100), Standing::assumed,
+                           "How many times as often as usual motion and heat of a closing gap take turns.",
+                           &Surface::turns),
+                between(0.5, 16), "rarer ones were never compared with more frequent ones"),
+  };
+  for (Key<Surface>& key : keys) {
+    const auto is_usual = [get = key.get](const Surface& each) { return get(each) == get(Surface{}); };
+    key = written_where(std::move(key),
+                        [is_usual](const Surface& each) { return is_closing(each) && !is_usual(each); });
+  }
+  return keys::in_role(refined_setting, std::move(keys));
+}
+
 /// Written where the gap closes alone, so that what was stored before there was such a gap stays what it is.
 std::vector<Key<Surface>> closing_keys() {
   const Role of_motion{ActsOn::mechanics, Part::constant};
@@ -33,6 +57,14 @@ std::vector<Key<Surface>> closing_keys() {
           "when a charge lets go is not known, and the worst instant has to be looked for", of_motion),
   };
   for (Key<Surface>& key : keys) key = written_where(std::move(key), is_closing);
+  keys.push_back(written_where(
+      always_plausible(
+          flag_key("melts", Standing::assumed,
+                   "The charge over a closing gap melts as heat reaches it, which takes heat; for "
+                   "comparison: its constants were calibrated without, and no verdict rests on it.",
+                   &Surface::melts),
+          "no verdict rests on it", of_motion),
+      [](const Surface& surface) { return is_closing(surface) && surface.melts; }));
   keys.push_back(always_plausible(
       optional_number_key<Surface>(
           "release_duration", Dimension::time, between(0, 0.1),
@@ -184,6 +216,7 @@ std::vector<Key<Scene>> surface_keys() {
   return keys::joined({keys_of_part("gap.", &Scene::surface, thickness_keys()),
                        keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
                        keys_of_part("gap.", &Scene::surface, closing_keys()),
+                       keys_of_part("gap.", &Scene::surface, resolution_keys()),
                        keys_of_part<Scene>(
                            "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },
                            in_role({ActsOn::surface}, air_keys())),

@@ -15,17 +15,19 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Limits that two values point to are as far off as three times their difference (see math::Extrapolation).
 constexpr double widening = 3.0;
 
-/// The settings are equal but for `key`, where one has `first` and the other `second`.
-bool differ_in(const std::string& key, const scene::Value& first, const scene::Value& second,
-               const Setting& one, const Setting& other) {
-  const auto matches = [&](const Setting& setting, const scene::Value& value) {
-    const auto found = setting.find(key);
-    return found != setting.end() && same_value(found->second, value);
-  };
-  if (!matches(one, first) || !matches(other, second)) return false;
+/// The settings are equal but for `key`, where one has `own`.
+bool differ_in(const std::string& key, const scene::Value& own, const Setting& one, const Setting& other) {
+  const auto found = one.find(key), there = other.find(key);
+  if (found == one.end() || there == other.end() || !same_value(found->second, own)) return false;
   Setting same = one;
-  same[key] = other.at(key);
+  same[key] = there->second;
   return same_setting(same, other);
+}
+
+/// Whether the error that a value makes is none, or less than that of another.
+bool is_better(const keys::Exactness& exactness, const scene::Value& value, const scene::Value& own) {
+  if (exactness.value) return same_value(value, *exactness.value);
+  return exactness.larger_is_finer && std::get<double>(value) > std::get<double>(own);
 }
 
 /// A key at which the reference meshes are not exact, and the settings that tell what that changes.
@@ -34,16 +36,14 @@ struct InexactKey {
   std::vector<std::pair<const RecordedSetting*, const RecordedSetting*>> pairs;
 };
 
-/// Settings that differ in `key` alone, one having the meshes' value and one the exact one.
+/// Settings that differ in `key` alone, one having the meshes' value and one the exact, or a finer one.
 InexactKey inexact_key(const AccuracyRecord& record, const std::string& key, const scene::Value& own,
-                       const std::optional<scene::Value>& exact) {
+                       const keys::Exactness& exactness) {
   InexactKey inexact{key, {}};
-  if (!exact) return inexact;
-  for (const RecordedSetting& one : record.settings) {
-    for (const RecordedSetting& other : record.settings) {
-      if (differ_in(key, own, *exact, one.setting, other.setting)) inexact.pairs.push_back({&one, &other});
-    }
-  }
+  for (const RecordedSetting& one : record.settings)
+    for (const RecordedSetting& other : record.settings)
+      if (differ_in(key, own, one.setting, other.setting) && is_better(exactness, other.setting.at(key), own))
+        inexact.pairs.push_back({&one, &other});
   return inexact;
 }
 
@@ -54,7 +54,7 @@ std::vector<InexactKey> inexact_keys(const AccuracyRecord& record) {
     const keys::Exactness exactness = scene::role_of(key).exactness;
     if (exactness.vanishes) continue;
     if (exactness.value && same_value(own, *exactness.value)) continue;
-    inexact.push_back(inexact_key(record, key, own, exactness.value));
+    inexact.push_back(inexact_key(record, key, own, exactness));
   }
   return inexact;
 }
@@ -218,9 +218,10 @@ bool belongs_to_setting(const scene::KeyDescription& key) {
 
 Setting setting_of(const scene::Scene& scene) {
   Setting setting;
-  for (const auto& key : scene::scene_keys()) {
-    if (belongs_to_setting(key)) setting[key.name] = key.get(scene);
-  }
+  const bool closes = scene.surface.model == scene::GapModel::closing;
+  for (const auto& key : scene::scene_keys())
+    if (belongs_to_setting(key) && (!key.role().exactness.larger_is_finer || closes))
+      setting[key.name] = key.get(scene);
   return setting;
 }
 

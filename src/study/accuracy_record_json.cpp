@@ -41,13 +41,12 @@ bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   return key.kind == scene::KeyKind::number && std::isfinite(number) && whole && key.limits.contain(number);
 }
 
-/// Every key of a setting, none besides, each with a value that a scene may have.
-Setting setting_from(const ordered_json& object, const std::string& path, RecordReader& reader) {
+/// Every key of a setting of the scene, none besides, each with a value that a scene may have.
+Setting setting_from(const ordered_json& object, const std::string& path, const scene::Scene& scene,
+                     RecordReader& reader) {
   Setting setting;
   std::vector<std::string> keys;
-  for (const auto& key : scene::scene_keys()) {
-    if (belongs_to_setting(key)) keys.push_back(key.name);
-  }
+  for (const auto& [key, own] : setting_of(scene)) keys.push_back(key);
   if (!reader.has_keys(object, path, keys)) return setting;
   for (const std::string& key : keys) {
     const ordered_json& given = object[key];
@@ -83,7 +82,7 @@ void describe_setting(RecordObject& object, RecordedSetting& each, const Accurac
                between(record.scene.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
   object.value("critical_gap_m", each.critical_gap, OrNone{between(0, widest_gap)});
   if (object.reading())
-    each.setting = setting_from(object["setting"], object.path_of("setting"), object.reader());
+    each.setting = setting_from(object["setting"], object.path_of("setting"), record.scene, object.reader());
   else
     object["setting"] = json_of(each.setting);
 }

@@ -180,6 +180,8 @@ class AnswerRunner {
   void fetch_answers(const CaseRuns& runs) {
     for (const std::size_t each : runs.members) {
       const StudyCase input = study_.cases[each];
+      // What is stored under such a key is the reservoir's.
+      if (compares_closing(study_.study, input)) continue;
       answers_[each] =
           stored_answer(study_.study, input, answer_key(analysis_, input), runs.runs.size(), *options_.store);
     }
@@ -240,7 +242,8 @@ class AnswerRunner {
                            "interrupted before its gaps were judged");
     CaseAnswer answer = answer_from(study_.study, input, runs);
     if (!judged || was_cut_off(runs.front())) return answer;
-    if (options_.store != nullptr && std::ranges::none_of(runs, was_cut_off)) {
+    if (options_.store != nullptr && !compares_closing(study_.study, input) &&
+        std::ranges::none_of(runs, was_cut_off)) {
       for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
       save_answer(*options_.store, answer_key(analysis_, input), answer);
       answer.runs.clear();
@@ -323,10 +326,12 @@ CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::ve
     answer.run.status = own.result.mechanics.status;
     return answer;
   }
+  const bool compares = compares_closing(study, input);
   std::optional<run::MechanicsResult> raised;
-  if (runs.size() > 1 && own.failure.empty()) raised = runs[1].result.mechanics;
+  if (runs.size() > 1 && own.failure.empty() && !compares) raised = runs[1].result.mechanics;
   CaseAnswer answer = answer_of(study, input, own.result.mechanics, raised);
   answer.outcome = own.outcome;
+  if (compares) take_launches(input, runs, answer);
   return answer;
 }
 

@@ -19,10 +19,11 @@ namespace {
 /// The gaps of a case that have launches of their own: those that close, and with two-way coupling those that
 /// are run through ignition; none where the kind does not ask for them.
 std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input) {
+  const KindTraits& kind = study.study.kind;
   const scene::Scene& scene = input.scene.scene;
-  if (!study.study.kind.goes_through_ignition) return {};
-  if (scene.coupling == scene::Coupling::one_way && !input.closing) return {};
-  return scene.surface.gaps;
+  const bool closes = input.closing && kind.closing_gaps != ClosingGaps::beside;
+  const bool burns = kind.goes_through_ignition && scene.coupling != scene::Coupling::one_way;
+  return closes || burns ? scene.surface.gaps : std::vector<double>{};
 }
 
 /// Of so many cases at the most the runs are planned before they are begun.
@@ -44,7 +45,7 @@ bool keeps_values(const StudyFile& study, std::size_t index, const std::vector<s
 /// Whether cases that differ in these axes surely differ in their runs. The first and the last case have
 /// other values of each, of which one is not the default.
 bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axes) {
-  if (study.cases.empty() || study.study.kind.goes_through_ignition) return false;
+  if (study.cases.empty() || !launched_gaps(study, study.cases.front()).empty()) return false;
   const std::size_t last = study.cases.size() - 1;
   return !study.cases.has_own_scene(0) && !study.cases.has_own_scene(last) && keeps_values(study, 0, axes) &&
          keeps_values(study, last, axes);
@@ -94,20 +95,20 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
   const std::size_t first = cases.members.front();
   const StudyFile* of = &study;
   const bool longer = study.study.in_detail && with_longer_launch(study.cases[first].scene.scene);
-  cases.runs.push_back({[of, first, checkpoints, longer] {
-    const StudyCase input = of->cases[first];
-    CaseRun run = mechanics_run(input.scene.scene, input.label);
-    run.checkpoints = checkpoints || longer;
-    return run;
-  }});
-  if (study.study.kind.goes_through_ignition)
-    for (const double gap : launched_gaps(study, study.cases[first]))
-      cases.runs.push_back({[of, first, gap] {
-        const StudyCase input = of->cases[first];
-        return skin_run(closing_scene(input), gap,
-                        fmt::format("{}, {} {:.6g} cm", input.label,
-                                    input.closing ? "closing from" : "through ignition at", 100.0 * gap));
-      }});
+  if (!compares_closing(study.study, study.cases[first]))
+    cases.runs.push_back({[of, first, checkpoints, longer] {
+      const StudyCase input = of->cases[first];
+      CaseRun run = mechanics_run(input.scene.scene, input.label);
+      run.checkpoints = checkpoints || longer;
+      return run;
+    }});
+  for (const double gap : launched_gaps(study, study.cases[first]))
+    cases.runs.push_back({[of, first, gap] {
+      const StudyCase input = of->cases[first];
+      return skin_run(closing_scene(input), gap,
+                      fmt::format("{}, {} {:.6g} cm", input.label,
+                                  input.closing ? "closing from" : "through ignition at", 100.0 * gap));
+    }});
   if (propagates_spread(study.study))
     cases.runs.push_back({[of, first] {
       const StudyCase input = of->cases[first];

@@ -66,11 +66,20 @@ Cases::Complete with_stated(const StudyFile& study) {
   };
 }
 
+/// The first that is of the scene's shell and model; where none is, the first.
+const AccuracyRecord& record_for(const AccuracyRecords& records, const scene::Scene& scene) {
+  const auto found = std::ranges::find_if(
+      records, [&](const AccuracyRecord& each) { return why_foreign(each, scene).empty(); });
+  return found == records.end() ? records.front() : *found;
+}
+
 /// Every case has the bound of its own setting, grown to its own launch. Where the record says nothing of it,
 /// it has the assumed one, or the grown bound if that is larger. Either grows with the rise of T max no later
 /// than the recorded bound by itself would.
-void complete_recorded(const AccuracyRecord& record, StudyCase& made) {
+void complete_recorded(const std::shared_ptr<const AccuracyRecords>& records, StudyCase& made) {
   const scene::Scene& scene = made.scene.scene;
+  const AccuracyRecord& record = record_for(*records, scene);
+  made.accuracy = records;
   made.numerical_uncertainty = assumed_for(scene);
   made.numerical_uncertainty_assumed = true;
   made.why_assumed = why_foreign(record, scene);
@@ -297,40 +306,45 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
   return text;
 }
 
-scene::Expected<std::optional<AccuracyRecord>> read_record(StudyFile& study,
-                                                           const std::filesystem::path& folder) {
-  const std::string& name = study.study.accuracy;
-  if (name.empty()) return std::optional<AccuracyRecord>{};
-  if (std::isfinite(study.study.numerical_uncertainty)) {
+scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder) {
+  AccuracyRecords records;
+  const std::string& names = study.study.accuracy;
+  if (!names.empty() && std::isfinite(study.study.numerical_uncertainty)) {
     return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
   }
-  const auto text =
-      read_named_file(study, folder, "accuracy", name, "the accuracy.json of an accuracy study");
-  if (!text) return text.error();
-  study.records.push_back(store::sha256(*text));
-  auto record = parse_accuracy_record(*text, (folder / name).string());
-  if (!record) return record.error();
-  return std::optional<AccuracyRecord>(std::move(*record));
+  for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end + 2) {
+    end = std::min(names.find(", ", begin), names.size());
+    const std::string name = names.substr(begin, end - begin);
+    const auto text =
+        read_named_file(study, folder, "accuracy", name, "the accuracy.json of an accuracy study");
+    if (!text) return text.error();
+    study.records.push_back(store::sha256(*text));
+    auto record = parse_accuracy_record(*text, (folder / name).string());
+    if (!record) return record.error();
+    records.push_back(std::move(*record));
+  }
+  return records;
 }
 
-Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& record, double tolerance) {
+Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance) {
   const std::string asked = fmt::format("a tolerance of {:g} K", tolerance);
-  if (!record)
+  if (records.empty())
     return fault_at(study, "accuracy", asked + ", and no accuracy record", "accuracy = \"...accuracy.json\"");
   if (has_other_numerics(study)) {
     return fault_at(study, "set", asked + ", and numerics of the study's own",
                     "a tolerance, or numerics in [set] or [[vary]]");
   }
   const scene::Scene& own = study.scene.scene;
-  const std::string foreign = why_foreign(*record, own);
-  const Coverage coverage = coverage_of(*record, own);
+  const AccuracyRecord& record = record_for(records, own);
+  const std::string foreign = why_foreign(record, own);
+  const Coverage coverage = coverage_of(record, own);
   if (const std::string reason = foreign.empty() ? coverage.reason : foreign; !reason.empty())
     return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
                     "the record of an accuracy study on this scene");
-  const RecordedSetting* chosen = cheapest_within(*record, tolerance / coverage.growth);
+  const RecordedSetting* chosen = cheapest_within(record, tolerance / coverage.growth);
   if (chosen == nullptr) {
-    const RecordedSetting* best = most_accurate(*record);
+    const RecordedSetting* best = most_accurate(record);
     return fault_at(study, "accuracy", asked + ", which no recorded setting meets",
                     best == nullptr ? "a record with settings"
                                     : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
@@ -361,10 +375,25 @@ double numerical_share(const StudyCase& input, double gap, double rise) {
   return here * (hotter > 1.0 ? hotter : 1.0);
 }
 
-void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record) {
-  if (!record) return study.cases.complete_with(with_stated(study));
-  const auto shared = std::make_shared<const AccuracyRecord>(*record);
-  study.cases.complete_with([shared](StudyCase& made) { complete_recorded(*shared, made); });
+ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, double gap, double rise) {
+  const ClosingShare assumed{assumed_for(closing), false};
+  if (!input.accuracy) return assumed;
+  const AccuracyRecord& record = record_for(*input.accuracy, closing);
+  if (!why_foreign(record, closing).empty()) return assumed;
+  const RecordedSetting* found = recorded_setting(record, closing);
+  const Coverage coverage = coverage_of(record, closing);
+  constexpr double round_off = 1e-9;
+  const double widest = std::ranges::max(record.launch.gaps) * (1.0 + round_off);
+  if (found == nullptr || !coverage.reason.empty() || coverage.growth > 1.0 + round_off || !(gap <= widest))
+    return assumed;
+  const double bound = found->temperature_bound * std::max(1.0, rise / record.rise);
+  return std::isfinite(bound) ? ClosingShare{bound, true} : assumed;
+}
+
+void settle_uncertainty(StudyFile& study, const AccuracyRecords& records) {
+  if (records.empty()) return study.cases.complete_with(with_stated(study));
+  const auto shared = std::make_shared<const AccuracyRecords>(records);
+  study.cases.complete_with([shared](StudyCase& made) { complete_recorded(shared, made); });
 }
 
 NumericalUncertainty numerical_uncertainty_of(const StudyFile& study) {

@@ -2,6 +2,7 @@
 
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/selective_inertia.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
@@ -36,14 +37,21 @@ double time_at_share(const scene::Load& load, double share) {
   return peak_time;
 }
 
-CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
+scene::Scene scene_on(const StudyCase& input, const ClosingTerms& terms) {
   scene::Scene scene = closing_scene(input);
-  if (gap > terms.roughness) {  // others are one launch on whatever terms
-    scene.surface.base = terms.base;
-    scene.surface.roughness = terms.roughness;
-    scene.surface.release = terms.release;
-    scene.surface.release_duration = terms.release_duration;
-  }
+  scene.surface.base = terms.base;
+  scene.surface.roughness = terms.roughness;
+  scene.surface.release = terms.release;
+  scene.surface.release_duration = terms.release_duration;
+  scene.surface.melts = terms.melts;
+  scene.charge().kinetics = terms.kinetics;
+  return scene;
+}
+
+CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
+  scene::Scene scene = scene_on(input, terms);
+  // Without a gap it is one launch on whatever terms.
+  if (gap <= terms.roughness) scene.surface = *input.closing;
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
@@ -60,7 +68,6 @@ ClosingPoint point_of(const CaseRun& asked, const FinishedRun& run) {
   ClosingPoint point;
   point.gap = *asked.skin_gap;
   point.release = asked.scene.surface.release;
-  point.hashes = {run.hash};
   point.unknown_for = fault_of(asked.scene, run);
   if (!point.unknown_for.empty()) return point;
   const run::GapResult& gap = run.result.gaps.front();
@@ -74,10 +81,20 @@ ClosingPoint point_of(const CaseRun& asked, const FinishedRun& run) {
   return point;
 }
 
+/// With what its computation may have wrong.
+ClosingPoint with_share(ClosingPoint point, const StudyCase& input, const ClosingTerms& terms) {
+  const double rise = point.maximum_temperature - input.scene.scene.initial_temperature;
+  const ClosingShare share = closing_share(input, scene_on(input, terms), point.gap, rise);
+  point.at_most = point.maximum_temperature + share.kelvin;
+  point.recorded = share.recorded;
+  return point;
+}
+
 /// Takes one more launch into a point: the hotter one counts, and one without a temperature leaves none.
 void join(const ClosingPoint& launch, ClosingPoint& point) {
   point.ignited = point.ignited || launch.ignited;
-  point.hashes.insert(point.hashes.end(), launch.hashes.begin(), launch.hashes.end());
+  point.at_most = larger_bound(point.at_most, launch.at_most);
+  point.recorded = point.recorded && launch.recorded;
   if (!point.unknown_for.empty()) return;
   if (launch.unknown_for.empty() && launch.maximum_temperature <= point.maximum_temperature) return;
   point.unknown_for = launch.unknown_for;
@@ -180,13 +197,11 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
   run(std::move(runs),
       [&](std::size_t i, const FinishedRun& finished) { points[i] = point_of(makers[i].make(), finished); });
   for (std::size_t i = 0; i < launches.size(); ++i) {
-    std::vector<ClosingPoint>& known = launches[i].search->answer->points;
-    const bool first =
-        i == 0 || launches[i].search != launches[i - 1].search || launches[i].gap != launches[i - 1].gap;
-    if (first)
-      known.push_back(points[run_of[i]]);
-    else if (run_of[i] != run_of[i - 1])
-      join(points[run_of[i]], known.back());
+    const Search& search = *launches[i].search;
+    std::vector<ClosingPoint>& known = search.answer->points;
+    const ClosingPoint launch = with_share(points[run_of[i]], study.cases[search.index], *launches[i].terms);
+    const bool first = i == 0 || &search != launches[i - 1].search || launches[i].gap != launches[i - 1].gap;
+    first ? known.push_back(launch) : join(launch, known.back());
   }
 }
 
@@ -202,25 +217,67 @@ void leave_unknown(const Search& search) {
 
 }  // namespace
 
+std::vector<materials::KineticsParameters> kinetics_of(const scene::Scene& scene) {
+  const materials::KineticsParameters& own = scene.charge().kinetics;
+  std::vector<materials::KineticsParameters> kinetics{own};
+  for (const scene::Decomposition& each : scene::shipped_decompositions()) {
+    kinetics.push_back(each.kinetics);
+    kinetics.back().name = each.name;
+    kinetics.back().ignition_temperature = own.ignition_temperature;
+    kinetics.back().burnt_temperature = own.burnt_temperature;
+  }
+  const auto heats_more = [&](const materials::KineticsParameters& a,
+                              const materials::KineticsParameters& b) {
+    const auto at = [&](double kelvin) {
+      return arrhenius_heating(a, 1.0, kelvin) >= arrhenius_heating(b, 1.0, kelvin);
+    };
+    return at(scene.initial_temperature) && at(own.ignition_temperature);
+  };
+  std::vector<materials::KineticsParameters> counting;
+  for (const materials::KineticsParameters& each : kinetics) {
+    const auto outdoes = [&](const auto& other) { return heats_more(other, each); };
+    if (std::ranges::any_of(counting, outdoes)) continue;
+    std::erase_if(counting, [&](const auto& other) { return heats_more(each, other); });
+    counting.push_back(each);
+  }
+  return counting;
+}
+
 std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner) {
   using scene::GapBase;
+  const scene::Scene& scene = input.scene.scene;
   const scene::Surface& own = *input.closing;
-  const std::optional<double> duration = own.release_duration;
-  std::vector<ClosingBound> bounds{
-      {"conducting", {{GapBase::conducting, own.roughness, own.release, duration}}},
-      {"insulated", {{GapBase::insulated, own.roughness, own.release, duration}}}};
-  if (!with_corner) return bounds;
-  ClosingBound corner{"corner", {}, why_without_corner(input.scene.scene)};
-  const double roughness = std::min(smoothest, own.roughness);
-  std::vector<double> releases{0.0, own.release};
-  for (const double share : release_shares) releases.push_back(time_at_share(input.scene.scene.load, share));
-  std::sort(releases.begin(), releases.end());
-  releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-  const std::optional<double> fastest =
-      duration && *duration < scene::transit_time(input.scene.scene) ? duration : std::nullopt;
-  for (const double release : releases)
-    corner.terms.push_back({GapBase::insulated, roughness, release, fastest});
-  bounds.push_back(std::move(corner));
+  const ClosingTerms insulated{GapBase::insulated, own.roughness, own.release, own.release_duration};
+  ClosingTerms conducting = insulated, melting = insulated, smooth = insulated;
+  conducting.base = GapBase::conducting;
+  melting.melts = true;
+  smooth.roughness = std::min(smoothest, own.roughness);
+  if (!(own.release_duration && *own.release_duration < scene::transit_time(scene)))
+    smooth.release_duration.reset();
+  std::vector<ClosingBound> bounds{{"conducting", {conducting}}, {"insulated", {insulated}}};
+  if (with_corner) {
+    std::vector<double> releases{0.0, own.release};
+    for (const double share : release_shares) releases.push_back(time_at_share(scene.load, share));
+    std::sort(releases.begin(), releases.end());
+    releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
+    ClosingBound corner{"corner", {}, why_without_corner(scene)};
+    for (const double release : releases) {
+      corner.terms.push_back(smooth);
+      corner.terms.back().release = release;
+    }
+    bounds.push_back({"melting", {melting}});
+    bounds.push_back({"smooth", {smooth}});
+    bounds.push_back(std::move(corner));
+  }
+  const std::vector<materials::KineticsParameters> kinetics = kinetics_of(scene);
+  for (ClosingBound& bound : bounds) {
+    const std::vector<ClosingTerms> terms = std::exchange(bound.terms, {});
+    for (ClosingTerms each : terms)
+      for (const materials::KineticsParameters& pair : kinetics) {
+        each.kinetics = pair;
+        bound.terms.push_back(each);
+      }
+  }
   return bounds;
 }
 
@@ -263,8 +320,9 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
   // An odd bit of round-off is no halving.
   const double halvings = std::ceil(std::log2(widest / study.tolerance) - 1e-9);
   const std::size_t gaps = scanned.size() + static_cast<std::size_t>(halvings);
-  std::size_t launches = 1;  // without a gap, on all terms
-  for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
+  const std::vector<ClosingBound> bounds = closing_bounds(input, study.in_detail);
+  std::size_t launches = bounds.front().terms.size();  // without a gap
+  for (const ClosingBound& bound : bounds)
     if (bound.unknown_for.empty()) launches += (gaps - 1) * bound.terms.size();
   return launches;
 }
@@ -279,14 +337,17 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
     return point.gap < gap && !is_known(point);
   };
   for (const ClosingAnswer& answer : answers) {
+    if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
     const ClosingPoint* point = answer.at(gap);
     const bool is_computed = point != nullptr && is_known(*point);
     if (!is_computed || std::ranges::any_of(answer.points, hides_a_thinner)) evidence.known = false;
     const bool ignites = (is_computed && point->ignited) || answer.upper <= gap;
     if (!answer.is_worst_corner())
       evidence.ignited = evidence.ignited || ignites;
-    else if (ignites || is_computed)
+    else if (ignites || is_computed) {
       evidence.corner_margin = ignites ? -infinite : ignition_temperature - point->maximum_temperature;
+      if (!ignites) evidence.numerical = point->at_most - point->maximum_temperature;
+    }
   }
   return evidence;
 }

@@ -214,8 +214,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   std::size_t following = 0;  // runs that may follow that of a case, at most
   if (!study.study.kind.goes_through_ignition && !study.cases.empty()) {
     const StudyCase first = study.cases.front();
-    following =
-        study.confirmations_per_case + (first.closing ? most_closing_launches(study.study, first) : 0);
+    const bool beside = first.closing && study.study.kind.closing_gaps == ClosingGaps::beside;
+    following = study.confirmations_per_case + (beside ? most_closing_launches(study.study, first) : 0);
   }
   forecast.confirmations = following * all.size();
   const std::vector<CaseRuns> cases = some_of(std::move(all), most_cases);

@@ -336,6 +336,24 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
   return stations;
 }
 
+void take_launches(const StudyCase& input, const std::vector<FinishedRun>& runs, CaseAnswer& answer) {
+  answer.critical = {};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const run::CaseResult& launch = runs[i].result;
+    if (answer.failure.empty()) answer.failure = runs[i].failure;
+    GapVerdict row;
+    row.gap = answer.verdicts[i].gap;
+    if (runs[i].failure.empty() && !launch.gaps.empty()) {
+      const run::GapResult& gap = launch.gaps.front();
+      row.maximum = peak_of(gap.at_stations, launch.mechanics.trace);
+      row.margin = input.scene.scene.charge().kinetics.ignition_temperature - row.maximum.temperature;
+      row.ignition = named(gap.skin.ignition, launch.mechanics.trace);
+      if (!row.ignition) row.heated = row.maximum.temperature;
+    }
+    answer.verdicts[i] = std::move(row);
+  }
+}
+
 void evaluate(const Study& study, CaseOutcome& outcome) {
   if (has_trace(outcome))
     outcome.heated_without_gap =

@@ -190,6 +190,7 @@ void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& o
     evidence.maximum_temperature = row.maximum.temperature;
     evidence.margin = row.margin;
     evidence.uncertainty = row.uncertainty.total();
+    evidence.numerical = row.uncertainty.numerical;
     evidence.calibrated_margin =
         margin_as_calibrated(row.as_calibrated, row.margin + row.maximum.temperature);
     evidence.noise = row.uncertainty.load_curve;

@@ -141,12 +141,22 @@ class Comparison {
     const auto compare = [&](const scene::KeyDescription& key, const Value& value, const Value& wanted) {
       if (!same_value(value, wanted)) found.push_back({key, value, wanted, of_laws.contains(key.name)});
     };
-    for (const auto& key : scene::scene_keys())
+    for (const auto& key : scene::scene_keys()) {
       if (!measured || &key != &peak) compare(key, key.get(scene_), key.get(recorded_));
+      if (is_stated_by_one(key, scene_, recorded_))
+        found.push_back({key, key.get(scene_), key.get(recorded_)});
+    }
     materials::for_each_law([&]<class Law>(const Law&) { compare_forms<Law>(); });
     if (measured)
       compare(peak, scene::PressureHistory(scene_.load).stated_peak(),
               scene::PressureHistory(recorded_.load).stated_peak());
+  }
+
+  /// What is not said may mean something else than the value that it reads as.
+  template <class Owner>
+  static bool is_stated_by_one(const scene::Key<Owner>& key, const Owner& ours, const Owner& theirs) {
+    return key.is_written && key.is_written(ours) != key.is_written(theirs) &&
+           same_value(key.get(ours), key.get(theirs));
   }
 
   /// A key that only one of them has is of another form of the law, also where it is as usual there.
@@ -155,9 +165,7 @@ class Comparison {
     static const std::vector<scene::Key<Law>> keys = Law::parameters();
     const Law &ours = scene_.parameters<Law>(), &theirs = recorded_.parameters<Law>();
     for (const scene::Key<Law>& key : keys)
-      if (key.is_written && key.is_written(ours) != key.is_written(theirs) &&
-          same_value(key.get(ours), key.get(theirs)))
-        found.push_back({key, key.get(ours), key.get(theirs), true});
+      if (is_stated_by_one(key, ours, theirs)) found.push_back({key, key.get(ours), key.get(theirs), true});
   }
 
   /// Whether the keys of the scenes speak of both.

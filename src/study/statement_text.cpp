@@ -77,7 +77,8 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
     case ReasonCode::closing_corner:
       return "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) " +
              (std::isfinite(evidence.closing.corner_margin)
-                  ? fmt::format("the margin is {:.1f} K", evidence.closing.corner_margin)
+                  ? fmt::format("the margin is {:.1f} K, and the uncertainty {:.2g} K",
+                                evidence.closing.corner_margin, evidence.closing_uncertainty())
                   : std::string("it ignites"));
     case ReasonCode::below_bound:
       return "below the lower bound of the critical gap, " + bound_text(judgement.at_least);

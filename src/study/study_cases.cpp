@@ -201,6 +201,10 @@ StudyCase case_of(std::string label, SceneFile scene) {
     surface.roughness = usual.roughness;
     surface.release = usual.release;
     surface.release_duration = usual.release_duration;
+    surface.melts = usual.melts;
+    surface.air_cells = usual.air_cells;
+    surface.depth_cells = usual.depth_cells;
+    surface.turns = usual.turns;
   }
   return made;
 }
@@ -271,7 +275,7 @@ Fault settle_gaps(StudyFile& study) {
   const auto axis = [](const Axis& each) { return each.key.name == key; };
   study.study.gaps_by_cooling =
       study.scene.scene.surface.opens_by_cooling || std::ranges::any_of(study.study.axes, axis);
-  if (study.study.gaps_by_cooling && (!kind.judges_closing_gaps || kind.goes_through_ignition))
+  if (study.study.gaps_by_cooling && kind.closing_gaps != ClosingGaps::beside)
     return fault_at(study, "scene", fmt::format("{} in a study of kind {}", key, kind.name),
                     "a study of kind critical-gap, or gap.thickness");
   if (study.study.gaps_by_cooling && !study.study.gaps.empty())

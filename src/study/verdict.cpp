@@ -134,15 +134,14 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
   return {Verdict::safe, ReasonCode::below_bound, at_least};
 }
 
-/// A gap that is SAFE by the reservoir, where it closes. Nobody has measured how wrong a closing gap is, so
-/// that no less than what is assumed without a record has to be left.
+/// A gap that is SAFE by the reservoir, where it closes.
 Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, Judgement by_reservoir) {
   if (by_reservoir.verdict != Verdict::safe) return by_reservoir;
   if (!evidence.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
   if (std::isnan(evidence.closing.corner_margin))
     return indeterminate(ReasonCode::closing_without_corner, critical);
   // Written so that NaN is never safe.
-  if (!(evidence.closing.corner_margin > std::max(evidence.uncertainty, assumed_numerical_uncertainty)))
+  if (!(evidence.closing.corner_margin > evidence.closing_uncertainty()))
     return indeterminate(ReasonCode::closing_corner, critical);
   return by_reservoir;
 }

@@ -39,7 +39,8 @@ FilmStation::FilmStation(const SkinModel& model, const FilmGrid& grid, const Fil
       trigger_(trigger_of(model)),
       reacts_(model.kinetics.heat_of_reaction * model.kinetics.frequency > 0.0),
       column_(grid, model.surface.air, model.initial_temperature, model.initial_temperature),
-      warmed_(grid.air_begin, 0.0) {
+      warmed_(grid.air_begin, 0.0),
+      melted_(grid.air_begin, 0.0) {
   failed_ = !std::isfinite(start_pressure);
   column_.compress_to(std::max(start_pressure, lowest_pressure));
   start_.gas = column_.air_enthalpy();
@@ -58,6 +59,7 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
     double h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
     if (!fixed) h = shortened(pressure, lowest_pressure_, length, at, h);
     column_.keep(kept_);
+    kept_melted_ = melted_;
     const bool finite = try_step(pressure, length, at, h, heating);
     const bool shortest = h <= shortest_share * length;
     if (!finite && shortest) failed_ = true;
@@ -75,6 +77,7 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
     } else {
       // Also before the step in which it ignites: what burns is no longer this column's account.
       column_.restore(kept_);
+      melted_ = kept_melted_;
       point_.ignited = accepted && point_.ignited;
     }
   }
@@ -95,6 +98,7 @@ bool FilmStation::try_step(const IntervalPressure& pressure, double length, doub
   error_ = column_.step(h, {at(0.0), at(inner_stage), at(1.0)}, heating) / numerics_.tolerance;
   if (!std::isfinite(error_)) return false;
   for (std::size_t i = 0; i < warmed_.size(); ++i) warmed_[i] += column_.temperature(i) / h;
+  melt();
   release_heat(surface_before, begin, h);
   if (!point_.ignited) react(begin + 0.5 * h, 0.5 * h);
   return true;
@@ -117,6 +121,21 @@ void FilmStation::react(double time, double h) {
     column_.set_temperature(i, point.temperature);
     reaction_ += grid_->capacity[i] * (point.temperature - before);
     if (point.ignited) note(point, time + point.ignition_time);
+  }
+}
+
+/// What a depth has beyond the melting temperature melts it before it gets warmer, and what it lacks freezes
+/// it again: of first order in the step.
+void FilmStation::melt() {
+  if (!model_->surface.melts) return;
+  const double most = model_->heat_of_melting / model_->specific_heat;
+  for (std::size_t i = 0; i < melted_.size(); ++i) {
+    const double before = column_.temperature(i);
+    const double taken = std::clamp(before - model_->melting_temperature, -melted_[i], most - melted_[i]);
+    if (taken == 0.0) continue;
+    melted_[i] += taken;
+    column_.set_temperature(i, before - taken);
+    reaction_ -= grid_->capacity[i] * taken;
   }
 }
 

@@ -38,6 +38,7 @@ class FilmStation {
  private:
   bool try_step(const IntervalPressure& pressure, double length, double begin, double h, double heating);
   void react(double time, double h);
+  void melt();
   void release_heat(double surface_before, double time, double h);
   void note(const SkinPoint& ignited, double time);
   double longest_step() const;
@@ -51,12 +52,13 @@ class FilmStation {
   bool reacts_;
   FilmColumn column_;
   FilmColumn::Kept kept_;
-  std::vector<double> warmed_;  // by conduction and friction in the last step, K/s
-  SkinPoint point_;             // of the surface, or of where it ignited
-  FilmEnergy energy_, start_;   // J/m2
-  double reaction_ = 0;         // of the step under way, J/m2
-  double error_ = 0;            // of the last step over the tolerance
-  double wanted_ = 0;           // length of the next step, s; 0: none made yet
+  std::vector<double> warmed_;                // by conduction and friction in the last step, K/s
+  std::vector<double> melted_, kept_melted_;  // by depth, what melting took as a fall of the temperature, K
+  SkinPoint point_;                           // of the surface, or of where it ignited
+  FilmEnergy energy_, start_;                 // J/m2
+  double reaction_ = 0;                       // of the step under way, J/m2
+  double error_ = 0;                          // of the last step over the tolerance
+  double wanted_ = 0;                         // length of the next step, s; 0: none made yet
   bool failed_ = false;
 };
 

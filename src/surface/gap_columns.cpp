@@ -43,6 +43,14 @@ struct GapColumns::Parts {
   }
 };
 
+FilmNumerics GapColumns::numerics_of(const scene::Surface& surface) {
+  const auto depth = static_cast<std::size_t>(surface.depth_cells);
+  return {.charge_cells = depth,
+          .gas_cells = static_cast<std::size_t>(surface.air_cells),
+          .base_cells = depth * 3 / 5,
+          .tolerance = 1e-3 / surface.turns};
+}
+
 GapColumns::GapColumns(const SkinModel& model, std::size_t columns, double gap, double duration,
                        const FilmNumerics& numerics)
     : parts_(

@@ -124,6 +124,8 @@ SkinModel skin_model(const scene::Scene& scene) {
   model.specific_heat = scene.charge().specific_heat;
   model.initial_temperature = scene.initial_temperature;
   model.charge_conductivity = scene.charge().conductivity;
+  model.melting_temperature = scene.charge().melting_temperature;
+  model.heat_of_melting = scene.charge().heat_of_melting;
   const scene::Body* under = scene::body_under_charge(scene);
   const materials::Law base = under != nullptr ? scene::law_of(scene, *under) : materials::Law{scene.steel()};
   model.base_density = materials::initial_density(base);

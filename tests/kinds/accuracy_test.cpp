@@ -197,6 +197,94 @@ TEST(Accuracy, VariantsAreWhatStudiesOfTheirOwnAre) {
   EXPECT_EQ(to_json_text(result.variants[1].record), to_json_text(result_of(converging, alone).record));
 }
 
+const std::string closing_text =
+    "kind = \"accuracy\"\nscene = \"scene_155mm.toml\"\ngaps = \"0.01, 0.02 cm\"\n"
+    "reference_cell_sizes = \"2.5, 0.625, 1.25 mm\"\n"
+    "settings = [ { gap.air_cells = [64] }, { gap.depth_cells = [80] }, { gap.turns = [2] },\n"
+    "             { gap.base = \"insulated\" } ]\n" +
+    constants_on_even_lattice +
+    "gap.model = \"closing\"\ngap.base = \"conducting\"\ninterface.base.condition = \"sliding\"\n"
+    "interface.base.friction = 0\n";
+
+/// K; an error of the order 1.5 that is 2 K at 2.5 mm, and of the columns one that halves with a finer value:
+/// 0.2, 0.4 and 0.6 K. It is ignited from `igniting` (m) on.
+VariantAccuracy closing_result(double igniting = 1.0) {
+  StudyOptions options = synthetic_options(2);
+  options.runners.mechanics = nullptr;  // a charge that rests is not asked for
+  options.runners.with_skin = [=](const scene::Scene& scene, double gap, const run::RunOptions&) {
+    const scene::Surface& surface = scene.surface;
+    EXPECT_TRUE(scene::closes(surface, gap));
+    const scene::CellRange mesh = scene::cells_of_charge(scene);
+    const double size = std::sqrt(mesh.shortest_x * mesh.shortest_r) / 2.5e-3;
+    run::CaseResult result;
+    result.mechanics = converging(scene);
+    run::GapResult& closed = result.gaps.emplace_back();
+    closed.gap = gap;
+    closed.at_stations.temperature = 400.0 + 1e5 * gap + 2.0 * std::pow(size, 1.5) +
+                                     0.2 * 32 / surface.air_cells + 0.4 * 40 / surface.depth_cells +
+                                     0.6 / surface.turns +
+                                     (surface.base == scene::GapBase::insulated ? 9 : 0);
+    closed.skin.time = result.mechanics.trace.time;
+    closed.skin.temperature.assign(result.mechanics.trace.samples() * result.mechanics.trace.stations.size(),
+                                   400.0);
+    if (gap >= igniting) closed.skin.ignition = surface::Ignition{};
+    return result;
+  };
+  return run_accuracy(study_of(closing_text), options).variants.front();
+}
+
+TEST(Accuracy, OfGapsThatCloseIsThatOfTheirLaunches) {
+  const VariantAccuracy result = closing_result();
+  ASSERT_TRUE(result.reference) << result.no_reference;
+  ASSERT_EQ(result.reference->temperature.size(), 2u);
+  // The meshes share the columns, whose error of 1.2 K stays in their limit.
+  EXPECT_NEAR(result.reference->temperature[1].limit.value, 420.0 + 1.2, 1e-3);
+  EXPECT_NEAR(result.reference->temperature[1].limit.order, 1.5, 1e-3);
+  // Three times what twice as fine columns change: half of 0.2, 0.4 and 0.6 K.
+  EXPECT_NEAR(result.reference->temperature[1].inexactness, 3.0 * 0.6, 1e-6);
+  EXPECT_TRUE(result.reference->critical_gap.values.empty());
+  const AccuracyRow* own = result.baseline();
+  ASSERT_NE(own, nullptr);
+  EXPECT_NEAR(own->temperature_error[0], 2.0, 0.01);
+  EXPECT_GE(own->setting.temperature_bound, 2.0 + 1.2) << "more than all that is wrong";
+  EXPECT_NEAR(row_of(result, "turns 2").temperature_error[0], 2.0 - 0.3, 0.01);
+  const AccuracyRow& insulated = row_of(result, "base insulated");
+  EXPECT_TRUE(insulated.other_model);
+  EXPECT_EQ(result.record.scene.surface.model, scene::GapModel::closing);
+  EXPECT_EQ(result.record.settings.size(), result.rows.size() - 1);
+  const auto read = parse_accuracy_record(to_json_text(result.record), "accuracy.json");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(to_json_text(*read), to_json_text(result.record));
+}
+
+TEST(Accuracy, OfARealGapThatClosesBoundsWhatIsWrongWithItsSetting) {
+  const VariantAccuracy result =
+      run_accuracy(study_of("kind = \"accuracy\"\nscene = \"stability/small_shell.toml\"\n"
+                            "gaps = \"0.005 cm\"\nearly_time = \"0.8 ms\"\n"
+                            "reference_cell_sizes = \"1, 1.25, 2.5 mm\"\n"
+                            "settings = [ { gap.air_cells = [64] }, { gap.depth_cells = [80] }, "
+                            "{ gap.turns = [2] } ]\n"
+                            "[set]\nnumerics.selective_inertia = 1\ngap.model = \"closing\"\n"
+                            "interface.base = { condition = \"sliding\", friction = 0 }\n"))
+          .variants.front();
+  ASSERT_TRUE(result.reference) << result.no_reference;
+  const AccuracyRow* own = result.baseline();
+  ASSERT_NE(own, nullptr);
+  EXPECT_TRUE(std::isfinite(own->setting.temperature_bound));
+  EXPECT_GE(own->setting.temperature_bound, std::abs(own->temperature_error[0]));
+  // Stations within 2 K at the default columns and turns.
+  for (const char* finer : {"air_cells 64", "depth_cells 80", "turns 2"})
+    EXPECT_NEAR(row_of(result, finer).setting.temperature[0], own->setting.temperature[0], 2.0) << finer;
+}
+
+TEST(Accuracy, OfGapsThatCloseHasNoReferenceWhereAMeshIgnites) {
+  const VariantAccuracy result = closing_result(2e-4);
+  EXPECT_FALSE(result.reference);
+  EXPECT_NE(result.no_reference.find("a gap that closes ignites; compare thinner ones"), std::string::npos)
+      << result.no_reference;
+  EXPECT_TRUE(result.record.settings.empty());
+}
+
 TEST(RelativeDifference, IsThatOfTheSquares) {
   const PressureTrace one{{0, 1, 2}, {1, 1, 1}}, other{{0, 0.5, 1, 1.5, 2}, {1.1, 1.1, 1.1, 1.1, 1.1}};
   EXPECT_NEAR(relative_difference(other, one), 0.1, 1e-12);

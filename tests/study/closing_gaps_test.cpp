@@ -76,7 +76,7 @@ TEST(ClosingGaps, BracketsTheSmallestThatIgnites) {
   const auto answers = answers_of([](const Launch& launch) {
     return launch.gap > (launch.surface.base == GapBase::insulated ? 5e-4 : 6.3e-4) ? 600.0 : 400.0;
   });
-  ASSERT_EQ(answers.size(), 3u);
+  ASSERT_EQ(answers.size(), 5u);
   EXPECT_EQ(answers[0].name, "conducting");
   EXPECT_LE(answers[0].upper - answers[0].lower, 1e-5);
   EXPECT_LE(answers[0].lower, 6.3e-4);
@@ -113,6 +113,84 @@ TEST(ClosingGaps, TheHottestReleaseAndTheSmoothestFacesAreTheCorner) {
   EXPECT_NEAR(evidence.corner_margin, ignition - point->maximum_temperature, 1e-9);
 }
 
+TEST(ClosingGaps, WithoutARecordOfThemNoLessIsUncertainThanIsAssumed) {
+  const auto answers = answers_of([](const Launch& launch) { return 400.0 + 1e3 * launch.surface.release; });
+  for (const ClosingAnswer& answer : answers) {
+    EXPECT_FALSE(answer.at(2e-4)->recorded);
+    EXPECT_NEAR(answer.at(2e-4)->at_most, answer.at(2e-4)->maximum_temperature + 60.0, 1e-9);
+  }
+  EXPECT_NEAR(closing_evidence(answers, 2e-4, ignition).numerical, assumed_numerical_uncertainty, 1e-9);
+}
+
+TEST(ClosingGaps, EachBoundHasTheWorstEndOfOneMoreInterval) {
+  const auto answers = answers_of([](const Launch& launch) {
+    return 400.0 + (launch.surface.base == GapBase::insulated ? 5.0 : 0.0) +
+           (launch.surface.roughness < 5e-6 ? 20.0 : 0.0) + (launch.surface.release > 0.0 ? 30.0 : 0.0) -
+           (launch.surface.melts ? 7.0 : 0.0);
+  });
+  std::vector<std::pair<std::string, double>> found;
+  for (const ClosingAnswer& answer : answers)
+    found.emplace_back(answer.name, answer.at(2e-4)->maximum_temperature);
+  EXPECT_EQ(found, (std::vector<std::pair<std::string, double>>{{"conducting", 400.0},
+                                                                {"insulated", 405.0},
+                                                                {"melting", 398.0},
+                                                                {"smooth", 425.0},
+                                                                {"corner", 455.0}}));
+}
+
+TEST(ClosingGaps, NeitherMeltingNorSmoothFacesAloneDecide) {
+  // A charge that melts may ignite or not be known: what counts is the charge that does not.
+  const auto answers = answers_of([](const Launch& launch) {
+    if (launch.gap > 0.0 && launch.surface.melts) return std::nan("");
+    return 400.0;
+  });
+  const ClosingEvidence evidence = closing_evidence(answers, 2e-4, ignition);
+  EXPECT_TRUE(evidence.known);
+  EXPECT_NEAR(evidence.corner_margin, ignition - 400.0, 1e-9);
+  // Nor does a case that says its charge melts have bounds on which it does.
+  StudyCase input = closing_study().cases.front();
+  input.closing->melts = true;
+  for (const ClosingBound& bound : closing_bounds(input))
+    for (const ClosingTerms& terms : bound.terms) EXPECT_EQ(terms.melts, bound.name == "melting");
+}
+
+std::vector<std::string> kinetics_names(const std::function<void(materials::KineticsParameters&)>& change) {
+  scene::Scene scene = closing_study().cases.front().scene.scene;
+  change(scene.charge().kinetics);
+  std::vector<std::string> names;
+  for (const auto& each : kinetics_of(scene)) {
+    EXPECT_EQ(each.ignition_temperature, scene.charge().kinetics.ignition_temperature);
+    names.push_back(each.name);
+  }
+  return names;
+}
+
+TEST(ClosingGaps, IgniteByWhicheverKineticsComesFirst) {
+  using Names = std::vector<std::string>;
+  // The calibrated ones heat at least 80 times faster than those whose numbers belong together.
+  EXPECT_EQ(kinetics_names([](auto&) {}), Names{"comp-b"});
+  // As printed they are outdone: 1.17e25 exp(-27000/T) is below 1.47e23 exp(-21689/T) up to 1212 K.
+  EXPECT_EQ(kinetics_names([](auto& own) { own.activation_temperature = 27000.0; }),
+            Names{"comp-b-consistent"});
+  // At 300 K one is faster, at T1 the other: both count. Their rates are equal where
+  // ln(ratio of Q Z) = 4311 K/T, at 400 K.
+  EXPECT_EQ(kinetics_names([](auto& own) {
+              own.activation_temperature = 26000.0;
+              own.frequency = 4.62e16 * std::exp(4311.0 / 400.0) * 3.171472e6 / own.heat_of_reaction;
+            }),
+            (Names{"comp-b", "comp-b-consistent"}));
+}
+
+TEST(ClosingGaps, LaunchesHaveTheKineticsThatCount) {
+  StudyFile study = closing_study();
+  change_case(study, 0,
+              [](StudyCase& input) { input.scene.scene.charge().kinetics.activation_temperature = 27000.0; });
+  answers_of(study, [](const CaseRun& asked) {
+    EXPECT_NEAR(asked.scene.charge().kinetics.activation_temperature, 21688.76, 0.01);
+    return launch_of(asked, 400.0);
+  });
+}
+
 TEST(ClosingGaps, TheLaunchWithoutAGapIsMadeOnceForAllTerms) {
   std::size_t without = 0;
   const auto answers = answers_of(closing_study(), [&](const CaseRun& asked) {
@@ -130,10 +208,13 @@ TEST(ClosingGaps, TheCornerLetsGoAsFastAsSoundOrFaster) {
     input.closing->release_duration = own;
     return closing_bounds(input)[bound].terms.front().release_duration;
   };
-  EXPECT_FALSE(duration(std::nullopt, 2).has_value());
-  EXPECT_FALSE(duration(2.0 * passage, 2).has_value());
+  EXPECT_EQ(closing_bounds(input)[2].name, "melting");
+  for (const std::size_t smooth : {std::size_t{3}, std::size_t{4}}) {
+    EXPECT_FALSE(duration(std::nullopt, smooth).has_value());
+    EXPECT_FALSE(duration(2.0 * passage, smooth).has_value());
+    EXPECT_EQ(duration(0.5 * passage, smooth), 0.5 * passage);
+  }
   EXPECT_EQ(duration(2.0 * passage, 0), 2.0 * passage);
-  EXPECT_EQ(duration(0.5 * passage, 2), 0.5 * passage);
 }
 
 TEST(ClosingGaps, OneReleaseThatIsNotKnownLeavesTheCornerUnknown) {
@@ -228,17 +309,19 @@ TEST(ClosingGaps, NoMoreLaunchesAreAskedForThanIsSaidBefore) {
       ++launches;
       return launch_of(asked, *asked.skin_gap > 7.99e-4 ? 600.0 : 400.0);
     });
-    EXPECT_EQ(launches, most_closing_launches(study.study, study.cases.front())) << in_detail;
+    const std::size_t most = most_closing_launches(study.study, study.cases.front());
+    EXPECT_LE(launches, most) << in_detail;
+    EXPECT_GE(launches, most - 2 * (most / 10 + 1)) << "smooth faces are one of the terms of the corner";
   }
 }
 
 TEST(ClosingGaps, WithoutAnswersNothingIsKnown) { EXPECT_FALSE(closing_evidence({}, 0.0, ignition).known); }
 
 TEST(ClosingGaps, AreRefusedInKindsThatDoNotJudgeThem) {
-  const auto study =
-      parse_here("kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\n" + synthetic_statements +
-                 "[set]\ngap.model = \"closing\"\ninterface.base.condition = \"sliding\"\n"
-                 "interface.base.friction = 0\n");
+  const auto study = parse_here(
+      "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\n"
+      "[set]\ngap.model = \"closing\"\ninterface.base.condition = \"sliding\"\n"
+      "interface.base.friction = 0\n");
   ASSERT_FALSE(study);
   EXPECT_EQ(study.error().key, "set.gap.model") << study.error().message();
 }

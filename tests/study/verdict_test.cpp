@@ -200,13 +200,23 @@ Evidence closing(ClosingEvidence evidence) {
 }
 
 TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
-  // More than the 60 K that are assumed where nothing was measured.
   const CriticalGap critical = critical_at(3.95e-4, 1e-6);
-  EXPECT_EQ(judge(closing({true, false, 61.0}), critical).verdict, Verdict::safe);
-  EXPECT_EQ(judge(closing({true, false, 59.0}), critical).code, ReasonCode::closing_corner);
-  Evidence uncertain = closing({true, false, 61.0});
-  uncertain.uncertainty = 62.0;
-  EXPECT_EQ(judge(uncertain, critical).verdict, Verdict::indeterminate);
+  // Of the reservoir's uncertainty all counts but its numerics, in whose place are those of the corner.
+  const auto verdict_with = [&](double margin, double numerical, double of_corner) {
+    Evidence evidence = closing({true, false, margin, of_corner});
+    evidence.uncertainty = 10.0 + numerical;
+    evidence.numerical = numerical;
+    return judge(evidence, critical).verdict;
+  };
+  EXPECT_EQ(verdict_with(71.0, 2.0, 60.0), Verdict::safe);
+  EXPECT_EQ(verdict_with(69.0, 2.0, 60.0), Verdict::indeterminate);
+  EXPECT_EQ(verdict_with(69.0, 60.0, 2.0), Verdict::safe);
+  EXPECT_EQ(verdict_with(11.0, 60.0, 2.0), Verdict::indeterminate);
+  EXPECT_EQ(verdict_with(1e3, 2.0, nan_value), Verdict::indeterminate) << "nothing is known of the corner";
+  const Evidence near = closing({true, false, 9.0, 60.0});
+  EXPECT_EQ(judge(near, critical).code, ReasonCode::closing_corner);
+  EXPECT_NE(reason_text(near, judge(near, critical)).find("the margin is 9.0 K, and the uncertainty"),
+            std::string::npos);
 }
 
 TEST(Verdict, IsNeverSafeWhereAClosingGapIsNotKnown) {

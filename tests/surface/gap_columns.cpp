@@ -125,6 +125,28 @@ TEST(GapColumns, AccountForTheirHeatToRoundOff) {
   }
 }
 
+TEST(GapColumns, MeltBeforeTheyGetWarmer) {
+  // Friction heats the whole depth by 100 K: 53 K of them to 353 K, then melting takes 22 K. After 60 K it
+  // has taken 7 K, but beside the air, which lags behind; at the end all of it.
+  SkinModel model = inert_model();
+  model.base_conductivity = 0.0;
+  model.surface.melts = true;
+  model.heat_of_melting = 22.0 * model.specific_heat;
+  GapColumns columns(model, 1, 1e-6, 1e-2);
+  constexpr int intervals = 100;
+  EnclosedAir air = columns.fit(0, 1e-6);
+  const auto melted_share = [&] { return -columns.energy(0).reaction / columns.energy(0).friction; };
+  for (int i = 0; i < intervals; ++i) {
+    columns.advance(0, 1e-4, air.pressure, air.pressure, air.pressure, 1e4);
+    air = columns.fit(0, 1e-6);
+    if (i + 1 == 53) EXPECT_LT(melted_share(), 1e-3);
+    if (i + 1 == 60) EXPECT_NEAR(melted_share(), 7.0 / 60.0, 1e-3);
+  }
+  EXPECT_NEAR(melted_share(), 0.22, 1e-9);
+  EXPECT_NEAR(columns.hottest(0), 300.0 + 100.0 - 22.0, 0.5) << "the air is compressed, and warmer";
+  EXPECT_LT(columns.energy(0).residual(), 1e-9);
+}
+
 TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
   SkinModel model = inert_model();
   model.surface.air = materials::hot_and_dense(model.surface.air);

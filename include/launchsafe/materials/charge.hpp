@@ -18,6 +18,8 @@ struct Charge {
   double conductivity = 0.246;         ///< W/(m K)
   double sliding_friction = 0.24;      ///< mu_d
   double thermal_expansion = 54.6e-6;  ///< 1/K, of a length [A]
+  double melting_temperature = 353.0;  ///< K, of what melts in it [L]
+  double heat_of_melting = 38.9e3;     ///< J/kg, of all of it [A]
   KineticsParameters kinetics;
 
   static constexpr std::string_view name = "charge";

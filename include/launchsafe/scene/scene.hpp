@@ -109,6 +109,12 @@ struct Surface {
   double release = 0.0;
   /// s, over which what holds it then falls to nothing; none: transit_time (selective_inertia.hpp).
   std::optional<double> release_duration = {};
+  /// The charge over a closing gap melts as heat reaches it: for comparison, no verdict rests on it.
+  bool melts = false;
+  /// Cells in which a closing gap resolves its air, and the depth of the charge that its heat reaches; and
+  /// how many times as often as usual its motion and its heat take turns.
+  int air_cells = 32, depth_cells = 40;
+  double turns = 1.0;
   /// The air of a closing gap has constant heat capacity and no covolume: for comparisons, without a key.
   bool ideal_air = false;
   Exchange exchange = Exchange::rate;

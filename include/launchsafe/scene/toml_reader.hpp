@@ -15,7 +15,7 @@ namespace launchsafe::scene {
 // clang-format off
 using keys::Key, keys::KeyDescription, keys::KeyKind, keys::Value;
 using keys::ActsOn, keys::Hotter, keys::Limits, keys::Part, keys::Plausible, keys::Role, keys::Standing;
-using keys::judged_elsewhere, keys::minor_setting, keys::of_combustion, keys::of_model, keys::of_skin_model, keys::over_range,
+using keys::judged_elsewhere, keys::minor_setting, keys::of_combustion, keys::of_model, keys::of_skin_model, keys::over_range, keys::refined_setting,
     keys::remark, keys::setting_exact_at, keys::vanishing_setting;
 using keys::above, keys::above_to, keys::any_number, keys::at_least, keys::between;
 using keys::flag_key, keys::list_key, keys::number_key, keys::optional_number_key, keys::range_key,

@@ -77,7 +77,7 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
 
 /// Whether an input belongs to a setting: it makes a computation finer or coarser, and nothing else.
 bool belongs_to_setting(const scene::KeyDescription& key);
-/// The scene keys of a setting with their values.
+/// The scene keys of a setting with their values; those that resolve a closing gap of a scene with one alone.
 using Setting = std::map<std::string, scene::Value>;
 Setting setting_of(const scene::Scene& scene);
 /// Equal but for the round-off of units.
@@ -115,16 +115,19 @@ struct AccuracyRecord {
   double rise = 0;  ///< K, of T max above the initial temperature, for which the bounds were found
 };
 
+/// Those that a study names: of a scene the first counts that is of its shell and model.
+using AccuracyRecords = std::vector<AccuracyRecord>;
+
 /// Finds launch, bounds, rise and unvaried keys of a record from what its settings gave. A setting is
 /// compared with the limit of the reference meshes, which differ in the cell size alone and share all other
 /// keys with the scene of the accuracy study. So the comparison tells the error of whatever the setting has
 /// otherwise than the meshes: its cell, a scaling of 16 beside their 1. It tells nothing of what the meshes
 /// themselves have wrong (see keys::Exactness). Where they have a key at another value than the exact one,
 /// the limit is off by what that changes, and so is every bound. That is known where two settings differ in
-/// this key alone, one having the meshes' value and one the exact one: it counts as three times the largest
-/// such difference, as for any limit that two values point to (see math::Extrapolation). Otherwise the key is
-/// unvaried and no bound is known. Needs at least three reference meshes, each setting with as many
-/// temperatures as there are gaps.
+/// this key alone, one having the meshes' value and one the exact one, or a finer one where none is exact: it
+/// counts as three times the largest such difference, as for any limit that two values point to (see
+/// math::Extrapolation). Otherwise the key is unvaried and no bound is known. Needs at least three reference
+/// meshes, each setting with as many temperatures as there are gaps.
 void find_bounds(AccuracyRecord& record);
 
 /// The reference of a record, which its meshes tend to.

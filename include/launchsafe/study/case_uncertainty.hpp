@@ -91,18 +91,16 @@ std::string model_form_uncertainty_text(const StudyFile& study);
 /// Likewise for what is not known of the launch.
 std::string input_uncertainty_text(const Study& study);
 
-/// The record that a study names, if it names one. Faults: none there, no record, or a stated uncertainty
-/// beside it.
-scene::Expected<std::optional<AccuracyRecord>> read_record(StudyFile& study,
-                                                           const std::filesystem::path& folder);
+/// Those that a study names. Faults: none there, no record, or a stated uncertainty beside it.
+scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder);
 
 /// Puts the cheapest recorded setting within the tolerance (K) into the study's scene. Needs the overrides.
-Fault choose_setting(StudyFile& study, const std::optional<AccuracyRecord>& record, double tolerance);
+Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance);
 
 /// Numerical uncertainty of each case of the study, known once the case is made. Without a statement, or
 /// elsewhere than it holds, nothing is known, and a large one is assumed, so that no verdict is SAFE on the
 /// strength of silence.
-void settle_uncertainty(StudyFile& study, const std::optional<AccuracyRecord>& record);
+void settle_uncertainty(StudyFile& study, const AccuracyRecords& records);
 
 /// Of all cases of a study, each of which is made for it.
 struct NumericalUncertainty {
@@ -118,5 +116,15 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
 /// K, of T max of a gap (m) by mesh, step and scaling, where T max is `rise` (K) above the initial
 /// temperature.
 double numerical_share(const StudyCase& input, double gap, double rise);
+
+/// The same of a launch in which a gap closes.
+struct ClosingShare {
+  double kelvin = assumed_numerical_uncertainty;
+  bool recorded = false;  ///< rather than assumed
+};
+/// Of a case whose gap (m) closes as `closing` has it, by a record that was made of a gap closing on those
+/// very terms (base, roughness, release), at no lower a pressure, temperature, localisation and defect, and
+/// up to no thinner a gap: nothing is carried beyond. A record of the reservoir says nothing of it.
+ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, double gap, double rise);
 
 }  // namespace launchsafe::study

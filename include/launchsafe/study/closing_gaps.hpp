@@ -2,7 +2,7 @@
 // and in the worst corner of what is not known. Every gap on every terms has a launch of its own.
 #pragma once
 
-#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
 #include <functional>
@@ -18,6 +18,8 @@ struct ClosingTerms {
   double roughness = 0;                         ///< m
   double release = 0;                           ///< s
   std::optional<double> release_duration = {};  ///< s; none: that of scene::Surface
+  bool melts = false;
+  materials::KineticsParameters kinetics = {};
 };
 
 /// Sets of terms that are looked at together: the hottest of them counts.
@@ -27,13 +29,22 @@ struct ClosingBound {
   std::string unknown_for = {};  ///< why nothing can be said on them; empty where it can
 };
 
-/// "conducting" and "insulated": a case's own terms with either base. "corner", where it is asked for: an
-/// insulated base, the smoothest faces of the plausible ones or the case's own, and a charge that is free
-/// from the start, or as the case has it, or held until the load has a quarter, a half, three quarters, and
-/// all of its peak, and let go over the time that sound takes through it or over the case's own where that is
-/// shorter. Of a charge that anything holds by a bond the corner is not known: when bonds let go is not
-/// looked at.
+/// "conducting" and "insulated": a case's own terms with either base. Where the corner is asked for, also
+/// - "melting": insulated, and the charge melts; nothing rests on it.
+/// - "smooth": insulated, with the smoothest faces of the plausible ones or the case's own, let go over the
+///   time that sound takes through the charge or over the case's own where that is shorter.
+/// - "corner": the same with a charge that is free from the start, or as the case has it, or held until the
+///   load has a quarter, a half, three quarters, and all of its peak. Of a charge that anything holds by a
+///   bond the corner is not known: when bonds let go is not looked at.
+/// Each but melting holds all of the one before, so that the difference of two that follow each other is what
+/// the worst end of one interval does: of the heat to the base, of the faces, of the release. On all of them
+/// every kinetics of kinetics_of counts, the first to ignite.
 std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner = true);
+
+/// The kinetics by which a charge may ignite between its initial temperature and T1: its own, and those of
+/// which all three numbers belong together, with its T1 and T2. Left out is what another one outdoes over all
+/// of that range: as ln of the heating is linear in 1/T, it does so if at both of its ends.
+std::vector<materials::KineticsParameters> kinetics_of(const scene::Scene& scene);
 
 /// Performs runs and hands over what became of each, from any thread.
 using RunBatch = std::function<void(std::vector<PlannedRun> runs,

@@ -7,6 +7,8 @@
 
 namespace launchsafe::study {
 
+struct FinishedRun;  // run_cases.hpp
+
 /// A skin that air and friction heat, and nothing else.
 surface::SkinModel without_reaction(surface::SkinModel model);
 
@@ -40,6 +42,9 @@ void attach_references(const Study& study, const StudyCase& input, std::vector<G
 /// A case on its mechanics: the critical gap, by the hottest station and indeterminate for a failed run; then
 /// the gaps of the study on the trace, skin histories and the rows without verdict.
 void evaluate(const Study& study, CaseOutcome& outcome);
+/// Puts what the launches of gaps that close came to, one a gap of the study, in the place of what was read
+/// off a trace; there is no critical gap.
+void take_launches(const StudyCase& input, const std::vector<FinishedRun>& runs, CaseAnswer& answer);
 /// That of a case without a result: rows without numbers, and the reason.
 CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
                            std::string failure);

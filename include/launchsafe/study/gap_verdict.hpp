@@ -79,10 +79,13 @@ struct ClosingPoint {
   double gap = 0;                             ///< m
   double maximum_temperature = not_a_number;  ///< K, at any depth and station; NaN where a run has none
   bool ignited = false;
-  std::string place;                ///< station of the maximum
-  double release = 0;               ///< s, of the terms on which that is
-  std::string unknown_for = {};     ///< why there is no temperature; empty where there is one
-  std::vector<std::string> hashes;  ///< of the runs
+  std::string place;             ///< station of the maximum
+  double release = 0;            ///< s, of the terms on which that is
+  std::string unknown_for = {};  ///< why there is no temperature; empty where there is one
+  /// K, up to which T max may be by mesh, steps and columns of its launches, of which the hottest need not be
+  /// the worst known.
+  double at_most = not_a_number;
+  bool recorded = false;  ///< that rests on accuracy records alone
 };
 
 /// What a bound says: the points that were computed, by gap, and the smallest gap of them that ignites.
@@ -93,6 +96,7 @@ struct ClosingAnswer {
   /// (infinite: none up to the end of the search; NaN: a temperature beyond `lower` is not known).
   double lower = not_a_number, upper = not_a_number;
   const ClosingPoint* at(double gap) const;
+  bool is_nominal() const { return name == "conducting" || name == "insulated"; }
   bool is_worst_corner() const { return name == "corner"; }
 };
 

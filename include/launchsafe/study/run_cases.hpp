@@ -40,10 +40,16 @@ double cost_of(const CaseRun& run);
 /// Bytes, with the skin of a coupled run.
 double memory_of(const CaseRun& run);
 
+/// Whether a case has launches in which its gaps close, in place of one on which all are judged.
+inline bool compares_closing(const Study& study, const StudyCase& input) {
+  return input.closing && study.kind.closing_gaps == ClosingGaps::compared;
+}
+
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
+  /// or, where it compares gaps that close, theirs alone (compares_closing);
   /// at last, where `Study::in_detail` says so, the longer launch if there is one, which goes on from the
   /// first.
   std::vector<PlannedRun> runs;

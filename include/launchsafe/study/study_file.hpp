@@ -5,6 +5,7 @@
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/model_form.hpp"
 
 #include <cstddef>
@@ -39,6 +40,8 @@ struct StudyCase {
   /// The terms of a gap that closes, where it does: the scene has the reservoir beside which they are looked
   /// at.
   std::optional<scene::Surface> closing;
+  /// Those that the study names, by which its closing gaps are judged; none: it names none.
+  std::shared_ptr<const AccuracyRecords> accuracy = {};
   /// K, the bound that an accuracy record has for this case; NaN where it has none or none was taken.
   double recorded_uncertainty() const {
     const bool is_recorded = rise_of_uncertainty == rise_of_uncertainty && !numerical_uncertainty_assumed;
@@ -110,6 +113,14 @@ class Cases {
   Complete complete_;
 };
 
+/// What a kind of study does with a scene whose gap closes.
+enum class ClosingGaps {
+  refused,
+  beside,    ///< judges them beside the reservoir, by launches that follow its answer
+  launched,  ///< has a launch for each gap of a case, beside that of a charge that rests
+  compared   ///< the same in place of it, on the scene's own terms: what a gap comes to is that launch's
+};
+
 /// What the engine has to know of a kind of study.
 struct KindTraits {
   std::string name;         ///< as in `kind = "critical-gap"`
@@ -119,11 +130,11 @@ struct KindTraits {
   bool gives_verdicts = true;
   /// Bounds of the critical gaps are found, which SAFE needs. A study without them compares numbers.
   bool bounds_critical_gaps = true;
-  bool keeps_answers = false;        ///< what is concluded of a case is stored beside its runs, unless in
-                                     ///< detail (Study::in_detail)
-  bool own_scenes = false;           ///< cases may bring scenes and uncertainties of their own
-  bool judges_closing_gaps = false;  ///< of a scene whose gap closes, in detail, beside the reservoir
-  /// Gaps of cases with two-way coupling are run through ignition too, and those that close are launched.
+  bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs, unless in
+                               ///< detail (Study::in_detail)
+  bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
+  ClosingGaps closing_gaps = ClosingGaps::refused;
+  /// Gaps of cases with two-way coupling are run through ignition too.
   bool goes_through_ignition = false;
 };
 
@@ -222,7 +233,7 @@ struct Study {
   double model_form_uncertainty = not_a_number;  ///< K, of T max, instead of a record; NaN: not stated
 
   // kinds that may use the record of an accuracy study
-  std::string accuracy;  ///< path of the record from the study file's folder; empty: none
+  std::string accuracy;  ///< paths of records from the study file's folder, "a, b"; empty: none
   double setting_tolerance =
       not_a_number;  ///< K, of T max; picks a setting from the record; NaN: the scene's
   /// K, of T max by the calibrated constants on the rows that they were fitted to; NaN: not stated

@@ -112,6 +112,9 @@ struct ClosingEvidence {
   /// K, in the worst corner; minus infinity where it ignites there, or a thinner gap does; NaN where the
   /// corner was not computed.
   double corner_margin = std::numeric_limits<double>::quiet_NaN();
+  /// K, by which its T max may be off for mesh, steps and columns: by an accuracy record that was made on its
+  /// terms, or assumed.
+  double numerical = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// All that a verdict rests on.
@@ -122,12 +125,16 @@ struct Evidence {
   double maximum_temperature = 0;                    ///< K, over the stations
   double margin = 0;                                 ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;                            ///< K
+  double numerical =
+      0;  ///< K, of that what mesh, step and scaling have, which are not those of a gap that closes
   /// K, margin with the constants of the surface as calibrated; infinite where they are.
   double calibrated_margin = std::numeric_limits<double>::infinity();
   double noise = 0;  ///< K, what noise and smoothing of a measured curve count
   /// K, T max when a launch that is cut short goes on until it is over; NaN for others.
   double when_over = std::numeric_limits<double>::quiet_NaN();
-  ClosingEvidence closing = {};          ///< of a case that asks for it
+  ClosingEvidence closing = {};  ///< of a case that asks for it
+  /// K, of T max in the worst corner: the numerics are its own.
+  double closing_uncertainty() const { return uncertainty - numerical + closing.numerical; }
   std::vector<std::string> models = {};  ///< titles of other models that could change the verdict
 };
 
@@ -178,7 +185,8 @@ struct Judgement {
 ///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
 ///   ignition.
 ///   Where the gap is to close, the worst corner of how it may do so does not ignite either, by a margin
-///   above the uncertainty; nor, for UNSAFE, need the reservoir ignite where one of the closing bounds does.
+///   above the uncertainty, in which the numerics are those of that corner; nor, for UNSAFE, need the
+///   reservoir ignite where one of the closing bounds does.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in

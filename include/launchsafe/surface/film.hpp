@@ -26,7 +26,7 @@ struct FilmEnergy {
   double gas = 0;       ///< enthalpy gained by the air
   double work = 0;      ///< integral of V dp over the air
   double friction = 0;  ///< friction heat in the charge, as deep as the column reaches
-  double reaction = 0;  ///< heat of reaction in the charge
+  double reaction = 0;  ///< heat of reaction in the charge, less what melted it
   /// Difference of the two sides over the sum of magnitudes; 0 where nothing happened.
   double residual() const;
 };

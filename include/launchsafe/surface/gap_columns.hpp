@@ -29,13 +29,13 @@ struct EnclosedAir {
 /// then on compressed without conduction.
 class GapColumns {
  public:
-  /// Short intervals resolve what the air does; within one the error of a step says little (1e-6 changes a
-  /// launch by 0.005 K).
-  static FilmNumerics usual_numerics() { return {.tolerance = 1e-3}; }
+  /// As a surface asks. Short intervals resolve what the air does; within one the error of a step says
+  /// little (1e-6 changes a launch by 0.005 K).
+  static FilmNumerics numerics_of(const scene::Surface& surface);
 
   /// `gap` (m, > 0) at rest, where the air has the model's initial state, and `duration` (s) of the launch.
   GapColumns(const SkinModel& model, std::size_t columns, double gap, double duration,
-             const FilmNumerics& numerics = usual_numerics());
+             const FilmNumerics& numerics = numerics_of({}));
   GapColumns(GapColumns&&) noexcept;
   ~GapColumns();
 

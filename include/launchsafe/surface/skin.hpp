@@ -50,6 +50,8 @@ struct SkinModel {
   double base_specific_heat = 460.0;   ///< J/(kg K)
   double base_conductivity = 38.0;     ///< W/(m K)
   double initial_temperature = 300.0;  ///< K
+  double melting_temperature = 353.0;  ///< K, of the charge; this and its heat where scene::Surface::melts
+  double heat_of_melting = 0.0;        ///< J/kg
   double relative_tolerance = 1e-8;    ///< of the time integration
 };
 SkinModel skin_model(const scene::Scene& scene);
