@@ -114,10 +114,8 @@ Table compared_table(const CalibrationResult& result, const CalibrationRow& row)
                          compared_quantities(), row.compared);
   Row facts{{"places", Row::array()}, {"without_rows", result.study.study.references.empty()}};
   for (const Placement& each : row.placements)
-    facts["places"].push_back({{"quantity", each.quantity},
-                               {"gap", report::centimetres(each.gap)},
-                               {"computed", each.computed},
-                               {"published", each.published}});
+    facts["places"].push_back(fmt::format("{} at {} {} ({})", each.quantity, report::centimetres(each.gap),
+                                          each.computed, each.published));
   table.notes = said("calibration.note.compared", facts);
   return table;
 }

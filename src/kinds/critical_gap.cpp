@@ -298,7 +298,7 @@ Kind critical_gap_kind() {
       .read = read_critical_gap,
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
-      // Reports of older programs had files of cases too, and critical_gaps.json.
+      // Reports of older programs had files of cases too, and these in other formats.
       .files = {{"closing.svg"},
                 {"verdicts.md"},
                 {"temperature.svg"},

@@ -109,8 +109,8 @@ Row crack_facts(const CriticalGapResult& result, const Effect& below) {
           {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
 }
 
-/// Rows of a table on the page, and columns of a matrix; the files have all.
-constexpr std::size_t most_rows = 200, most_gaps = 30;
+/// Of a table on the page; the files have all.
+constexpr std::size_t most_rows = 200;
 
 nlohmann::ordered_json counts_json(const SweepCounts& counts) {
   nlohmann::ordered_json gaps, verdicts;
@@ -187,13 +187,6 @@ nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Tabl
   return members;
 }
 
-/// The same table as a text of its own.
-report::TextFile table_file(const char* name, Table table, const study::StudyFile& study) {
-  if (!study.study.in_detail)
-    for (std::string& note : report::mesh_notes(study)) table.notes.push_back(std::move(note));
-  return {name, to_markdown(table)};
-}
-
 }  // namespace
 
 std::vector<report::Column> axis_effect_columns() { return keys::described(effect_quantities()); }
@@ -232,10 +225,7 @@ report::Report report_of(const CriticalGapResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
-  Table verdicts = verdict_table(result);
-  report.files.push_back(in_detail ? table_file("verdicts.md", verdicts, result.study)
-                                   : table_file("critical_gaps.md", gaps, result.study));
-  report.items.push_back(ReportTable{std::move(verdicts), "verdicts.csv", "verdicts",
+  report.items.push_back(ReportTable{verdict_table(result), "verdicts.csv", "verdicts",
                                      in_detail ? Shown::page_and_terminal : Shown::file});
   if (in_detail)
     report.items.push_back(Picture{"temperature.svg", temperature_plot(result), "T max against gap"});
@@ -257,14 +247,7 @@ report::Report report_of(const CriticalGapResult& result) {
   if (Table bounds = closing_bound_table(result); !bounds.rows.empty())
     report.items.push_back(ReportTable{std::move(bounds), "closing_bounds.csv", "closing_bounds",
                                        in_detail ? Shown::page_and_terminal : Shown::file});
-  if (in_detail)
-    add_details(result, report);
-  else if (const std::size_t columns = result.study.study.gaps.size(); columns <= most_gaps)
-    report.items.push_back(
-        ReportTable{.table = verdict_matrix(result), .most_rows = most_rows, .rest = "verdicts.csv"});
-  else
-    report.items.push_back(Statement{fmt::format(
-        "The verdicts at {} gaps are too many for a table on this page: see `verdicts.csv`.\n", columns)});
+  if (in_detail) add_details(result, report);
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{report::uncertainty_remark(result.study) +
                                    (in_detail ? "\n" : " " + said_below("critical_gap.traces"))});

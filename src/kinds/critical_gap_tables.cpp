@@ -63,10 +63,10 @@ Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
     if (gap == gaps.end() || (!quantities.empty() && !(*most > *least))) break;
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
     const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
+    const Column column{name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
+                        "Highest temperature at that gap; of one that ignites the burning skin's."};
     quantities.emplace_back(
-        Column{name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
-               "Highest temperature at that gap; of one that ignites the burning skin's."},
-        [place](const AnsweredCase& row) {
+        quantities.empty() ? column : for_programs(column), [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
           return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
         });
@@ -103,6 +103,20 @@ Quantities<AnsweredCase> run_quantities(const Study& study) {
          [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 
+/// "SAFE 0.05, INDET. 0.08, UNSAFE 0.12": the largest gap (cm) of every row of equal verdicts.
+std::string verdict_ranges(const std::vector<GapVerdict>& verdicts) {
+  std::map<double, Verdict> by_gap;
+  for (const GapVerdict& each : verdicts) by_gap[each.gap] = each.judgement.verdict;
+  std::string text;
+  for (auto each = by_gap.begin(); each != by_gap.end(); ++each) {
+    if (const auto next = std::next(each); next != by_gap.end() && next->second == each->second) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
+                        each->second == Verdict::indeterminate ? "INDET." : study::to_string(each->second),
+                        report::digits_of(each->first, quantity::gap().form));
+  }
+  return text;
+}
+
 Column largest_safe_gap() {
   return for_programs(Column{"largest_safe_gap", "largest SAFE gap", keys::significant(6, keys::centimetre),
                              "Largest computed gap that, with all smaller ones, is SAFE."});
@@ -122,7 +136,11 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
                            &CaseAnswer::critical),
        {{largest_safe_gap(), &JudgedCase::answered, &AnsweredCase::answer, &CaseAnswer::verdicts,
          study::largest_safe_gap}},
-       in_detail ? confirmed : Quantities<JudgedCase>{},
+       in_detail ? confirmed
+                 : Quantities<JudgedCase>{{for_people(Column{"verdicts", "verdicts up to [cm]", text(),
+                                                             "Up to which gap a verdict holds."}),
+                                           &JudgedCase::answered, &AnsweredCase::answer,
+                                           &CaseAnswer::verdicts, verdict_ranges}},
        closes && !in_detail
            ? of_part<JudgedCase>(closing_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer)
            : Quantities<JudgedCase>{},
@@ -138,26 +156,6 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
            const CaseAnswer& answer = *row.answered.answer;
            return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
-}
-
-/// SAFE, UNSAFE or INDET. by gap.
-Quantities<AnsweredCase> matrix_quantities(const Study& study) {
-  Quantities<AnsweredCase> quantities = answered_axes(study);
-  if (study.gaps_by_cooling)
-    quantities.emplace_back(quantity::gap(), [](const AnsweredCase& row) {
-      return row.answer->verdicts.empty() ? not_a_number : row.answer->verdicts.front().gap;
-    });
-  for (std::size_t i = 0; i < study.gaps.size(); ++i) {
-    const std::string gap =
-        study.gaps_by_cooling ? "by_cooling" : report::digits_of(study.gaps[i], quantity::gap().form) + "_cm";
-    quantities.emplace_back(Column{"gap_" + gap, gap_label(study, i), text(), "The verdict at that gap."},
-                            [i](const AnsweredCase& row) -> std::string {
-                              if (i >= row.answer->verdicts.size()) return {};
-                              const Verdict verdict = row.answer->verdicts[i].judgement.verdict;
-                              return verdict == Verdict::indeterminate ? "INDET." : study::to_string(verdict);
-                            });
-  }
-  return quantities;
 }
 
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
@@ -252,14 +250,6 @@ Table critical_gap_table(const CriticalGapResult& result) {
     table.notes =
         said("critical_gap.note.cases",
              {{"air", air_energy_note(result, report::shown_axes(result.study.study))}, {"closes", closes}});
-  return table;
-}
-
-Table verdict_matrix(const CriticalGapResult& result) {
-  Table table = table_of("Verdicts by gap", matrix_quantities(result.study.study),
-                         answered(result.study, result.answers));
-  if (counts_of(result.answers).verdicts.at(Verdict::indeterminate) > 0)
-    table.notes.emplace_back("INDET.: indeterminate; verdicts.csv has the reasons.");
   return table;
 }
 

@@ -6,6 +6,7 @@
 #include "launchsafe/scene/load_roughness.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -196,33 +197,24 @@ std::string setup_text(const study::StudyFile& study) {
     text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
   for (const study::Axis& axis : study.study.axes)
     text += fmt::format("- `{}` is varied: {}\n", axis.key.name, values_or_distribution(axis));
-  constexpr std::string_view told[] = {"symmetry",
-                                       "frame",
-                                       "barrel",
-                                       "load.peak",
-                                       "load.duration",
-                                       "load.muzzle_exit",
-                                       "load.muzzle_travel",
-                                       "numerics.cell_size",
-                                       "numerics.inertial_scaling",
-                                       "numerics.damping_time",
-                                       "charge.crack_radius",
-                                       "charge.flaw_size",
-                                       "gap.pressure",
-                                       "gap.air",
-                                       "gap.exchange",
-                                       "gap.exchange_time",
-                                       "friction.closure",
-                                       "friction.localisation",
-                                       "kinetics.set",
-                                       "kinetics.ignition_temperature"};
+  // What tells one launch from another; the manifest has all inputs.
+  constexpr std::string_view told[] = {"load.peak", "charge.crack_radius", "charge.flaw_size",
+                                       "numerics.cell_size"};
+  std::vector<std::string> launch;
   for (const scene::ListedKey& key : scene::list_keys(study.scene))
     if (std::ranges::find(told, key.name) != std::end(told) && !varies(study.study, key.name))
-      text += fmt::format("- `{}` = {}\n", key.name, key.value);
+      launch.push_back(fmt::format("`{}` = {}", key.name, key.value));
+  if (!launch.empty()) text += fmt::format("- {}\n", fmt::join(launch, ", "));
   if (const std::string measured = scene::measured_load_text(study.scene.scene.load); !measured.empty())
     text += fmt::format("- The measured pressure curve: {}\n", measured);
-  for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene))
-    text += fmt::format("- `interface.{}`: {}; {}\n", each.body, each.condition, each.assumes);
+  std::vector<std::pair<std::string, std::string>> held;  // a condition with the bodies that it holds
+  for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene)) {
+    const std::string condition = each.condition + "; " + each.assumes;
+    auto found = std::ranges::find(held, condition, &std::pair<std::string, std::string>::first);
+    if (found == held.end()) found = held.insert(found, {condition, {}});
+    found->second += fmt::format("{}`interface.{}`", found->second.empty() ? "" : ", ", each.body);
+  }
+  for (const auto& [condition, bodies] : held) text += fmt::format("- {}: {}\n", bodies, condition);
   return text;
 }
 

@@ -58,7 +58,7 @@ TEST(Sweep, IsJudgedAtTheGapThatCoolingOpensInEachCase) {
       EXPECT_NEAR(move_towards_ignition(answer.critical.lower, *share),
                   std::min(further, answer.critical.lower), 2e-6);
   }
-  const std::string page = to_markdown(verdict_matrix(result));
+  const std::string page = to_markdown(critical_gap_table(result));
   EXPECT_NE(page.find("0.0192"), std::string::npos) << page;
   EXPECT_NE(answer(result).find("each judged at the gap that cooling opens"), std::string::npos);
 }

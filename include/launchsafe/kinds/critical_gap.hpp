@@ -34,8 +34,6 @@ std::string answer(const CriticalGapResult& result);
 
 /// A row for every gap of every case.
 report::Table verdict_table(const CriticalGapResult& result);
-/// A row for every case and a column for every gap: SAFE, UNSAFE or INDET.
-report::Table verdict_matrix(const CriticalGapResult& result);
 /// A row for every case: critical gap and bounds; in detail its confirmation, otherwise its place and run. A
 /// bound is text, never a number among values.
 report::Table critical_gap_table(const CriticalGapResult& result);
