@@ -160,7 +160,7 @@ double confirmation_time(const StudyFile& study, const CaseRuns& runs, double up
 /// What a study takes beside its runs, measured: the program on one core and on four, shards of 2 000 and
 /// 10 000 cases of two gaps and of twelve, and their merges.
 void add_memory_of_plan(const StudyFile& study, Forecast& forecast) {
-  constexpr double program = 25e6, of_job = 4e6, of_planned_case = 2e3;
+  constexpr double program = 19e6, of_job = 4e6, of_planned_case = 2e3;
   const auto all = static_cast<double>(study.cases.size()), own = static_cast<double>(forecast.cases);
   const auto gaps = static_cast<double>(study.study.gaps.size());
   forecast.plan_memory = program + of_job * forecast.jobs + of_planned_case * all;
