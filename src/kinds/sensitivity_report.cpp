@@ -211,7 +211,7 @@ report::Report report_of(const SensitivityResult& result) {
   report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
   if (report::Plot plot = histogram_plot(result); !plot.panels.empty())
     report.items.push_back(report::Picture{"histogram.svg", std::move(plot),
-                                           "histograms of critical gap and T max over the draws"});
+                                           "the draws, and how their interval settles with their number"});
   report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
   report.items.push_back(Statement{said_below("sensitivity.rests")});

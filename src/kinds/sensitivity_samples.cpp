@@ -46,9 +46,11 @@ struct OutputSample {
   }
 };
 
-OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output) {
+/// `most`: of so many draws, the first of all.
+OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output,
+                       std::size_t most = std::numeric_limits<std::size_t>::max()) {
   OutputSample sample;
-  for (std::size_t i = 0; i < output.values.size(); ++i) {
+  for (std::size_t i = 0; i < output.values.size() && sample.values.size() < most; ++i) {
     if (!samples_inputs(result.study.study, i)) continue;
     const double value = ranked(output, result.answers[i], output.values[i]);
     if (std::isnan(value))
@@ -159,6 +161,38 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   if (output.output == SensitivityOutput::critical_gap)
     panel.vertical_lines.push_back({report::shown_gap(result.study.study.gaps.front()),
                                     "the gap asked for: " + centimetres(result.study.study.gaps.front())});
+  panel.width = 620;
+  panel.height = 460;
+  return panel;
+}
+
+/// Median and interval of the critical gap over more and more draws: whether more of them would change it.
+Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& output) {
+  constexpr std::size_t fewest = 4, steps = 40;
+  const ShownOutput& shown = shown_output(output.output);
+  const std::size_t all = sample_of(result, output).values.size();
+  Plot panel;
+  if (all < 2 * fewest) return panel;
+  const auto at = [&](std::size_t draws, double share) {
+    return shown.value(sample_of(result, output, draws).quantile(share));
+  };
+  const double before = at(all / 2, 0.5), now = at(all, 0.5);
+  if (std::isfinite(before) && std::isfinite(now))
+    panel.title =
+        fmt::format("its half moved by {} {} over the last {} draws",
+                    report::significant(std::abs(now - before), 2), shown.column.form.unit, all - all / 2);
+  panel.x.label = "draws";
+  panel.y.label = shown.column.label();
+  panel.named_in_place = true;
+  for (const auto& [label, share] :
+       {std::pair{"2.5 %", quantile_shares.front()}, {"half", 0.5}, {"97.5 %", quantile_shares.back()}}) {
+    report::Series& line = panel.series.emplace_back(
+        report::Series{.label = label, .style = report::Style::line, .colour = share == 0.5 ? 0 : 7});
+    for (std::size_t step = 0; step <= steps; ++step) {
+      const std::size_t draws = fewest + (all - fewest) * step / steps;
+      line.add(static_cast<double>(draws), at(draws, share));
+    }
+  }
   panel.width = 620;
   panel.height = 460;
   return panel;
@@ -287,10 +321,19 @@ Table histogram_table(const SensitivityResult& result) {
 
 Plot histogram_plot(const SensitivityResult& result) {
   Plot plot;
-  plot.title = "What the inputs make of critical gap and T max";
-  for (const OutputSensitivity* output : told_outputs(result))
-    if (Plot panel = panel_of(result, *output); !panel.series.empty())
-      plot.panels.push_back(std::move(panel));
+  const nlohmann::ordered_json ignition = ignition_json(result);
+  plot.title = fmt::format("At {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
+                           ignition["igniting"].get<std::size_t>(), ignition["completed"].get<std::size_t>());
+  const auto add = [&plot](Plot panel) {
+    if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
+  };
+  // That of T max is in histogram.csv; it is drawn where the critical gap has none.
+  for (const OutputSensitivity* output : told_outputs(result)) {
+    if (!plot.panels.empty()) break;
+    add(panel_of(result, *output));
+    if (output->output == SensitivityOutput::critical_gap && !plot.panels.empty())
+      add(growth_panel(result, *output));
+  }
   return plot;
 }
 

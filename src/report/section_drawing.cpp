@@ -66,7 +66,7 @@ double text_width(std::string_view content, double size) {
 // --- what is drawn ---
 
 // Pixels.
-constexpr double page_width = 1400, margin = 88;
+constexpr double page_width = 1000, margin = 88;
 constexpr double panel_width = page_width - 2 * margin, most_height = 460;
 constexpr double below_panel = 78, row_height = 24;
 
@@ -174,17 +174,19 @@ std::string body_elements(const Section& section, const Panel& panel, bool fille
   return text;
 }
 
+constexpr std::string_view gap_colour = "#d55e00", load_colour = "#0072b2";
 constexpr std::string_view gap_look = "class=\"gap\" stroke=\"#d55e00\" stroke-width=\"4\"";
 constexpr std::string_view load_look = "class=\"load\" stroke=\"#0072b2\" stroke-width=\"2\"";
 
-/// The gap, which has no thickness in the grid: along the charge's bottom.
+/// The gap, which has no thickness in the grid: along the charge's bottom, and by name.
 std::string gap_elements(const Section& section, const Panel& panel) {
   std::string text;
   for (const DrawnBody& each : section.bodies)
     if (const scene::Body& body = *each.body;
         scene::is_charge(section.scene, body) && !section.scene.surface.gaps.empty())
       text += svg_line(panel.x(body.x_end), panel.y(body.r_begin), panel.x(body.x_end), panel.y(body.r_end),
-                       gap_look);
+                       gap_look) +
+              svg_text(panel.x(body.x_end), panel.top - 9, 14, "middle", gap_colour, "gap");
   return text;
 }
 
@@ -202,7 +204,8 @@ std::string load_elements(const Section& section, const Panel& panel) {
   if (!panel.shows(bodies.x_end)) return text;
   for (int i = 0; i < arrows; ++i)
     text += arrow(panel.x(bodies.x_end) + 6, panel.y((i + 0.5) / arrows * bodies.r_end));
-  return text;
+  return text +
+         svg_text(panel.x(bodies.x_end) + 36, panel.top - 26, 14, "end", load_colour, "chamber pressure");
 }
 
 /// On white, so that the edges of bodies do not fill its gaps.
@@ -328,8 +331,6 @@ std::vector<LegendEntry> legend_entries(const Section& section) {
                            ? each.body->name
                            : fmt::format("{} ({})", each.body->name, each.body->material),
                        svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" {}", each.colour, edge))});
-  if (!section.scene.surface.gaps.empty()) entries.push_back({"gap", svg_line(0, 8, 16, 8, gap_look)});
-  entries.push_back({"chamber pressure", arrow(0, 8)});
   entries.push_back({"line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink))});
   if (!section.scene.output.observation_points.empty())
     entries.push_back({"observation point", svg_circle(8, 8, 3.2, ink)});

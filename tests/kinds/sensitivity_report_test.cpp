@@ -111,6 +111,24 @@ TEST(SensitivityReport, QuantilesAreThoseOfTheDrawsAlone) {
   EXPECT_EQ(draws, 8);
 }
 
+// Of the first four draws (400, 399, 395, 394 um) half are at or below 395 um.
+TEST(SensitivityReport, PictureShowsHowTheCriticalGapSettlesWithTheDraws) {
+  const report::Report report = report_of(made_sensitivity());
+  const report::Picture* picture = nullptr;
+  for (const auto& item : report.items)
+    if (const auto* each = std::get_if<report::Picture>(&item);
+        each != nullptr && each->file == "histogram.svg")
+      picture = each;
+  ASSERT_NE(picture, nullptr);
+  ASSERT_EQ(picture->plot.panels.size(), 2u);
+  const report::Series* half = report::series_named(picture->plot.panels[1], "half");
+  ASSERT_NE(half, nullptr);
+  EXPECT_EQ(half->x.front(), 4);
+  EXPECT_NEAR(half->y.front(), 0.0395, 1e-12);
+  EXPECT_EQ(half->x.back(), 8);
+  EXPECT_NEAR(half->y.back(), 0.0390, 1e-12);
+}
+
 TEST(SensitivityReport, ACriticalGapThatIsNoNumberHasARankAndNoValue) {
   SensitivityResult result = made_sensitivity();
   for (const auto& [evaluation, kind] :

@@ -39,6 +39,13 @@ TEST(FolderIndex, ShippedOneLinksEveryPageAndPictureThatShipsAndNothingElse) {
   EXPECT_EQ(links_of(shipped_index()), there);
 }
 
+// reports/README.md leaves it out.
+TEST(FolderIndex, NoReportShipsTwice) {
+  for (const auto& each : fs::directory_iterator(shipped_reports))
+    EXPECT_FALSE(fs::exists(each.path() / "report.html") && fs::exists(each.path() / "report.md"))
+        << each.path();
+}
+
 TEST(FolderIndex, ShippedOneIsWhatTheProgramMakes) {
   EXPECT_TRUE(shipped_index() == index_page(shipped_reports)) << "launchsafe report --index reports";
 }
