@@ -194,6 +194,14 @@ auto hotter_on(const char* bound, const char* than) {
   };
 }
 
+/// K, by which its computation may have that wrong; NaN where it ignites.
+auto uncertainty_on(const char* bound) {
+  return [bound](const ClosingRow& row) {
+    const ClosingPoint* point = row.point(bound);
+    return point != nullptr && !point->ignited ? point->at_most - point->maximum_temperature : not_a_number;
+  };
+}
+
 std::string bound_name(const ClosingAnswer& answer) {
   return said("critical_gap.closing_bound", {{answer.name, true}}).front();
 }
@@ -238,11 +246,13 @@ report::Quantities<ClosingRow> closing_quantities() {
        }},
       {kelvins("corner_numerical", "of its computation",
                "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
-       [](const ClosingRow& row) {
-         const ClosingPoint* corner = row.point("corner");
-         return corner != nullptr && !corner->ignited ? corner->at_most - corner->maximum_temperature
-                                                      : not_a_number;
-       }},
+       uncertainty_on("corner")},
+      {for_programs(kelvins("conducting_numerical", "of computation, base conducts",
+                            "The same where the base takes heat.")),
+       uncertainty_on("conducting")},
+      {for_programs(kelvins("insulated_numerical", "of computation, base insulated",
+                            "The same where the base takes no heat.")),
+       uncertainty_on("insulated")},
       {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
 }
 
@@ -305,7 +315,7 @@ report::Row closing_facts(const std::vector<ClosingRow>& rows) {
     report::Row& names = facts[list];
     if (std::find(names.begin(), names.end(), report::Row(name)) == names.end()) names.push_back(name);
   };
-  bool recorded = true;
+  std::size_t known = 0, recorded = 0;
   for (const ClosingRow& row : rows) {
     const scene::Scene& scene = row.outcome->input.scene.scene;
     const auto counting = study::kinetics_of(scene);
@@ -314,9 +324,11 @@ report::Row closing_facts(const std::vector<ClosingRow>& rows) {
       if (std::ranges::find(counting, each.name, &materials::KineticsParameters::name) == counting.end())
         add("others", each.name);
     const ClosingPoint& corner = *row.point("corner");
-    if (std::isfinite(corner.at_most) && !corner.ignited) recorded = recorded && corner.recorded;
+    if (!std::isfinite(corner.at_most) || corner.ignited) continue;
+    ++known;
+    recorded += corner.recorded ? 1 : 0;
   }
-  facts["recorded"] = recorded;
+  facts["recorded"] = recorded > 0 && recorded == known;
   return facts;
 }
 

@@ -327,12 +327,15 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
   return launches;
 }
 
-/// A thinner gap that ignites says that this one does too: T max need not rise with the gap.
+/// A thinner gap that ignites says that this one does too: T max need not rise with the gap. Nor need the
+/// corner be the hottest: what may come nearest to ignition counts.
 ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
                                  double ignition_temperature) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   ClosingEvidence evidence;
   evidence.known = !answers.empty();
+  const ClosingPoint* worst = nullptr;
+  bool corner_known = false, corner_ignites = false;
   const auto hides_a_thinner = [gap](const ClosingPoint& point) {
     return point.gap < gap && !is_known(point);
   };
@@ -342,12 +345,19 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
     const bool is_computed = point != nullptr && is_known(*point);
     if (!is_computed || std::ranges::any_of(answer.points, hides_a_thinner)) evidence.known = false;
     const bool ignites = (is_computed && point->ignited) || answer.upper <= gap;
-    if (!answer.is_worst_corner())
+    if (is_computed && (worst == nullptr || !(point->at_most <= worst->at_most))) worst = point;
+    if (answer.is_worst_corner()) {
+      corner_known = ignites || is_computed;
+      corner_ignites = ignites;
+    } else {
       evidence.ignited = evidence.ignited || ignites;
-    else if (ignites || is_computed) {
-      evidence.corner_margin = ignites ? -infinite : ignition_temperature - point->maximum_temperature;
-      if (!ignites) evidence.numerical = point->at_most - point->maximum_temperature;
     }
+  }
+  if (corner_ignites) {
+    evidence.corner_margin = -infinite;
+  } else if (corner_known) {
+    evidence.corner_margin = ignition_temperature - worst->maximum_temperature;
+    evidence.numerical = worst->at_most - worst->maximum_temperature;
   }
   return evidence;
 }

@@ -138,6 +138,12 @@ TEST(ClosingGaps, EachBoundHasTheWorstEndOfOneMoreInterval) {
                                                                 {"corner", 455.0}}));
 }
 
+TEST(ClosingGaps, ABoundThatIsHotterThanTheCornerCountsInItsPlace) {
+  const auto answers =
+      answers_of([](const Launch& launch) { return launch.surface.roughness < 5e-6 ? 400.0 : 430.0; });
+  EXPECT_NEAR(closing_evidence(answers, 2e-4, ignition).corner_margin, ignition - 430.0, 1e-9);
+}
+
 TEST(ClosingGaps, NeitherMeltingNorSmoothFacesAloneDecide) {
   // A charge that melts may ignite or not be known: what counts is the charge that does not.
   const auto answers = answers_of([](const Launch& launch) {

@@ -109,8 +109,8 @@ struct CaseEvidence {
 struct ClosingEvidence {
   bool known = false;    ///< every bound that was computed has a temperature
   bool ignited = false;  ///< with a base that conducts, or with an insulated one
-  /// K, in the worst corner; minus infinity where it ignites there, or a thinner gap does; NaN where the
-  /// corner was not computed.
+  /// K, in the worst corner or on another bound that comes nearer to ignition; minus infinity where it
+  /// ignites there, or a thinner gap does; NaN where the corner was not computed.
   double corner_margin = std::numeric_limits<double>::quiet_NaN();
   /// K, by which its T max may be off for mesh, steps and columns: by an accuracy record that was made on its
   /// terms, or assumed.
