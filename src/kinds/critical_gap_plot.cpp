@@ -403,6 +403,8 @@ std::vector<ReportTable> closing_tables(const CriticalGapResult& result) {
   if (rows.empty()) return {};
   Table temperatures = report::table_of("Where the gap closes", closing_quantities(), rows);
   temperatures.notes = said("critical_gap.note.closing");
+  // A gap no wider than the faces are rough does not close: it is one launch on whatever terms.
+  std::erase_if(rows, [](const ClosingRow& row) { return row.gap <= row.outcome->input.closing->roughness; });
   Table shares =
       report::table_of("What the worst end of each interval adds", closing_share_quantities(), rows);
   shares.notes = said("critical_gap.note.closing_shares", closing_facts(rows));

@@ -179,6 +179,29 @@ TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
   EXPECT_EQ(computed->lower.back(), computed->y.back()) << "nothing is known of that end";
 }
 
+TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
+  // Each on the bound before it: 2, 3 and 15 K, and melting on the insulated base alone.
+  CriticalGapResult result = one_case();
+  CaseOutcome& outcome = result.details.at(0);
+  outcome.input.closing = outcome.input.scene.scene.surface;
+  for (const auto& [name, temperature] : {std::pair("conducting", 400.0),
+                                          {"insulated", 402.0},
+                                          {"melting", 380.0},
+                                          {"smooth", 405.0},
+                                          {"corner", 420.0}})
+    outcome.closing.push_back(
+        {name,
+         {{.gap = 0.0, .maximum_temperature = 390.0}, {.gap = 3e-4, .maximum_temperature = temperature}}});
+  const auto rows = json_of(result)["closing_shares"];
+  ASSERT_EQ(rows.size(), 1u) << "without a gap nothing closes";
+  EXPECT_DOUBLE_EQ(rows[0]["own_terms_K"], 400.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_base_K"], 2.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_roughness_K"], 3.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_release_K"], 15.0);
+  EXPECT_DOUBLE_EQ(rows[0]["corner_K"], 420.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_melting_K"], -22.0);
+}
+
 TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
   CriticalGapResult result = one_case();
   const double computed = result.details.front().verdicts.front().maximum.temperature;
