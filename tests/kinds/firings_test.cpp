@@ -45,7 +45,7 @@ TEST(Firings, GiveConstantsAndTheLaunchesThatWereFired) {
   EXPECT_EQ(result.conditions.size(), 1u);
   // 0 of 60 rounds: at most 1 - 0.05^(1/60) (Clopper and Pearson).
   EXPECT_NEAR(result.rows[1].shown_highest, 1.0 - std::pow(0.05, 1.0 / 60.0), 1e-9);
-  EXPECT_NE(answer(result).find("a bound, and no fit"), std::string::npos) << answer(result);
+  EXPECT_NE(answer(result).find("a bound, not a fit"), std::string::npos) << answer(result);
 }
 
 TEST(Firings, MoreRoundsWithoutIgnitionLeaveALowerProbability) {

@@ -150,7 +150,7 @@ TEST(Sensitivity, LaunchesAreAddedUntilTheErrorIsWhatIsAsked) {
   const auto errors = asked_errors(result);
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_TRUE(errors[0].reached()) << errors[0].found;
-  EXPECT_NE(answer(result).find("6 K is asked"), std::string::npos) << answer(result);
+  EXPECT_NE(answer(result).find("6 K asked"), std::string::npos) << answer(result);
   const report::Report written = report_of(result);
   ASSERT_FALSE(written.files.empty());
   const SurrogateRecord record = parse_surrogate(written.files.front().text, "surrogate.json").value();
