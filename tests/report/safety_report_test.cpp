@@ -72,7 +72,7 @@ TEST_F(SafetyReport, MarkupInAStudyIsShownAndNotObeyed) {
   const std::string evil =
       "<script>alert(1)</script> <img src=x onerror=alert(2)> [a](javascript:b) {{title}} & \\\"q\\\"";
   restate(study, "Critical bottom gap of the 155 mm shell", evil);
-  restate(study, "below 0.0273 cm, the least that the critical gap can be", "below <b onclick=x>| a </td>");
+  restate(study, "below the lower bound of the critical gap, 0.0273 cm", "below <b onclick=x>| a </td>");
   const std::string html = file_of({study}, "report.html"), page = file_of({study}, "report.md");
   EXPECT_FALSE(has(html, "<script"));
   EXPECT_FALSE(has(html, "<img src=x"));
