@@ -104,8 +104,8 @@ TEST(ClosingGap, HeatsTheSurfaceAsAOneDimensionalTrialDid) {
 // steps of 25 ns, 64 cells of ideal air (gamma 1.4, conductivity by Sutherland's law) between 26 of charge
 // and 24 of steel, implicit conduction at constant pressure and then an isentropic change. With half of all
 // that it gives the same to 0.1 K, and under the earlier load 34.2 and 45.1 K (0.4 mm), 107.1 and 133.7 K (1
-// mm). Speeds are not compared: the elastic base, which the load meets at once, rings by a L/c = 1.2 m/s about
-// the motion of a rigid one.
+// mm). Speeds are not compared: the elastic base, which the load meets at once, rings by a L/c = 1.2 m/s
+// about the motion of a rigid one.
 TEST(ClosingGap, HeatsTheSurfaceUnderTheShippedLoadAsAnotherProgramDid) {
   struct Row {
     double release, gap, roughness, conducting, insulated;  // m/s2, m, m, K, K
