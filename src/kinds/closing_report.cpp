@@ -1,0 +1,294 @@
+// What a critical-gap study tells of gaps that close, beside the reservoir.
+#include "critical_gap_tables.hpp"
+#include "launchsafe/scene/named_material.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace launchsafe::kinds {
+
+using keys::fixed, keys::text;
+using report::Mark, report::Plot, report::ReportTable, report::Series, report::shown_gap, report::Style,
+    report::Table;
+using study::CaseOutcome, study::ClosingAnswer, study::ClosingPoint, study::GapVerdict, study::not_a_number;
+
+namespace {
+
+/// A gap of a case, under the reservoir and where it closes.
+struct ClosingRow {
+  const CaseOutcome* outcome;
+  double gap;
+
+  const GapVerdict* verdict() const {
+    const auto found = std::ranges::find(outcome->verdicts, gap, &GapVerdict::gap);
+    return found == outcome->verdicts.end() ? nullptr : &*found;
+  }
+  /// On a bound by its name; nullptr where it was not computed.
+  const ClosingPoint* point(std::string_view bound) const {
+    const auto answer = std::ranges::find(outcome->closing, bound, &ClosingAnswer::name);
+    return answer == outcome->closing.end() ? nullptr : answer->at(gap);
+  }
+  double temperature(std::string_view bound) const {
+    const ClosingPoint* found = point(bound);
+    return found != nullptr ? found->maximum_temperature : not_a_number;
+  }
+};
+
+auto temperature_on(const char* bound) {
+  return [bound](const ClosingRow& row) { return row.temperature(bound); };
+}
+
+/// K, by which T max is higher on one bound than on another; NaN where either ignites.
+auto hotter_on(const char* bound, const char* than) {
+  return [=](const ClosingRow& row) {
+    const ClosingPoint *hotter = row.point(bound), *cooler = row.point(than);
+    const bool known = hotter != nullptr && cooler != nullptr && !hotter->ignited && !cooler->ignited;
+    return known ? hotter->maximum_temperature - cooler->maximum_temperature : not_a_number;
+  };
+}
+
+/// K, by which its computation may have that wrong; NaN where it ignites.
+auto uncertainty_on(const char* bound) {
+  return [bound](const ClosingRow& row) {
+    const ClosingPoint* point = row.point(bound);
+    return point != nullptr && !point->ignited ? point->at_most - point->maximum_temperature : not_a_number;
+  };
+}
+
+std::string bound_name(const ClosingAnswer& answer) {
+  return said("critical_gap.closing_bound", {{answer.name, true}}).front();
+}
+
+/// Why a temperature of a row is not known; empty where all are.
+std::string why_unknown(const ClosingRow& row) {
+  for (const ClosingAnswer& answer : row.outcome->closing)
+    if (const ClosingPoint* point = answer.at(row.gap); point != nullptr && !point->unknown_for.empty())
+      return bound_name(answer) + ": " + point->unknown_for;
+  return {};
+}
+
+/// A column of kelvins.
+report::Column kelvins(const char* name, const char* label, const char* meaning) {
+  return {name, label, fixed(1, keys::kelvin), meaning};
+}
+
+report::Quantities<ClosingRow> closing_quantities() {
+  return {
+      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+      {quantity::gap(), &ClosingRow::gap},
+      {kelvins("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
+       [](const ClosingRow& row) {
+         return row.verdict() != nullptr ? row.verdict()->maximum.temperature : not_a_number;
+       }},
+      {kelvins("temperature_max_conducting", "closing, base conducts",
+               "Highest temperature at any depth where the gap closes and its base takes heat."),
+       temperature_on("conducting")},
+      {kelvins("temperature_max_insulated", "base insulated",
+               "Highest temperature at any depth where the gap closes and its base takes no heat."),
+       temperature_on("insulated")},
+      {kelvins("temperature_max_corner", "worst corner",
+               "Highest temperature at any depth on the worst terms: insulated, smoothest, worst release."),
+       temperature_on("corner")},
+      {{"corner_place", "at", text(), "Station of that."},
+       [](const ClosingRow& row) {
+         return row.point("corner") ? row.point("corner")->place : std::string{};
+       }},
+      {{"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there."},
+       [](const ClosingRow& row) {
+         return row.point("corner") ? row.point("corner")->release : not_a_number;
+       }},
+      {kelvins("corner_numerical", "of its computation",
+               "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
+       uncertainty_on("corner")},
+      {for_programs(kelvins("conducting_numerical", "of computation, base conducts",
+                            "The same where the base takes heat.")),
+       uncertainty_on("conducting")},
+      {for_programs(kelvins("insulated_numerical", "of computation, base insulated",
+                            "The same where the base takes no heat.")),
+       uncertainty_on("insulated")},
+      {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
+}
+
+/// What is not known of a gap that closes, an interval each, with what its worst end adds to T max where all
+/// before it stand at theirs.
+report::Quantities<ClosingRow> closing_share_quantities() {
+  return {
+      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+      {quantity::gap(), &ClosingRow::gap},
+      {kelvins("own_terms", "own terms, base conducts", "T max on the case's own terms."),
+       temperature_on("conducting")},
+      {kelvins("of_base", "the base takes no heat", "What that adds."), hotter_on("insulated", "conducting")},
+      {kelvins("of_roughness", "smoothest faces", "What faces of 1 um add to it."),
+       hotter_on("smooth", "insulated")},
+      {kelvins("of_release", "worst release", "What the worst instant of release adds to both."),
+       hotter_on("corner", "smooth")},
+      {kelvins("corner", "worst corner", "The sum: T max on the worst terms."), temperature_on("corner")},
+      {kelvins("of_melting", "were the charge to melt",
+               "What melting would add with an insulated base; no verdict rests on it."),
+       hotter_on("melting", "insulated")}};
+}
+
+/// What one bound says of the critical gap.
+struct BoundRow {
+  const std::string* label;
+  const ClosingAnswer* answer;
+};
+
+/// What a bound of an answer says, for people; empty without such bounds.
+auto text_of_bound(std::size_t bound) {
+  return [bound](const study::CaseAnswer& answer) -> std::string {
+    if (bound >= answer.closing.size()) return {};
+    const ClosingAnswer& found = answer.closing[bound];
+    if (!std::isnan(found.upper)) return report::reads_as(critical_gap_of(found));
+    return std::isnan(found.lower) ? "not known"
+                                   : "> " + report::centimetres(found.lower) + ", then not known";
+  };
+}
+
+report::Quantities<BoundRow> closing_bound_quantities() {
+  return {
+      {quantity::case_name(), [](const BoundRow& row) { return *row.label; }},
+      {{"bound", "where the gap closes", text(), "Terms on which it closes."},
+       [](const BoundRow& row) { return bound_name(*row.answer); }},
+      {{"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
+        "Largest gap below the first that ignites."},
+       &BoundRow::answer,
+       &ClosingAnswer::lower},
+      {{"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites."},
+       &BoundRow::answer,
+       &ClosingAnswer::upper},
+      {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
+       [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
+}
+
+/// By which kinetics the cases of rows may ignite, and whether records say how far T max may be off.
+report::Row closing_facts(const std::vector<ClosingRow>& rows) {
+  report::Row facts{{"kinetics", report::Row::array()}, {"others", report::Row::array()}};
+  const auto add = [&facts](const char* list, const std::string& name) {
+    report::Row& names = facts[list];
+    if (std::find(names.begin(), names.end(), report::Row(name)) == names.end()) names.push_back(name);
+  };
+  std::size_t known = 0, recorded = 0;
+  for (const ClosingRow& row : rows) {
+    const scene::Scene& scene = row.outcome->input.scene.scene;
+    const auto counting = study::kinetics_of(scene);
+    for (const auto& each : counting) add("kinetics", each.name);
+    for (const scene::Decomposition& each : scene::shipped_decompositions())
+      if (std::ranges::find(counting, each.name, &materials::KineticsParameters::name) == counting.end())
+        add("others", each.name);
+    const ClosingPoint& corner = *row.point("corner");
+    if (!std::isfinite(corner.at_most) || corner.ignited) continue;
+    ++known;
+    recorded += corner.recorded ? 1 : 0;
+  }
+  facts["recorded"] = recorded > 0 && recorded == known;
+  return facts;
+}
+
+}  // namespace
+
+report::Quantities<study::CaseAnswer> closing_gap_quantities() {
+  return {{{"closing_conducting", "closing, base conducts", text(),
+            "Smallest gap that ignites where it closes and its base takes heat."},
+           text_of_bound(0)},
+          {{"closing_insulated", "base insulated", text(),
+            "Smallest gap that ignites where it closes and its base takes no heat."},
+           text_of_bound(1)}};
+}
+
+std::vector<std::string> closing_answer(const CriticalGapResult& result) {
+  report::Row facts{{"bounds", report::Row::array()}};
+  for (std::size_t bound = 0; bound < 2; ++bound) {
+    std::size_t ignite = 0, unknown = 0;
+    double smallest = not_a_number;
+    std::string name;
+    for (const study::CaseAnswer& answer : result.answers) {
+      if (answer.closing.empty()) continue;
+      const ClosingAnswer& of_bound = answer.closing[bound];
+      name = bound_name(of_bound);
+      if (std::isnan(of_bound.upper)) ++unknown;
+      if (!std::isfinite(of_bound.upper)) continue;
+      ++ignite;
+      if (!(smallest <= of_bound.upper)) smallest = of_bound.upper;
+    }
+    if (!name.empty())
+      facts["bounds"].push_back({{"name", name},
+                                 {"ignite", ignite},
+                                 {"unknown", unknown},
+                                 {"smallest_cm", report::number(report::shown_gap(smallest))}});
+  }
+  facts["closes"] = !facts["bounds"].empty();
+  return said("critical_gap.closing_answer", facts);
+}
+
+std::vector<ReportTable> closing_tables(const CriticalGapResult& result) {
+  std::vector<ClosingRow> rows;
+  for (const CaseOutcome& outcome : result.details) {
+    if (outcome.closing.empty()) continue;
+    for (const ClosingPoint& point : outcome.closing.front().points) {
+      const ClosingRow row{&outcome, point.gap};
+      if (row.point("corner") != nullptr) rows.push_back(row);
+    }
+  }
+  if (rows.empty()) return {};
+  Table temperatures = report::table_of("Where the gap closes", closing_quantities(), rows);
+  temperatures.notes = said("critical_gap.note.closing");
+  // A gap no wider than the faces are rough does not close: it is one launch on whatever terms.
+  std::erase_if(rows, [](const ClosingRow& row) { return row.gap <= row.outcome->input.closing->roughness; });
+  Table shares =
+      report::table_of("What the worst end of each interval adds", closing_share_quantities(), rows);
+  shares.notes = said("critical_gap.note.closing_shares", closing_facts(rows));
+  return {{std::move(temperatures), "closing.csv", "closing"},
+          {std::move(shares), "closing_shares.csv", "closing_shares"}};
+}
+
+Table closing_bound_table(const CriticalGapResult& result) {
+  std::vector<BoundRow> rows;
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    for (const ClosingAnswer& answer : result.answers[i].closing)
+      rows.push_back({&result.study.cases.label(i), &answer});
+  return report::table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
+}
+
+std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
+  if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
+  const CaseOutcome& outcome = result.details.front();
+  report::Plot plot;
+  plot.title = "Critical gap by the reservoir: " + report::reads_as(outcome.critical);
+  for (const ClosingAnswer& answer : outcome.closing)
+    if (std::isfinite(answer.upper) && (answer.is_nominal() || answer.is_worst_corner()))
+      plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
+                       report::centimetres(answer.upper);
+  plot.named_in_place = true;
+  plot.x.label = quantity::gap().label();
+  plot.y.label = quantity::temperature_max().label();
+  const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
+  // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
+  const double burning = ignition + 20.0;
+  report::Series reservoir{"reservoir, as published"};
+  for (const GapVerdict& row : outcome.verdicts)
+    reservoir.add(report::shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
+  plot.series.push_back(std::move(reservoir));
+  for (const ClosingAnswer& answer : outcome.closing) {
+    if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
+    report::Series series{bound_name(answer)};
+    for (const ClosingPoint& point : answer.points)
+      if (point.ignited || std::isfinite(point.maximum_temperature))
+        series.add(report::shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
+    plot.series.push_back(std::move(series));
+  }
+  const std::string at = report::in_words(ignition, keys::significant(4, keys::kelvin));
+  plot.horizontal_lines.push_back({ignition, "ignition: " + at + "; what ignites is drawn above"});
+  return plot;
+}
+
+std::vector<ResultTable> closing_results() {
+  return {{"closing", "closing.csv", keys::described(closing_quantities())},
+          {"closing_shares", "closing_shares.csv", keys::described(closing_share_quantities())},
+          {"closing_bounds", "closing_bounds.csv", keys::described(closing_bound_quantities())}};
+}
+
+}  // namespace launchsafe::kinds
