@@ -180,18 +180,6 @@ Term plan_snapshots(const Scene& scene) {
   return in(count, fmt::format("{} times, {} events", times, events));
 }
 
-/// Sub-steps into which the crack law divides a step because cracks and Maxwell elements relax together; 0
-/// where it takes the step whole. Growth of the cracks, which divides steps too, cannot be foreseen.
-double crack_substeps(const Scene& scene, double time_step) {
-  namespace law = materials::detail;
-  const materials::ViscoScramParameters& strength = scene.charge().strength;
-  const double fastest = *std::ranges::max_element(strength.relaxation_rates);
-  const double x = time_step * fastest,
-               q = materials::crack_strain_ratio(strength, strength.initial_crack_radius);
-  if (!law::couples_too_strongly(x, q)) return 0.0;
-  return std::ceil(x / (law::coupling_share_of_substep * law::longest_coupled_step(q)));
-}
-
 /// At rest: CFL times the shortest time in which sound crosses a cell, with the inertial factors.
 double time_step_at_rest(const Scene& scene, const MeshSize& mesh) {
   const Numerics& numerics = scene.numerics;
@@ -219,26 +207,13 @@ void count_particles(const Scene& scene, const MeshSize& mesh, Plan& plan) {
   }
 }
 
-/// Particles whose law has cracks.
-double cracked_particles(const Scene& scene, const Plan& plan) {
-  double total = 0.0;
-  for (const MaterialParticles& each : plan.by_material)
-    if (std::holds_alternative<Charge>(find_material(scene, each.material)->law))
-      total += static_cast<double>(each.particles);
-  return total;
-}
-
 void count_work(const Scene& scene, const MeshSize& mesh, Plan& plan) {
   count_particles(scene, mesh, plan);
   plan.cells = static_cast<std::int64_t>(mesh.all.nx) * mesh.all.nr;
   plan.time_step = time_step_at_rest(scene, mesh);
   const double steps = std::ceil(end_time(scene.load) / plan.time_step - 1e-9);
   plan.steps = counted(steps);
-  // Measured: a sub-step costs as much as 1.4 whole updates of a particle.
-  constexpr double updates_per_substep = 1.4;
-  const double cracked = cracked_particles(scene, plan);
-  const double substeps = cracked > 0.0 ? crack_substeps(scene, plan.time_step) : 0.0;
-  plan.work = steps * (static_cast<double>(plan.particles()) + updates_per_substep * substeps * cracked);
+  plan.work = steps * static_cast<double>(plan.particles());
   if (plan.coupling.in) plan.coupled_work = coupled_share(scene) * plan.work;
   plan.memory += bytes_per_cell * static_cast<double>(plan.cells);
 }

@@ -110,6 +110,27 @@ TEST(ViscoScramFrozenCrack, RateBeyondRoundOffEndsToo) {
   EXPECT_GT(total_deviator(state).rx, 0.0);
 }
 
+TEST(ViscoScramFrozenCrack, OnlyStrainThatChangesWithinAStepDividesIt) {
+  // Two relaxation times of the fastest element a step, at the crack strain that couples most.
+  const double dt = 1e-6, rate = 1.0;
+  const ViscoScramParameters m = frozen(0.5);
+  const auto step = relaxation(m, dt);
+  ViscoScramState<double> state = cracked(m, 0.5);
+  const double q = crack_strain_ratio(m, state.crack_radius);
+  const auto is_whole = [&](double strain) {
+    ViscoScramState<double> whole = state, end = state;
+    ViscoScramDissipation<double> lost;
+    relax(m, whole, Deviator<double>{0.0, 0.0, strain}, q, q, step, lost);
+    visco_scram_update<double>(m, step, end, {0.0, 0.0, strain}, 0.0);
+    return end.elements.back().rx == whole.elements.back().rx;
+  };
+  EXPECT_FALSE(is_whole(rate * dt));
+  for (int k = 0; k < 1000; ++k) visco_scram_update<double>(m, step, state, {0.0, 0.0, rate * dt}, 0.0);
+  EXPECT_TRUE(is_whole(rate * dt));
+  EXPECT_TRUE(is_whole(1.05 * rate * dt));
+  EXPECT_FALSE(is_whole(10.0 * rate * dt));
+}
+
 TEST(ViscoScramFrozenCrack, ErrorFallsWithTheSquareOfTheStep) {
   const double coarse = frozen_error(1.0, 1e-7, 100, true), fine = frozen_error(1.0, 2.5e-8, 400, true);
   EXPECT_NEAR(std::log2(coarse / fine) / 2.0, 2.0, 0.1);

@@ -273,6 +273,7 @@ inline constexpr double growth_per_substep = 0.01;
 inline constexpr double largest_coupling = 0.3;
 inline constexpr double largest_crack_relaxation = 2.0;
 inline constexpr double coupling_share_of_substep = 0.7;
+inline constexpr double largest_uneven_relaxation = 3e-4;
 
 /// So many of the shortest relaxation times after the begin of a step, what relaxes fastest follows the rest,
 /// and a sub-step may be a share of the time since the begin: the number of sub-steps then goes with the
@@ -290,6 +291,26 @@ auto couples_too_strongly(double x, Real q) {
   return (Real(x * x) * q >
           Real(largest_coupling * largest_coupling) * stiffening * stiffening * stiffening) |
          (Real(x) * q > Real(largest_crack_relaxation) * stiffening);
+}
+
+/// True where it matters that they do. The stress of an element that follows an even strain is 2 G_n a/x_n,
+/// with the strain a that elements take in the step; what it lacks of that relaxes within the step by x_n
+/// times as much, a share of q/(1 + q) of it into the cracks. Bound on the root of the sum of squares of
+/// that, over S at both ends. In a launch, whose strain hardly changes within a step, what relaxes fast has
+/// followed long ago. `element`: S_n by its number.
+template <class Real, class Vector, class Element>
+auto relaxes_unevenly(const ViscoScramParameters& m, double dt, Element element, Vector applied,
+                      Vector before, Vector after, Real q) {
+  Real uneven(0.0);
+  for (std::size_t n = 0; n < maxwell_elements; ++n) {
+    const double x = dt * m.relaxation_rates[n];
+    if (!(x > 0.0)) continue;
+    const Vector relaxing = Real(x) * element(n) - Real(2.0 * m.shear_moduli[n]) * applied;
+    uneven += contract(relaxing, relaxing);
+  }
+  const Real share = q / (Real(1.0) + q);
+  return share * share * uneven > Real(largest_uneven_relaxation * largest_uneven_relaxation) *
+                                      (contract(before, before) + contract(after, after));
 }
 
 /// Longest step, in units of the fastest relaxation time, within those bounds.
@@ -385,13 +406,20 @@ ViscoScramDissipation<Real> visco_scram_update(const ViscoScramParameters& m, co
   const Real c0 = state.crack_radius;
   const Real q0 = crack_strain_ratio(m, c0);
   const auto response = detail::response(m, state, de, step);
-  const math::Deviator<Real> middle = Real(0.5) * (response.before + detail::stress_after(response, q0, q0));
+  const math::Deviator<Real> after = detail::stress_after(response, q0, q0);
+  const math::Deviator<Real> middle = Real(0.5) * (response.before + after);
   const Real speed = crack_growth_speed_under(m, middle, pressure, c0);
   const Real growth = Real(step.dt) * speed;
   ViscoScramDissipation<Real> dissipation;
-  const auto divided = (growth > Real(detail::growth_of_whole_step) * c0) |
-                       detail::couples_too_strongly(step.dt * fastest_rate, q0);
   const ViscoScramState<Real> start = state;
+  auto divided = growth > Real(detail::growth_of_whole_step) * c0;
+  if (const auto couples = detail::couples_too_strongly(step.dt * fastest_rate, q0); any(couples)) {
+    const math::Deviator<Real> applied =
+        de - (Real(0.5 / m.shear_modulus()) * q0) * (after - response.before);
+    const auto element = [&](std::size_t n) { return start.elements[n]; };
+    divided = divided |
+              (couples & detail::relaxes_unevenly(m, step.dt, element, applied, response.before, after, q0));
+  }
   if (any(!divided)) {
     const Real sensitivity = detail::growth_sensitivity(m, pressure, c0, speed);
     const Real curved = Real(1.0) + Real(0.5) * sensitivity * growth / max(c0, Real(1e-300));

@@ -69,7 +69,12 @@ class ViscoScramStep {
   auto idle(Real crack_radius, Real intensity, Real pressure) const;
   template <class Real>
   [[gnu::always_inline]] inline Growth<Real, ConditionOf<Real>> grow(Real crack_radius, Real intensity,
-                                                                     Real pressure, Real ratio) const;
+                                                                     Real pressure) const;
+  template <class Real>
+  [[gnu::noinline, gnu::cold]] ConditionOf<Real> relaxes_unevenly(const State<Real>& start,
+                                                                  math::DeviatorVector<Real> strain,
+                                                                  math::DeviatorVector<Real> after,
+                                                                  Real ratio) const;
   template <class Real>
   [[gnu::noinline, gnu::cold]] Result<Real> plain_update(const State<Real>& start,
                                                          math::DeviatorVector<Real> strain,
@@ -107,7 +112,7 @@ auto ViscoScramStep::idle(Real crack_radius, Real intensity, Real pressure) cons
 }
 
 template <class Real>
-auto ViscoScramStep::grow(Real crack_radius, Real intensity, Real pressure, Real ratio) const
+auto ViscoScramStep::grow(Real crack_radius, Real intensity, Real pressure) const
     -> Growth<Real, ConditionOf<Real>> {
   using math::any;
   using math::max;
@@ -131,13 +136,23 @@ auto ViscoScramStep::grow(Real crack_radius, Real intensity, Real pressure, Real
   }
   const Real growth = select(crack_radius < Real(parameters_.largest_crack_radius),
                              Real(relaxation_.dt * parameters_.largest_growth_speed) * speed, Real(0.0));
-  ConditionOf<Real> divided = growth > Real(detail::growth_of_whole_step) * crack_radius;
-  if (couples_) divided = divided | detail::couples_too_strongly(relaxation_.dt * fastest_rate_, ratio);
+  const auto divided = growth > Real(detail::growth_of_whole_step) * crack_radius;
   // d ln(dc/dt)/d ln c as in detail::growth_sensitivity.
   const Real gain = Real(0.25 * detail::pi) * friction * (Real(1.0) + Real(2.0) * friction) * per_toughening;
   const Real relative = growth * per_both * toughening;
   const Real curved = Real(1.0) + Real(0.5) * exponent * (Real(0.5) - gain) * relative;
   return {max(crack_radius, min(crack_radius + growth * curved, Real(largest_radius_))), divided};
+}
+
+template <class Real>
+auto ViscoScramStep::relaxes_unevenly(const State<Real>& start, math::DeviatorVector<Real> strain,
+                                      math::DeviatorVector<Real> after, Real ratio) const
+    -> ConditionOf<Real> {
+  auto first = start.total;
+  for (const auto& element : start.elements) first = first - element;
+  const auto element = [&](std::size_t n) { return n == 0 ? first : start.elements[n - 1]; };
+  const auto applied = strain - (Real(compliance_) * ratio) * (after - start.total);
+  return detail::relaxes_unevenly(parameters_, relaxation_.dt, element, applied, start.total, after, ratio);
 }
 
 template <class Real>
@@ -213,15 +228,20 @@ auto ViscoScramStep::update(const State<Real>& start, math::DeviatorVector<Real>
   result.crack = Real(0.0);
   ConditionOf<Real> divided{};
   bool divides = false;
-  if (grows_ || couples_) {
+  if (couples_) [[unlikely]] {
+    divided = detail::couples_too_strongly(relaxation_.dt * fastest_rate_, ratio);
+    if (any(divided)) divided = divided & relaxes_unevenly(start, strain, after, ratio);
+    divides = any(divided);
+  }
+  if (grows_) {
     const Real drive = intensity(radius, start.total + after);
-    if (couples_ || any(!idle(radius, drive, pressure))) {
-      const auto growth = grow(radius, drive, pressure, ratio);
+    if (any(!idle(radius, drive, pressure))) {
+      const auto growth = grow(radius, drive, pressure);
       end_radius = growth.crack_radius;
       end_ratio = strain_ratio(end_radius);
       after = (Real(1.0) / (Real(1.0) + share * end_ratio)) * driven;
       result.crack = Real(0.5 * compliance_) * (end_ratio - ratio) * contract(start.total, after);
-      divided = growth.divided;
+      divided = divided | growth.divided;
       divides = any(divided);
     }
   }

@@ -44,8 +44,8 @@ struct Plan {
   double time_step = 0;    ///< s, at rest: CFL h/c_L, with the inertial factors
   /// Duration over time_step, most_counted at most; compression stiffens, so a run takes some more.
   std::int64_t steps = 0;
-  /// Particle updates that the run is worth: steps times particles, and more where the crack law divides its
-  /// steps.
+  /// Particle updates of the run. Where the crack law divides steps, which cannot be foreseen, it is worth
+  /// more.
   double work = 0;
   /// The same, at most, of the run of one gap that goes on from a checkpoint of the launch and, where it
   /// ignites, through combustion; 0 with one-way coupling.
