@@ -90,7 +90,8 @@ report::Quantities<ClosingRow> closing_quantities() {
                "Highest temperature at any depth where the gap closes and its base takes no heat."),
        temperature_on("insulated")},
       {kelvins("temperature_max_corner", "worst corner",
-               "Highest temperature at any depth on the worst terms: insulated, smoothest, worst release."),
+               "Highest temperature at any depth on the worst terms: insulated, smoothest, worst flow and "
+               "release."),
        temperature_on("corner")},
       {{"corner_place", "at", text(), "Station of that."},
        [](const ClosingRow& row) {
@@ -123,8 +124,10 @@ report::Quantities<ClosingRow> closing_share_quantities() {
       {kelvins("of_base", "the base takes no heat", "What that adds."), hotter_on("insulated", "conducting")},
       {kelvins("of_roughness", "smoothest faces", "What faces of 1 um add to it."),
        hotter_on("smooth", "insulated")},
-      {kelvins("of_release", "worst release", "What the worst instant of release adds to both."),
-       hotter_on("corner", "smooth")},
+      {kelvins("of_air_flow", "worst flow", "What air that flows, or stays, adds to both."),
+       hotter_on("flowing", "smooth")},
+      {kelvins("of_release", "worst release", "What the worst instant of release adds to all of that."),
+       hotter_on("corner", "flowing")},
       {kelvins("corner", "worst corner", "The sum: T max on the worst terms."), temperature_on("corner")},
       {kelvins("of_melting", "were the charge to melt",
                "What melting would add with an insulated base; no verdict rests on it."),

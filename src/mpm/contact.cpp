@@ -191,14 +191,43 @@ double Contact::push_by_gas(const Row& row, double speed, double dt) const {
   return impulse;
 }
 
+/// The impulses of the gas that rows share, which has one pressure: that of a row with their mean opening and
+/// speed. An impulse moves that as far as all of them, divided by their areas, move the mean.
+void Contact::push_by_common_gas(double dt) {
+  Row all;
+  double speed = 0.0, mobility = 0.0;
+  for (const Row& row : rows_)
+    if (row.floor > 0.0) all.area += row.area;
+  for (const Row& row : rows_) {
+    if (!(row.floor > 0.0)) continue;
+    const Velocity v = relative(row, velocity_);
+    const double part = row.area / all.area;
+    all.gap += part * (row.gap + row.floor);
+    all.opening += part * row.opening;
+    all.from_gas += row.from_gas;
+    speed += part * (v.x * row.normal_x + v.r * row.normal_r);
+    if (!shares_gas(row)) continue;
+    speed -= part * row.normal / row.normal_inertia;
+    mobility += part * part / row.normal_inertia;
+  }
+  if (!(mobility > 0.0)) return;
+  all.gas = common_gas_;
+  all.normal_inertia = 1.0 / mobility;
+  const double impulse = push_by_gas(all, speed, dt);
+  for (Row& row : rows_)
+    if (shares_gas(row)) row.from_gas = impulse * row.area / all.area;
+}
+
 /// One pass over all rows; the largest change of an impulse over the largest impulse.
 double Contact::sweep(double dt) {
   double changed = 0.0, largest = 0.0;
+  if (common_gas_.pressure > 0.0) push_by_common_gas(dt);
   for (Row& row : rows_) {
     const Velocity v = relative(row, velocity_);
     const double opening = v.x * row.normal_x + v.r * row.normal_r;
-    const bool has_gas = row.gas.pressure > 0.0 && row.normal_inertia > 0.0;
-    if (has_gas) row.from_gas = push_by_gas(row, opening - row.normal / row.normal_inertia, dt);
+    const bool own_gas = row.gas.pressure > 0.0 && row.normal_inertia > 0.0;
+    const bool has_gas = own_gas || shares_gas(row);
+    if (own_gas) row.from_gas = push_by_gas(row, opening - row.normal / row.normal_inertia, dt);
     if (!has_gas && !row.bonded && !row.held && row.normal == 0.0 && opening >= row.target) continue;
     const double sliding = v.r * row.normal_x - v.x * row.normal_r;
     double normal = row.normal - (opening - row.target) * row.normal_inertia;
@@ -286,6 +315,7 @@ void Contact::write_nodes(std::vector<Nodes>& nodes, double dt) const {
 /// Takes the rows to the end of the step.
 void Contact::advance_rows(double dt) {
   double fastest = 0.0;
+  const double mean_before = common_gas_.pressure > 0.0 ? mean_opening() : 0.0;
   for (Row& row : rows_) {
     if (!(row.area > 0.0)) continue;
     const double work =
@@ -305,6 +335,7 @@ void Contact::advance_rows(double dt) {
     fastest = std::max(fastest, std::abs(row.sliding));
   }
   slid_ += dt * fastest;
+  if (common_gas_.pressure > 0.0) common_gas_.exchange_heat(mean_before, mean_opening(), dt);
 }
 
 void Contact::hold(std::size_t face) {
@@ -348,6 +379,16 @@ void Contact::set_gas(std::size_t face, std::size_t node, const GapGas& gas) {
 double Contact::opening(std::size_t face, std::size_t node) const {
   const Row& row = rows_[faces_[face].first_row + node];
   return row.gap + row.floor;
+}
+
+double Contact::mean_opening() const {
+  double volume = 0.0, area = 0.0;
+  for (const Row& row : rows_) {
+    if (!(row.floor > 0.0)) continue;
+    volume += row.area * (row.gap + row.floor);
+    area += row.area;
+  }
+  return volume / area;
 }
 
 double Contact::gas_work(std::size_t face, std::size_t node) const {

@@ -13,6 +13,8 @@ namespace {
 /// An interval of a column ends once its pressure, or by conduction alone its volume, has changed by so much,
 /// or at a sample of the trace.
 constexpr double pressure_change = 0.05, volume_change = 0.02;
+/// Where air flows, also once such a part of its volume has moved.
+constexpr double part_moved = 0.02;
 /// Largest part of an opening by which faces approach in a step.
 constexpr double most_closed = 0.1;
 
@@ -28,6 +30,7 @@ surface::SkinModel model_of(const scene::Scene& scene) {
 
 ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorder, double gap)
     : model_(model_of(simulation.scene())),
+      shares_air_(model_.surface.air_flow == scene::AirFlow::common_pressure),
       nodes_(nodes_of_bottom(simulation, recorder)),
       floor_(simulation.scene().surface.roughness),
       release_(simulation.scene().surface.release),
@@ -48,8 +51,10 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
   for (std::size_t column = 0; column < nodes_.size(); ++column) {
     nodes_[column].opening = gap;
     nodes_[column].hottest = columns_.hottest(column);
-    start_interval(column, contact, 0.0);
+    nodes_[column].pressure = model_.surface.air.initial_pressure;
+    if (!shares_air_) start_interval(column, contact, 0.0);
   }
+  if (shares_air_) share_air(contact, 0.0);
   record(recorder);
 }
 
@@ -119,28 +124,44 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
     contact.loosen(std::max(share, 0.0));
     if (!(share > 0.0)) release_ = 0.0;
   }
-  bool touches = false, due = false;
+  bool touches = false, due = shares_air_ && samples;
+  const double mean_opening = shares_air_ ? contact.mean_opening() : 0.0;
+  double moved = 0.0, volume = 0.0;  // m3 per radian or metre
   longest_step_ = std::numeric_limits<double>::infinity();
   for (std::size_t column = 0; column < nodes_.size(); ++column) {
     Node& node = nodes_[column];
-    const mpm::GapGas& gas = contact.gas(node.face, node.node);
-    const double opening = contact.opening(node.face, node.node),
-                 pressure = node.pressure_ratio * gas.at(opening);
+    const mpm::GapGas& gas = shares_air_ ? contact.common_gas() : contact.gas(node.face, node.node);
+    // Air that flows leaves an opening before its molecules fill that.
+    const double opening = contact.opening(node.face, node.node), covolume = shares_air_ ? 0.0 : gas.covolume,
+                 pressure = node.pressure_ratio * gas.at(shares_air_ ? mean_opening : opening);
     node.closing_speed = (node.opening - opening) / dt;
     node.opening = opening;
-    if (!(opening > gas.covolume)) {  // faces that were paired anew may leave the air no volume
+    if (!(opening > covolume) ||
+        !std::isfinite(pressure)) {  // faces that were paired anew may leave the air no volume
       failed_ = true;
       return;
     }
     if (node.closing_speed > 0.0)
       longest_step_ =
-          std::min(longest_step_, most_closed / often_ * (opening - gas.covolume) / node.closing_speed);
+          std::min(longest_step_, most_closed / often_ * (opening - covolume) / node.closing_speed);
     node.pressure_integral += 0.5 * dt * (node.pressure + pressure);
     node.pressure = pressure;
     touches = touches || opening <= floor_ * (1.0 + 1e-9);
+    if (shares_air_) {
+      due = due || is_due(node, gas);
+      moved += node.area * std::abs(opening - node.opening_before);
+      volume += node.area * opening;
+      continue;
+    }
     // The first column of a contact node has its gas, and decides for the others.
     if (node.states_gas) due = samples || is_due(node, gas);
-    if (due) follow_heat(column, contact, recorder, time);
+    if (!due) continue;
+    follow_heat(column, recorder, time);
+    start_interval(column, contact, time);
+  }
+  if (shares_air_ && (due || often_ * moved > part_moved * volume)) {
+    for (std::size_t column = 0; column < nodes_.size(); ++column) follow_heat(column, recorder, time);
+    share_air(contact, time);
   }
   note_motion(touches, time);
 }
@@ -150,8 +171,7 @@ bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
          often_ * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
 }
 
-void ClosingGap::follow_heat(std::size_t column, mpm::Contact& contact, const TraceRecorder& recorder,
-                             double time) {
+void ClosingGap::follow_heat(std::size_t column, const TraceRecorder& recorder, double time) {
   Node& node = nodes_[column];
   const double length = time - node.begin, friction = friction_of(node, recorder);
   const double heating = (friction - node.friction_before) * model_.surface.localisation /
@@ -165,7 +185,6 @@ void ClosingGap::follow_heat(std::size_t column, mpm::Contact& contact, const Tr
   if (columns_.ignited(column) && !was_ignited)
     note_ignition(column, node.begin + columns_.ignition_time(column));
   node.friction_before = friction;
-  start_interval(column, contact, time);
 }
 
 /// From the state that the column has between the faces as they are.
@@ -179,15 +198,38 @@ void ClosingGap::start_interval(std::size_t column, mpm::Contact& contact, doubl
     node.pressure_ratio = node.pressure / contact.gas(node.face, node.node).at(node.opening);
     return;
   }
-  mpm::GapGas gas;
-  gas.outside = model_.surface.air.initial_pressure;
-  gas.pressure = node.air.pressure;
-  gas.volume = node.air.volume;
-  gas.exponent = node.air.exponent;
-  gas.covolume = columns_.covolume();
-  gas.exchange = node.air.exchange;
-  gas.energy_at_walls = node.air.pressure * node.air.volume_at_walls;
-  contact.set_gas(node.face, node.node, gas);
+  contact.set_gas(node.face, node.node, gas_of(node.air, columns_.covolume(column)));
+}
+
+mpm::GapGas ClosingGap::gas_of(const surface::EnclosedAir& air, double covolume) const {
+  return {.outside = model_.surface.air.initial_pressure,
+          .pressure = air.pressure,
+          .volume = air.volume,
+          .exponent = air.exponent,
+          .covolume = covolume,
+          .exchange = air.exchange,
+          .energy_at_walls = air.pressure * air.volume_at_walls};
+}
+
+/// The same of all columns, between which air flows meanwhile. Contact may have another mean opening than
+/// they have, by how faces are paired: the pressure is theirs.
+void ClosingGap::share_air(mpm::Contact& contact, double time) {
+  std::vector<double> openings, areas;
+  for (const Node& node : nodes_) {
+    openings.push_back(node.opening);
+    areas.push_back(node.area);
+  }
+  const double covolume = mean([&](std::size_t column) { return columns_.covolume(column); });
+  surface::EnclosedAir air = columns_.fit_together(nodes_.front().pressure, openings, areas);
+  air.volume = contact.mean_opening() - covolume;
+  for (Node& node : nodes_) {
+    node.air = air;
+    node.pressure = air.pressure;
+    node.pressure_integral = 0.0;
+    node.opening_before = node.opening;
+    node.begin = time;
+  }
+  contact.set_common_gas(gas_of(air, covolume));
 }
 
 void ClosingGap::note_ignition(std::size_t column, double time) {
@@ -235,6 +277,8 @@ ClosingHistory ClosingGap::take_history(mpm::Simulation& simulation) {
     history_.energy.*part = mean([&](std::size_t column) { return columns_.energy(column).*part; });
   history_.work_on_gas =
       mean([&](std::size_t column) { return contact.gas_work(nodes_[column].face, nodes_[column].node); });
+  // What flows between columns is none to all of them together.
+  if (shares_air_) skin_.energy_residual = history_.energy.residual();
   for (std::size_t column = 0; column < nodes_.size(); ++column)
     skin_.energy_residual = std::max(skin_.energy_residual, columns_.energy(column).residual());
   return std::move(history_);

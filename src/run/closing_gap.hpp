@@ -12,10 +12,10 @@
 namespace launchsafe::run {
 
 /// Each node of the charge's bottom has a column of its own in every ring that it lies in, whose air does not
-/// mix with that of its neighbours. Contact compresses the air by the law of mpm::GapGas; the column follows
-/// its heat over every interval in which pressure or volume changed by a few hundredths, and states the law
-/// anew. What the law leaves out in an interval is of second order in its length and gone at its end, so that
-/// the whole is of second order.
+/// mix with that of its neighbours, or flows between all of them (scene::AirFlow). Contact compresses the air
+/// by the law of mpm::GapGas; the column follows its heat over every interval in which pressure or volume
+/// changed by a few hundredths, and states the law anew. What the law leaves out in an interval is of second
+/// order in its length and gone at its end, so that the whole is of second order.
 class ClosingGap {
  public:
   /// Parts charge and base by a gap (m) wider than the scene's roughness; before the first step.
@@ -43,6 +43,7 @@ class ClosingGap {
     double area = 0;   ///< m2 per radian or metre
     bool states_gas = false;
     double opening = 0;             ///< m, at present
+    double opening_before = 0;      ///< m, at the begin of the interval
     double closing_speed = 0;       ///< m/s, of the last step
     double pressure = 0;            ///< Pa, at present
     double pressure_ratio = 1;      ///< over that of the column which states the gas
@@ -68,12 +69,15 @@ class ClosingGap {
   void find_columns_of_stations(const TraceRecorder& recorder);
   double friction_of(const Node& node, const TraceRecorder& recorder) const;
   bool is_due(const Node& node, const mpm::GapGas& gas) const;
-  void follow_heat(std::size_t column, mpm::Contact& contact, const TraceRecorder& recorder, double time);
+  void follow_heat(std::size_t column, const TraceRecorder& recorder, double time);
   void start_interval(std::size_t column, mpm::Contact& contact, double time);
+  void share_air(mpm::Contact& contact, double time);
+  mpm::GapGas gas_of(const surface::EnclosedAir& air, double covolume) const;
   void note_ignition(std::size_t column, double time);
   void note_motion(bool touches, double time);
 
   surface::SkinModel model_;
+  bool shares_air_;
   std::vector<Node> nodes_;
   std::vector<std::vector<std::size_t>> columns_of_station_;
   double floor_;             ///< m

@@ -57,6 +57,7 @@ std::vector<Key<Surface>> closing_keys() {
           "when a charge lets go is not known, and the worst instant has to be looked for", of_motion),
   };
   for (Key<Surface>& key : keys) key = written_where(std::move(key), is_closing);
+  // Came later than stored launches that have neither.
   keys.push_back(written_where(
       always_plausible(
           flag_key("melts", Standing::assumed,
@@ -65,6 +66,15 @@ std::vector<Key<Surface>> closing_keys() {
                    &Surface::melts),
           "no verdict rests on it", of_motion),
       [](const Surface& surface) { return is_closing(surface) && surface.melts; }));
+  keys.push_back(written_where(
+      always_plausible(
+          word_key("air_flow", Standing::assumed,
+                   "Whether the air of a closing gap stays at its radius, or flows freely so that it has one "
+                   "pressure over the bottom: the two bounds.",
+                   {{"trapped", AirFlow::trapped}, {"common-pressure", AirFlow::common_pressure}},
+                   &Surface::air_flow),
+          "both are bounds of the same gap", of_motion),
+      [](const Surface& surface) { return is_closing(surface) && surface.air_flow != AirFlow::trapped; }));
   keys.push_back(always_plausible(
       optional_number_key<Surface>(
           "release_duration", Dimension::time, between(0, 0.1),

@@ -42,8 +42,9 @@ Fault check_keys_of_model(const SceneFile& file) {
                     fmt::format("absent, or gap.model = \"{}\"", model));
   };
   if (surface.model == GapModel::reservoir) {
-    for (const char* key : {"gap.roughness", "gap.base", "gap.release", "gap.release_duration", "gap.melts",
-                            "gap.air_cells", "gap.depth_cells", "gap.turns"})
+    for (const char* key :
+         {"gap.roughness", "gap.base", "gap.air_flow", "gap.release", "gap.release_duration", "gap.melts",
+          "gap.air_cells", "gap.depth_cells", "gap.turns"})
       if (file.given.contains(key)) return beside(key, "closing", "reservoir");
     return std::nullopt;
   }

@@ -43,6 +43,7 @@ scene::Scene scene_on(const StudyCase& input, const ClosingTerms& terms) {
   scene.surface.roughness = terms.roughness;
   scene.surface.release = terms.release;
   scene.surface.release_duration = terms.release_duration;
+  scene.surface.air_flow = terms.air_flow;
   scene.surface.melts = terms.melts;
   scene.charge().kinetics = terms.kinetics;
   return scene;
@@ -247,7 +248,8 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
   using scene::GapBase;
   const scene::Scene& scene = input.scene.scene;
   const scene::Surface& own = *input.closing;
-  const ClosingTerms insulated{GapBase::insulated, own.roughness, own.release, own.release_duration};
+  const ClosingTerms insulated{GapBase::insulated, own.roughness, own.release, own.release_duration,
+                               own.air_flow};
   ClosingTerms conducting = insulated, melting = insulated, smooth = insulated;
   conducting.base = GapBase::conducting;
   melting.melts = true;
@@ -260,13 +262,17 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
     for (const double share : release_shares) releases.push_back(time_at_share(scene.load, share));
     std::sort(releases.begin(), releases.end());
     releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-    ClosingBound corner{"corner", {}, why_without_corner(scene)};
-    for (const double release : releases) {
-      corner.terms.push_back(smooth);
-      corner.terms.back().release = release;
-    }
+    ClosingBound flowing{"flowing", {smooth, smooth}}, corner{"corner", {}, why_without_corner(scene)};
+    flowing.terms.front().air_flow = scene::AirFlow::trapped;
+    flowing.terms.back().air_flow = scene::AirFlow::common_pressure;
+    for (const double release : releases)
+      for (ClosingTerms terms : flowing.terms) {
+        terms.release = release;
+        corner.terms.push_back(terms);
+      }
     bounds.push_back({"melting", {melting}});
     bounds.push_back({"smooth", {smooth}});
+    bounds.push_back(std::move(flowing));
     bounds.push_back(std::move(corner));
   }
   const std::vector<materials::KineticsParameters> kinetics = kinetics_of(scene);

@@ -198,6 +198,7 @@ StudyCase case_of(std::string label, SceneFile scene) {
     made.closing = surface;
     surface.model = usual.model;
     surface.base = usual.base;
+    surface.air_flow = usual.air_flow;
     surface.roughness = usual.roughness;
     surface.release = usual.release;
     surface.release_duration = usual.release_duration;

@@ -25,8 +25,9 @@ void record(const std::vector<detail::FilmStation>& stations, const std::vector<
 
 double FilmEnergy::residual() const {
   const double magnitudes = std::abs(charge) + std::abs(base) + std::abs(gas) + std::abs(work) +
-                            std::abs(friction) + std::abs(reaction);
-  return magnitudes > 0.0 ? std::abs(charge + base + gas - work - friction - reaction) / magnitudes : 0.0;
+                            std::abs(friction) + std::abs(reaction) + std::abs(inflow);
+  const double made = charge + base + gas - work - friction - reaction - inflow;
+  return magnitudes > 0.0 ? std::abs(made) / magnitudes : 0.0;
 }
 
 FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& trace, double gap,

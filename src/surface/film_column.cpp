@@ -115,7 +115,7 @@ void FilmColumn::expand_at(const Cells& state, double factor) {
     const materials::CompressedAir air = grid_->isentropes.at(state[i] * factor);
     excess_[i] = air.temperature - reference_;
     slope_[i] = factor * air.slope;
-    capacity_[i] = grid_->capacity[i] * air.capacity_ratio;
+    capacity_[i] = air_share_ * grid_->capacity[i] * air.capacity_ratio;
   }
 }
 
@@ -123,7 +123,7 @@ void FilmColumn::find_conductances(double pressure) {
   const std::size_t first = grid_->air_begin - 1, last = grid_->base_begin - 1;
   for (std::size_t face = first; face <= last; ++face) {
     const double mean = reference_ + 0.5 * (excess_[face] + excess_[face + 1]);
-    conductance_[face] = of_air(pressure, air_, mean) / grid_->air_mass[face];
+    conductance_[face] = of_air(pressure, air_, mean) / (air_share_ * grid_->air_mass[face]);
   }
   conductance_[first] /= 1.0 + conductance_[first] * grid_->charge_resistance;
   conductance_[last] /= 1.0 + conductance_[last] * grid_->base_resistance;
@@ -201,8 +201,8 @@ double FilmColumn::error_of(double h) {
 double FilmColumn::charge_surface() const {
   const std::size_t in = grid_->air_begin - 1, out = grid_->air_begin;
   const double solid = excess_of(in), gas = excess_of(out);
-  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) / grid_->air_mass[in] *
-                         grid_->charge_resistance;
+  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) /
+                         (air_share_ * grid_->air_mass[in]) * grid_->charge_resistance;
   // Without conductivity the resistance is infinite, and what the cell has its surface has.
   return std::isfinite(through) ? reference_ + (solid + through * gas) / (1.0 + through) : reference_ + solid;
 }
@@ -210,8 +210,8 @@ double FilmColumn::charge_surface() const {
 double FilmColumn::base_surface() const {
   const std::size_t in = grid_->base_begin, out = grid_->base_begin - 1;
   const double solid = excess_of(in), gas = excess_of(out);
-  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) / grid_->air_mass[out] *
-                         grid_->base_resistance;
+  const double through = of_air(pressure_, air_, reference_ + 0.5 * (solid + gas)) /
+                         (air_share_ * grid_->air_mass[out]) * grid_->base_resistance;
   return std::isfinite(through) ? reference_ + (solid + through * gas) / (1.0 + through) : reference_ + solid;
 }
 
@@ -222,19 +222,45 @@ double FilmColumn::compress_to(double pressure) {
   return enthalpy_ - before;
 }
 
-/// Sum m R T/p.
-double FilmColumn::air_volume() const {
-  return materials::specific_gas_constant(air_) * grid_->mass * mean_air() / pressure_;
+/// Newton's method for the state of a cell with its new enthalpy.
+double FilmColumn::take_air(double more, double enthalpy) {
+  constexpr double exact = 1e-14;
+  constexpr int most = 20;
+  const double before = enthalpy_, part = more / (air_share_ + more);
+  // J/kg, of ideal gas alone.
+  const double entering = enthalpy / grid_->mass - air_.covolume * pressure_;
+  const double now = factor(pressure_), reference = materials::enthalpy(air_, reference_);
+  air_share_ += more;
+  for (std::size_t i = grid_->air_begin; more > 0.0 && i < grid_->base_begin; ++i) {
+    double without = state_[i] * now, wanted = 0.0;
+    for (int count = 0; count < most; ++count) {
+      const materials::CompressedAir air = grid_->isentropes.at(without);
+      const double own = materials::enthalpy(air_, air.temperature) - reference;
+      if (count == 0) wanted = own + part * (entering - own);
+      const double change = (wanted - own) / (air_.specific_heat * air.capacity_ratio * air.slope);
+      without += change;
+      if (!(std::abs(change) > exact * without)) break;
+    }
+    before_[i] += without / now - state_[i];  // its change in the last step stays
+    state_[i] = without / now;
+  }
+  enthalpy_ = find_enthalpy(pressure_);
+  return enthalpy_ - before;
 }
 
-double FilmColumn::covolume() const { return grid_->mass * air_.covolume; }
+/// Sum m R T/p.
+double FilmColumn::air_volume() const {
+  return materials::specific_gas_constant(air_) * (air_share_ * grid_->mass) * mean_air() / pressure_;
+}
+
+double FilmColumn::covolume() const { return air_share_ * grid_->mass * air_.covolume; }
 
 double FilmColumn::air_heat_capacity() const {
   const double now = factor(pressure_);
   double capacity = 0.0;
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
     capacity += grid_->capacity[i] * grid_->isentropes.at(state_[i] * now).capacity_ratio;
-  return capacity;
+  return air_share_ * capacity;
 }
 
 /// Every cell keeps its entropy, so that its volume falls by V/p (1 - R/c_p) dp.
@@ -275,7 +301,8 @@ double FilmColumn::find_enthalpy(double pressure) const {
   double sum = covolume() * pressure;
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i) {
     const double temperature = grid_->isentropes.at(state_[i] * now).temperature;
-    sum += grid_->capacity[i] / air_.specific_heat * (materials::enthalpy(air_, temperature) - reference);
+    sum += air_share_ * grid_->capacity[i] / air_.specific_heat *
+           (materials::enthalpy(air_, temperature) - reference);
   }
   return sum;
 }

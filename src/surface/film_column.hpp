@@ -46,11 +46,16 @@ class FilmColumn {
 
   /// Compresses the air without conduction to a pressure (Pa); the work V dp that it takes, J/m2.
   double compress_to(double pressure);
-  double pressure() const { return pressure_; }  ///< Pa
-  double air_volume() const;                     ///< m3/m2, without the covolume
-  double covolume() const;                       ///< m3/m2
-  double air_heat_capacity() const;              ///< J/(m2 K), at constant pressure
-  double exponent() const;                       ///< -d ln p/d ln volume without conduction
+  /// Mixes air into all cells, or takes as much of each away: `more` as a share of what the grid has, of a
+  /// specific enthalpy (see below). What the air's enthalpy gains, J/m2.
+  double take_air(double more, double enthalpy);
+  double air_share() const { return air_share_; }                      ///< of what the grid has
+  double specific_enthalpy() const { return enthalpy_ / air_share_; }  ///< J/m2, of as much as the grid has
+  double pressure() const { return pressure_; }                        ///< Pa
+  double air_volume() const;                                           ///< m3/m2, without the covolume
+  double covolume() const;                                             ///< m3/m2
+  double air_heat_capacity() const;                                    ///< J/(m2 K), at constant pressure
+  double exponent() const;  ///< -d ln p/d ln volume without conduction
 
   double temperature(std::size_t cell) const { return reference_ + excess_of(cell); }
   /// For heat of reaction in a cell of the charge.
@@ -88,6 +93,7 @@ class FilmColumn {
   double reference_;      // K; round-off is that of the difference from it
   double pressure_;       // Pa
   double enthalpy_;       // J/m2, of the air as it is
+  double air_share_ = 1;  // of the air that the grid has
   Cells state_;           // solids: K above the reference; air: potential temperature, K
   Cells before_;          // the same one step earlier
   double last_step_ = 0;  // s

@@ -29,6 +29,11 @@ class FilmStation {
     energy_.work += column_.compress_to(pressure);
     close_account();
   }
+  /// See FilmColumn::take_air.
+  void take_air(double more, double enthalpy) {
+    energy_.inflow += column_.take_air(more, enthalpy);
+    close_account();
+  }
   const FilmColumn& column() const { return column_; }
   bool ignited() const { return point_.ignited; }
   double ignition_time() const { return point_.ignition_time; }  ///< s after the begin of its interval

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace launchsafe::surface {
@@ -18,6 +19,8 @@ constexpr double lowest_share = 1e-6;
 constexpr double largest_ratio = 10.0, least_excess = 2e-3;
 /// How well a column's air fills its opening, by iterations of second order.
 constexpr double same_volume = 1e-13;
+/// The same of a single column, where air flows between them: it is left to flow in the next interval.
+constexpr double same_place = 1e-9;
 constexpr int most_iterations = 20;
 
 /// A column at the begin of its interval, and since then.
@@ -41,7 +44,35 @@ struct GapColumns::Parts {
     const double charge = film.charge_surface();
     return model.base_conductivity > 0.0 ? 0.5 * (charge + film.base_surface()) : charge;
   }
+  /// m/s, of a film of even heating.
+  double usual_exchange(const detail::FilmColumn& film) const {
+    return (model.base_conductivity > 0.0 ? 12.0 : 3.0) *
+           materials::air_conductivity(0.5 * (walls(film) + film.mean_air())) / film.air_heat_capacity();
+  }
+  void move_air(const std::vector<double>& openings, const std::vector<double>& areas);
 };
+
+/// Of columns that are too full as much leaves as has no place, and is divided over the others by the place
+/// that they have: where their heat capacity is constant, all are full then.
+void GapColumns::Parts::move_air(const std::vector<double>& openings, const std::vector<double>& areas) {
+  const auto place = [&](std::size_t i) {
+    return openings[i] - columns[i].column().air_volume() - columns[i].column().covolume();
+  };
+  double leaving = 0.0, enthalpy = 0.0, free = 0.0;
+  std::vector<double> more(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const detail::FilmColumn& film = columns[i].column();
+    more[i] = place(i);
+    if (more[i] > 0.0) free += areas[i] * more[i];
+    if (!(more[i] < 0.0)) continue;
+    more[i] *= film.air_share() / (openings[i] - more[i]);
+    leaving -= areas[i] * more[i];
+    enthalpy -= areas[i] * more[i] * film.specific_enthalpy();
+  }
+  if (!(leaving > 0.0 && free > 0.0)) return;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    columns[i].take_air(more[i] > 0.0 ? leaving * more[i] / free : more[i], enthalpy / leaving);
+}
 
 FilmNumerics GapColumns::numerics_of(const scene::Surface& surface) {
   const auto depth = static_cast<std::size_t>(surface.depth_cells);
@@ -90,14 +121,48 @@ EnclosedAir GapColumns::fit(std::size_t column, double opening) {
   now.pressure = film.pressure();
   if (station.ignited()) return now;
   const double walls = parts_->walls(film), mean = film.mean_air();
-  const double usual = (parts_->model.base_conductivity > 0.0 ? 12.0 : 3.0) *
-                       materials::air_conductivity(0.5 * (walls + mean)) / film.air_heat_capacity();
   now.volume_at_walls = now.volume * walls / mean;
+  const double usual = parts_->usual_exchange(film);
   now.exchange = usual;
   if (interval.length > 0.0 && std::abs(excess) > least_excess)
     now.exchange = std::clamp(-conducted / excess * 0.5 * (interval.opening + opening) / interval.length,
                               usual / largest_ratio, usual * largest_ratio);
   interval = {0.0, opening, 1.0 - walls / mean, now};
+  return now;
+}
+
+EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>& openings,
+                                     const std::vector<double>& areas) {
+  std::vector<detail::FilmStation>& columns = parts_->columns;
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  const auto mean = [&](auto of_column) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < columns.size(); ++i) sum += areas[i] * of_column(i, columns[i].column());
+    return sum / area;
+  };
+  const auto volume = [](std::size_t, const detail::FilmColumn& film) { return film.air_volume(); };
+  const double opening = mean([&](std::size_t i, const auto&) { return openings[i]; });
+  EnclosedAir now;
+  now.volume = opening - mean([](std::size_t, const auto& film) { return film.covolume(); });
+  for (detail::FilmStation& column : columns) column.compress_to(pressure);
+  for (int count = 0; count < most_iterations; ++count) {
+    const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto&film) {
+                                          return std::abs(openings[i] - film.air_volume() - film.covolume());
+                                        });
+    now.exponent =
+        filled / mean([](std::size_t, const auto& film) { return film.air_volume() / film.exponent(); });
+    if (std::abs(filled / now.volume - 1.0) < same_volume && misplaced < same_place * opening) break;
+    pressure *= std::pow(filled / now.volume, now.exponent);
+    for (detail::FilmStation& column : columns) column.compress_to(pressure);
+    parts_->move_air(openings, areas);
+  }
+  now.pressure = pressure;
+  now.volume_at_walls = mean([&](std::size_t, const auto& film) {
+    return film.air_volume() * parts_->walls(film) / film.mean_air();
+  });
+  now.exchange = opening / now.volume * mean([&](std::size_t i, const auto& film) {
+                   return film.air_volume() * parts_->usual_exchange(film) / openings[i];
+                 });
   return now;
 }
 
@@ -114,6 +179,6 @@ double GapColumns::chemical_share(std::size_t column) const {
   return parts_->columns[column].chemical_share();
 }
 const FilmEnergy& GapColumns::energy(std::size_t column) const { return parts_->columns[column].energy(); }
-double GapColumns::covolume() const { return parts_->columns.front().column().covolume(); }
+double GapColumns::covolume(std::size_t column) const { return parts_->columns[column].column().covolume(); }
 
 }  // namespace launchsafe::surface

@@ -169,6 +169,23 @@ TEST(ClosingGap, KeepsTheEnergyOfTheLaunch) {
   EXPECT_LT(largest_energy_drift(result.mechanics), 1e-6);
 }
 
+TEST(ClosingGap, HeatsAsMuchWhereAirFlowsAndAllOfItClosesAlike) {
+  // A column in a smooth wall moves along x alone.
+  scene::Scene scene = flying_column(1e5);
+  const double trapped = rise_of(close_gap(scene, 4e-4, GapBase::insulated, 1e-5));
+  scene.surface.air_flow = scene::AirFlow::common_pressure;
+  EXPECT_NEAR(rise_of(close_gap(scene, 4e-4, GapBase::insulated, 1e-5)), trapped, 0.01 * trapped);
+}
+
+TEST(ClosingGap, KeepsTheEnergyOfTheLaunchAndOfAirThatFlows) {
+  scene::Scene scene = parting_shell();
+  scene.surface.air_flow = scene::AirFlow::common_pressure;
+  const CaseResult result = run_with_skin(scene, 4e-4);
+  ASSERT_EQ(result.mechanics.status, RunStatus::completed) << result.mechanics.reason;
+  EXPECT_LT(largest_energy_drift(result.mechanics), 1e-6);
+  EXPECT_LT(result.gaps.front().skin.energy_residual, 1e-9);
+}
+
 TEST(ClosingGap, IsNotReadOffTheTraceOfAnotherLaunch) {
   const scene::Scene scene = parting_shell();
   const GapResult read = evaluate_gap(scene, run_mechanics(scene).trace, 4e-4);

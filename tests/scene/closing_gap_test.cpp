@@ -52,6 +52,17 @@ TEST(ClosingGap, IsNotWrittenWhereThereIsNone) {
     EXPECT_EQ(to_toml(file->scene).find(key), std::string::npos) << key;
 }
 
+TEST(ClosingGap, IsWrittenWithTheFlowOfItsAirOnlyWhereItFlows) {
+  const auto flows =
+                 parse_scene(closing("model = \"closing\"\nair_flow = \"common-pressure\"\n"), "shell.toml"),
+             trapped = parse_scene(closing("model = \"closing\"\nair_flow = \"trapped\"\n"), "shell.toml");
+  ASSERT_TRUE(flows && trapped);
+  EXPECT_EQ(flows->scene.surface.air_flow, AirFlow::common_pressure);
+  const std::string text = to_toml(flows->scene);
+  EXPECT_EQ(to_toml(parse_scene(text, "again.toml")->scene), text);
+  EXPECT_EQ(to_toml(trapped->scene), to_toml(parse_scene(closing(), "shell.toml")->scene));
+}
+
 TEST(ClosingGap, IsAnotherLaunch) {
   const auto reservoir = parse_scene(closing(""), "shell.toml"),
              closed = parse_scene(closing(), "shell.toml");
@@ -90,7 +101,7 @@ TEST(ClosingGap, IsRefusedWithKeysOfTheReservoirAndTheOtherWayRound) {
   expect_error(error_of(film), line_of(film, "air ="), "gap.air", "\"reservoir\" beside \"closing\"",
                "absent");
   for (const char* key : {"roughness = \"10 um\"", "base = \"insulated\"", "release = \"1 ms\"",
-                          "release_duration = \"1 ms\""}) {
+                          "release_duration = \"1 ms\"", "air_flow = \"common-pressure\""}) {
     const std::string text = closing(std::string(key) + "\n");
     const std::string name = std::string(key).substr(0, std::string(key).find(' '));
     expect_error(error_of(text), line_of(text, key), "gap." + name, "\"closing\" beside \"reservoir\"",

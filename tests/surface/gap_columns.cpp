@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -160,6 +161,97 @@ TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
   // By a factor of 2 in the length of intervals, on average over four of them.
   const double order = std::log2(std::abs(hottest(50) - exact) / std::abs(hottest(200) - exact)) / 2.0;
   EXPECT_GT(order, 1.6);
+}
+
+/// Of columns by area.
+double sum_of(const GapColumns& columns, const std::vector<double>& areas, double FilmEnergy::*part) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < areas.size(); ++i) sum += areas[i] * columns.energy(i).*part;
+  return sum;
+}
+
+/// Closes two columns that share their air from 0.4 mm, the first by a part, the second by another, in a time
+/// (s); the first is heated by friction (K/s).
+EnclosedAir close_together(GapColumns& columns, const std::vector<double>& areas, double first, double second,
+                           double time, int intervals, double heating) {
+  constexpr double gap = 4e-4;
+  EnclosedAir air = columns.fit_together(101325.0, {gap, gap}, areas);
+  for (int i = 1; i <= intervals; ++i) {
+    const double part = double(i) / intervals;
+    const std::vector<double> openings{gap * (1.0 - first * part), gap * (1.0 - second * part)};
+    const double area = areas[0] + areas[1];
+    const double mean = (areas[0] * openings[0] + areas[1] * openings[1]) / area;
+    const double covolume = (areas[0] * columns.covolume(0) + areas[1] * columns.covolume(1)) / area;
+    const double end = air.pressure * std::pow(air.volume / (mean - covolume), air.exponent);
+    for (std::size_t column : {0u, 1u})
+      columns.advance(column, time / intervals, air.pressure, end, 0.5 * (air.pressure + end),
+                      column == 0 ? heating : 0.0);
+    air = columns.fit_together(end, openings, areas);
+  }
+  return air;
+}
+
+/// The same of one column that keeps its air, by 0.95.
+EnclosedAir close_alone(GapColumns& columns, double time, int intervals) {
+  constexpr double gap = 4e-4;
+  EnclosedAir air = columns.fit(0, gap);
+  for (int i = 1; i <= intervals; ++i) {
+    const double opening = gap * (1.0 - 0.95 * i / intervals);
+    const double end = air.pressure * std::pow(air.volume / (opening - columns.covolume()), air.exponent);
+    columns.advance(0, time / intervals, air.pressure, end, 0.5 * (air.pressure + end), 0.0);
+    air = columns.fit(0, opening);
+  }
+  return air;
+}
+
+TEST(GapColumns, ThatShareTheirAirAreOnOneAdiabat) {
+  // p V^1.4 of both together; without conduction all of it has one temperature.
+  const std::vector<double> areas{1.0, 2.0};
+  GapColumns columns(inert_model(), 2, 4e-4, 1e-2);
+  const EnclosedAir air = close_together(columns, areas, 0.95, 0.2, 1e-18, 200, 0.0);
+  const double ratio = 3.0 / (0.05 + 2.0 * 0.8);
+  EXPECT_NEAR(air.pressure / 101325.0, std::pow(ratio, 1.4), 1e-9 * std::pow(ratio, 1.4));
+  for (std::size_t column : {0u, 1u})
+    EXPECT_NEAR(columns.mean_air(column), 300.0 * std::pow(ratio, 0.4), 1e-4);
+  // Work and heat capacity of all of it: m c_p = 3.5 p0 V0/T0.
+  const double work = 3.5 * 101325.0 * 3.0 * 4e-4 * (std::pow(ratio, 0.4) - 1.0);
+  EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::work), work, 1e-6 * work);
+  EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::gas), work, 1e-6 * work);
+  EXPECT_LT(columns.energy(0).inflow, 0.0);
+  EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::inflow), 0.0, 1e-12 * work);
+}
+
+TEST(GapColumns, ThatShareTheirAirAccountForTheHeatThatFlowsWithIt) {
+  const std::vector<double> areas{1.0, 0.3};
+  SkinModel model = inert_model();
+  model.surface.air = materials::hot_and_dense(model.surface.air);
+  for (const double conductivity : {model.base_conductivity, 0.0}) {
+    model.base_conductivity = conductivity;
+    GapColumns columns(model, 2, 4e-4, 1e-2);
+    close_together(columns, areas, 0.97, 0.5, 1e-4, 400, 1e6);
+    const double work = sum_of(columns, areas, &FilmEnergy::work);
+    EXPECT_GT(work, 10.0);
+    for (std::size_t column : {0u, 1u}) EXPECT_LT(columns.energy(column).residual(), 1e-9);
+    EXPECT_GT(std::abs(columns.energy(0).inflow), 0.1 * work);
+    EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::inflow), 0.0, 1e-9 * work);
+    const double heat = sum_of(columns, areas, &FilmEnergy::charge) +
+                        sum_of(columns, areas, &FilmEnergy::base) + sum_of(columns, areas, &FilmEnergy::gas);
+    EXPECT_NEAR(heat, work + sum_of(columns, areas, &FilmEnergy::friction), 1e-9 * heat);
+  }
+}
+
+TEST(GapColumns, ThatShareTheirAirAreThoseThatKeepItWhereAllCloseAlike) {
+  SkinModel model = inert_model();
+  model.surface.air = materials::hot_and_dense(model.surface.air);
+  GapColumns together(model, 2, 4e-4, 1e-2), alone(model, 1, 4e-4, 1e-2);
+  // At rest, before conduction tells more than a film of even heating has.
+  const double rest = model.surface.air.initial_pressure;
+  const double usual = alone.fit(0, 4e-4).exchange;
+  EXPECT_NEAR(together.fit_together(rest, {4e-4, 4e-4}, {1.0, 2.0}).exchange, usual, 1e-9 * usual);
+  const EnclosedAir shared = close_together(together, {1.0, 2.0}, 0.95, 0.95, 5e-5, 400, 0.0),
+                    own = close_alone(alone, 5e-5, 400);
+  EXPECT_NEAR(shared.pressure, own.pressure, 1e-9 * own.pressure);
+  EXPECT_NEAR(together.hottest(1), alone.hottest(0), 1e-9 * 300.0);
 }
 
 TEST(GapColumns, ReturnWhatStretchedAirTook) {

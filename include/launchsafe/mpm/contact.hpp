@@ -22,7 +22,8 @@
 // below is counted from the floor, and the normal impulse is that of the gas and of the floor's contact, of
 // which only the latter is >= 0 and rubs. The gas pushes with its pressure at the mean
 // (h_old + 2 h + h_new)/4 of three openings, so that its stiffness limits no step (Newmark's mean
-// acceleration) and the order stays the second.
+// acceleration) and the order stays the second. Gas that all nodes share has one pressure, at the mean over
+// their area.
 //
 // An impulse J on a pair does the work J (v_before + v_after)/2, with the relative velocities at which the
 // last step and this one move: with these the leapfrog energy balance holds to round-off. A pair whose gap
@@ -96,9 +97,14 @@ class Contact {
   void part(std::size_t face, double opening, double floor);
   /// Puts gas between a node of a parted face and the other one.
   void set_gas(std::size_t face, std::size_t node, const GapGas& gas);
+  /// Puts one gas between all nodes of parted faces, in place of theirs: its opening is the mean one.
+  void set_common_gas(const GapGas& gas) { common_gas_ = gas; }
+  const GapGas& common_gas() const { return common_gas_; }
   const GapGas& gas(std::size_t face, std::size_t node) const {
     return rows_[faces_[face].first_row + node].gas;
   }
+  /// m, over the area of all parted faces.
+  double mean_opening() const;
   /// m, between a node of a parted face and the other one.
   double opening(std::size_t face, std::size_t node) const;
   /// J/m2, that the faces did on it since the start, against its pressure above that outside.
@@ -207,6 +213,10 @@ class Contact {
   void solve_impulses(double dt);
   double gas_impulse(const Row& row, double speed, double dt) const;
   double push_by_gas(const Row& row, double speed, double dt) const;
+  bool shares_gas(const Row& row) const {
+    return common_gas_.pressure > 0.0 && row.floor > 0.0 && row.normal_inertia > 0.0;
+  }
+  void push_by_common_gas(double dt);
   double sweep(double dt);
   bool break_bonds(double dt);
   ContactTotals add_up_energy();
@@ -218,6 +228,7 @@ class Contact {
   std::size_t points_ = 0;
   std::vector<Member> members_;  ///< by nodes
   std::vector<Row> rows_;
+  GapGas common_gas_;
   std::vector<Share> shares_;
   std::vector<PairRow> paired_;       ///< of one face, used again
   Field inertia_;                     ///< kg

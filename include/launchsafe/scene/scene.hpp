@@ -28,6 +28,8 @@ enum class AirModel { reservoir, film };
 enum class GapModel { reservoir, closing };
 /// Whether the base takes heat from the air of a closing gap.
 enum class GapBase { conducting, insulated };
+/// Whether the air of a closing gap stays at its radius, or flows freely and has one pressure.
+enum class AirFlow { trapped, common_pressure };
 enum class Exchange { rate, per_step };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
@@ -103,8 +105,9 @@ struct Surface {
   AirPressure air_pressure = AirPressure::charge_bottom;
   AirModel air_model = AirModel::reservoir;
   GapModel model = GapModel::reservoir;
-  GapBase base = GapBase::conducting;  ///< of a closing gap
-  double roughness = 1e-5;             ///< m, the least opening of a closing gap
+  GapBase base = GapBase::conducting;   ///< of a closing gap
+  AirFlow air_flow = AirFlow::trapped;  ///< likewise
+  double roughness = 1e-5;              ///< m, the least opening of a closing gap
   /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
   double release = 0.0;
   /// s, over which what holds it then falls to nothing; none: transit_time (selective_inertia.hpp).

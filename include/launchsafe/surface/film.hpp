@@ -19,7 +19,7 @@ struct FilmNumerics {
 };
 
 /// Where the energy of one column came from and went to since the start, J/m2 of bottom:
-/// charge + base + gas = work + friction + reaction.
+/// charge + base + gas = work + friction + reaction + inflow.
 struct FilmEnergy {
   double charge = 0;    ///< gained by the charge
   double base = 0;      ///< gained by the steel
@@ -27,6 +27,7 @@ struct FilmEnergy {
   double work = 0;      ///< integral of V dp over the air
   double friction = 0;  ///< friction heat in the charge, as deep as the column reaches
   double reaction = 0;  ///< heat of reaction in the charge, less what melted it
+  double inflow = 0;    ///< enthalpy of air that came from other columns, less that of what left
   /// Difference of the two sides over the sum of magnitudes; 0 where nothing happened.
   double residual() const;
 };

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace launchsafe::surface {
 
@@ -44,6 +45,11 @@ class GapColumns {
   void advance(std::size_t column, double length, double begin, double end, double mean, double heating);
   /// Gives the air of a column the volume of an opening (m), without conduction.
   EnclosedAir fit(std::size_t column, double opening);
+  /// The same of all columns, which had one pressure (Pa) and share their air: it flows until each fills its
+  /// opening at one pressure, what leaves with the mean enthalpy of its column, what enters with the mean of
+  /// what left. Volumes and exchange are means over the area.
+  EnclosedAir fit_together(double pressure, const std::vector<double>& openings,
+                           const std::vector<double>& areas);
 
   double hottest(std::size_t column) const;   ///< K, over the depth of the charge; T2 once it has ignited
   double mean_air(std::size_t column) const;  ///< K, over its mass
@@ -52,7 +58,7 @@ class GapColumns {
   double ignition_time(std::size_t column) const;  ///< s after the begin of the interval in which it ignited
   double chemical_share(std::size_t column) const;
   const FilmEnergy& energy(std::size_t column) const;
-  double covolume() const;  ///< m3/m2 of all the air's molecules
+  double covolume(std::size_t column = 0) const;  ///< m3/m2 of all the air's molecules
 
  private:
   struct Parts;
