@@ -1,5 +1,5 @@
 // launchsafe ask: what the fit of a study predicts of a launch that nobody computed.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -12,6 +12,13 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct AskArguments {
+  std::filesystem::path study;        ///< folder of a finished study, or its surrogate.json
+  std::vector<std::string> settings;  ///< "KEY=VALUE", or a list of values
+  std::optional<double> gap;          ///< m; none: the study's
+  bool csv = false;                   ///< a row a launch, for programs
+};
 
 using scene::Expected, scene::InputError;
 using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
@@ -46,8 +53,11 @@ Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record)
   const bool of_scene = std::ranges::all_of(record.keys, [](const std::string& name) {
     return scene::find_key(scene::scene_keys(), name) != nullptr;
   });
-  const auto file = of_scene ? scene::SceneFile{record.scene}
-                             : scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
+  Expected<scene::SceneFile> file = scene::SceneFile{};
+  if (of_scene)
+    file->scene = record.scene;
+  else
+    file = scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
   if (!file) return file.error();
   std::vector<AskedInput> inputs;
   for (const std::string& name : record.keys) {
@@ -89,9 +99,9 @@ std::optional<InputError> set_input(const std::string& given, std::vector<AskedI
 
 /// A value beyond what was computed; round-off apart.
 std::optional<InputError> check_ranges(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
-  const std::vector<study::InputRange> ranges = study::ranges_of(record);
+  const std::vector<math::Interval> ranges = study::ranges_of(record);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    const study::InputRange range = ranges[i];
+    const math::Interval range = ranges[i];
     const double slack = 1e-9 * (range.upper - range.lower);
     const scene::Dimension dimension = inputs[i].key.dimension;
     for (const double value : inputs[i].values)
@@ -227,8 +237,8 @@ std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& reco
 }
 
 /// How often a gap (m) would ignite over what the inputs that are not set may be.
-nlohmann::ordered_json print_ignitions(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
-                                       const AskedLaunch& launch, double gap, Console& console) {
+Json print_ignitions(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+                     const AskedLaunch& launch, double gap, Console& console) {
   const study::PredictedIgnitions of = study::predicted_ignitions(
       record, gap, fixed_coordinates(record, inputs, record.inputs.point_of(launch.values)));
   const auto share = [&of](std::size_t count) {
@@ -252,42 +262,58 @@ nlohmann::ordered_json print_ignitions(const SurrogateRecord& record, const std:
 void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
                const AskedLaunch& launch, double gap, Console& console) {
   const auto outputs = predicted_outputs(record);
-  const auto found =
-      std::ranges::find(outputs, report::quantity::critical_gap().name, &SurrogateOutput::name);
+  const auto found = std::ranges::find(outputs, report::quantity::critical_gap.name, &SurrogateOutput::name);
   if (found == outputs.end()) return;
   const std::string word =
       word_on(gap, *launch.predictions[static_cast<std::size_t>(found - outputs.begin())]);
   console.print_text(fmt::format("\n{}: {}\n", scene::format_quantity(gap, scene::Dimension::length), word));
-  nlohmann::ordered_json facts{{"gap_cm", report::shown_gap(gap)}, {"gap", word}};
+  Json facts{{"gap_cm", report::shown_gap(gap)}, {"gap", word}};
   if (record.drawn) facts.update(print_ignitions(record, inputs, launch, gap, console));
   console.print_json(facts);
 }
 
-}  // namespace
-
 ExitCode perform(const AskArguments& arguments, Console& console) {
-  const auto record = read_record(arguments.study);
-  if (!record) return console.refuse(record.error());
-  auto inputs = inputs_in_scene(*record);
-  if (!inputs) return console.refuse(inputs.error());
+  const SurrogateRecord record = console.value_of(read_record(arguments.study));
+  std::vector<AskedInput> inputs = console.value_of(inputs_in_scene(record));
   for (const std::string& given : arguments.settings)
-    if (const auto fault = set_input(given, *inputs)) return console.refuse(*fault);
-  if (const auto fault = check_ranges(*record, *inputs)) return console.refuse(*fault);
-  if (const auto fault = check_count(*inputs)) return console.refuse(*fault);
-  std::vector<AskedLaunch> launches = launches_of(*inputs);
-  predict(*record, launches);
+    if (const auto fault = set_input(given, inputs)) return console.refuse(*fault);
+  if (const auto fault = check_ranges(record, inputs)) return console.refuse(*fault);
+  if (const auto fault = check_count(inputs)) return console.refuse(*fault);
+  std::vector<AskedLaunch> launches = launches_of(inputs);
+  predict(record, launches);
   const bool is_one = launches.size() == 1;
   const auto is_told = [](const auto& prediction) { return prediction.has_value(); };
   if (is_one && !std::ranges::all_of(launches.front().predictions, is_told))
     return console.refuse(
         fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
                      "values nearer to the middle of their ranges, or a study of the launch itself"));
-  const report::Table table = table_of(*record, *inputs, launches);
+  const report::Table table = table_of(record, inputs, launches);
   console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table, width_of_output()));
-  if (console.json()) console.print_json({{"launches", report::to_json(table)["rows"]}});
+  if (console.json()) console.print_json({{"launches", report::json_rows(table)}});
   if (is_one && !arguments.csv)
-    print_gap(*record, *inputs, launches.front(), arguments.gap.value_or(record->gap), console);
+    print_gap(record, inputs, launches.front(), arguments.gap.value_or(record.gap), console);
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_ask(CLI::App& app, CommandLine& line) {
+  auto [command, ask] = add_command<AskArguments>(
+      app, line, "ask", "Ask the fit of a study about a launch that nobody computed");
+  add_required(command, "study", ask.study, "STUDY_DIR",
+               "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
+  add_optional(command, "--set", ask.settings, "KEY=VALUE",
+               "An input of the launch, or a list of values, of which all combinations are launches; those "
+               "that are not set are as in the study's scene")
+      ->allow_extra_args(false);
+  const auto read_gap = [](std::string_view text) {
+    const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
+    return gap && *gap >= 0.0 ? gap : std::nullopt;
+  };
+  add_amount(command, "--gap", ask.gap, read_gap, "a length such as \"0.3 mm\"", "LENGTH",
+             "Gap to be told of; the study's unless given");
+  CLI::Option* csv = command.add_flag("--csv", ask.csv, "A row a launch, as CSV, in place of text");
+  csv->excludes(command.get_option("--gap"));
 }
 
 }  // namespace launchsafe::app

@@ -1,7 +1,12 @@
 #include "common_options.hpp"
 
+#include "built_in_texts.hpp"
+#include "launchsafe/report/page_texts.hpp"
+#include "launchsafe/scene/scene_keys.hpp"
+
 #include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <charconv>
@@ -32,8 +37,6 @@ constexpr std::array<UnitFactor, 13> size_units{{{"b", 1},
 constexpr std::array<UnitFactor, 5> duration_units{
     {{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}}};
 
-constexpr std::array<UnitFactor, 2> temperature_units{{{"", 1}, {"k", 1}}};
-
 template <std::size_t count>
 std::optional<double> parse_amount(std::string_view text, const std::array<UnitFactor, count>& units) {
   double number = 0;
@@ -60,12 +63,46 @@ std::optional<double> parse_size(std::string_view text) {
 std::optional<double> parse_duration(std::string_view text) { return parse_amount(text, duration_units); }
 constexpr const char* allowed_durations = "a duration such as 90s, 10min, 2h or 1d";
 
-/// K: "2K", "0.5 K", "2". Nothing for any other text, and for what is not more than zero.
-std::optional<double> parse_temperature(std::string_view text) {
-  return parse_amount(text, temperature_units);
+/// What an argument takes, by the type that its help shows, as variables of the script: files of an
+/// extension, folders, or the words of a closed list, which are in small letters with bars between. Empty for
+/// what is free.
+std::string candidates_of(const CLI::Option& argument) {
+  std::string type = argument.get_type_name();
+  type.erase(std::min(type.find(':'), type.size()));  // what the parser adds to the type
+  if (type == "KEY=VALUE") return "values=$keys";
+  if (type.find("DIR") != std::string::npos || type == "FOLDER...") return "folders=1";
+  if (const std::size_t dot = type.rfind('.'); dot != std::string::npos && !type.ends_with("..."))
+    return "files=" + type.substr(dot + 1);
+  if (type.empty() || type != boost::algorithm::to_lower_copy(type)) return {};
+  std::ranges::replace(type, '|', ' ');
+  return fmt::format("values='{}'", type);
+}
+
+report::Row row_of(const CLI::App& command) {
+  report::Row row{{"name", command.get_name()}, {"names", ""}, {"options", report::Row::array()}};
+  std::vector<std::string> all, positional;
+  for (const CLI::Option* option : command.get_options()) {
+    std::vector<std::string> names;
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+    all.insert(all.end(), names.begin(), names.end());
+    if (names.empty())
+      positional.push_back(candidates_of(*option));
+    else if (option->get_items_expected_max() > 0)
+      row["options"].push_back(
+          {{"names", fmt::format("{}", fmt::join(names, "|"))}, {"take", candidates_of(*option)}});
+  }
+  row["names"] = fmt::format("{}", fmt::join(all, " "));
+  row["positional"] = fmt::format("{}", fmt::join(positional, " "));
+  return row;
 }
 
 }  // namespace
+
+std::string footer_of(const std::string& command) {
+  const std::string& text = help_texts().at(command + ".txt");
+  return "\n" + text.substr(0, text.size() - 1);
+}
 
 CLI::Validator no_option_name(const char* kind) {
   const auto check = [kind](const std::string& text) {
@@ -104,6 +141,9 @@ void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<
 }
 
 void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {
+  const auto parse_temperature = [](std::string_view text) {
+    return parse_amount(text, std::array<UnitFactor, 2>{{{"", 1}, {"k", 1}}});
+  };
   add_amount(command, "--tolerance", tolerance, parse_temperature,
              "a temperature difference such as 2K or 0.5K", "KELVIN",
              "Use the cheapest setting of the study's accuracy record that knows T max to this, such as 2K");
@@ -112,6 +152,15 @@ void add_tolerance(CLI::App& command, std::optional<double>& tolerance) {
 void add_update(CLI::App& command, bool& update) {
   command.add_flag("--update", update,
                    "Use the stored cases of another study in DIR; its report moves to DIR/earlier-N");
+}
+
+std::string bash_completion(const CLI::App& app) {
+  report::Row facts{{"commands", report::Row::array()}, {"keys", report::Row::array()}};
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    facts["commands"].push_back(row_of(*command));
+  for (const scene::DocumentedKey& key : scene::describe_keys())
+    facts["keys"].push_back(key.description.name + "=");
+  return report::filled(completion_template, {&facts});
 }
 
 }  // namespace launchsafe::app

@@ -1,10 +1,13 @@
 // Options that several commands have, and those whose text is an amount with a unit.
 #pragma once
 
+#include "commands.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/study/options.hpp"
 
 #include <CLI/CLI.hpp>
+
+#include <memory>
 
 namespace launchsafe::app {
 
@@ -19,6 +22,40 @@ template <scene::Dimension dimension>
 std::optional<double> parse_positive(std::string_view text) {
   const auto value = parse_scene_quantity<dimension>(text);
   return value && *value > 0.0 ? value : std::nullopt;
+}
+
+/// What the help of a command says below its options.
+std::string footer_of(const std::string& command);
+
+/// A subcommand and what its options write to while CLI11 parses, with which it is performed.
+template <class Arguments>
+std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, const char* name,
+                                             const char* meaning) {
+  CLI::App& command = *app.add_subcommand(name, meaning);
+  command.footer(footer_of(name));
+  const auto arguments = std::make_shared<Arguments>();
+  command.callback([&line, arguments, name] {
+    line.perform = [arguments](Console& console) { return perform(*arguments, console); };
+    line.command = name;
+  });
+  return {command, *arguments};
+}
+
+/// Where to read how to write a command line that makes no sense.
+inline constexpr const char* usage_hint = " (launchsafe --help shows the usage)";
+
+/// What must be given.
+template <class Value>
+CLI::Option* add_required(CLI::App& command, const char* name, Value& value, const char* type,
+                          const char* meaning) {
+  return command.add_option(name, value, meaning)->required()->type_name(type);
+}
+
+/// What may be given.
+template <class Value>
+CLI::Option* add_optional(CLI::App& command, const char* name, Value& value, const char* type,
+                          const char* meaning) {
+  return command.add_option(name, value, meaning)->type_name(type);
 }
 
 /// Refuses `-o --json`, which would name a folder or file (`kind`) that nobody means.

@@ -26,8 +26,8 @@ std::atomic<bool>& owed() {
 
 /// Null for an empty text, and for 0.
 template <class Part>
-nlohmann::ordered_json or_null(const Part& part) {
-  return part == Part{} ? nlohmann::ordered_json() : nlohmann::ordered_json(part);
+Json or_null(const Part& part) {
+  return part == Part{} ? Json() : Json(part);
 }
 
 /// Writes all of the text: 0, or the number of the error that kept the rest from being written. `wait`: where
@@ -79,7 +79,7 @@ void Console::print_text(std::string_view text) {
   if (!json_) write_result(text);
 }
 
-void Console::print_json(nlohmann::ordered_json members) {
+void Console::print_json(Json members) {
   if (!json_) return;
   for (auto& [key, value] : members.items()) object_[key] = std::move(value);
 }
@@ -87,10 +87,6 @@ void Console::print_json(nlohmann::ordered_json members) {
 void Console::remark(std::string_view text) const {
   if (!quiet_) say(fmt::format("{}\n", text));
 }
-
-void Console::error(const std::string& message) { add_error(message, {}); }
-
-void Console::error(const scene::InputError& error) { add_error(error.message(), error); }
 
 ExitCode Console::fail(const std::string& message) {
   error(message);
@@ -103,7 +99,7 @@ ExitCode Console::end_with(const store::Error& error) {
   return folder_is_wrong ? refuse(error.message) : fail(error.message);
 }
 
-void Console::add_error(const std::string& message, const scene::InputError& parts) {
+void Console::error(const std::string& message, const scene::InputError& parts) {
   say(fmt::format("launchsafe: {}\n", message));
   if (!json_) return;
   if (object_.contains("error")) {
@@ -136,8 +132,7 @@ void Console::failures(const std::vector<kinds::Failure>& failures) {
 
 ExitCode Console::finish(ExitCode code) {
   if (json_) {
-    const std::string text =
-        object_.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    const std::string text = object_.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     owed() = false;
     write_result(text);
   }
@@ -153,11 +148,10 @@ void Console::write_result(std::string_view text) {
   output_lost_ = output_lost_ || (error != 0 && error != EPIPE);
 }
 
-ExitCode fail_at_once(const char* message) {
+void fail_at_once(const char* message) {
   for (const char* part : {"launchsafe: ", message, "\n"}) say(part);
   if (owed().exchange(false))
     write_to(STDOUT_FILENO, "{\"error\": {\"message\": \"internal error\"}}\n", true);
-  return ExitCode::failed;
 }
 
 std::atomic<bool>& stop_requested() {

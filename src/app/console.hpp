@@ -13,6 +13,8 @@
 
 namespace launchsafe::app {
 
+using Json = nlohmann::ordered_json;
+
 /// What the program returns to its caller. `failed` is a fault of the machine or of the program itself.
 enum class ExitCode {
   done = 0,
@@ -21,6 +23,11 @@ enum class ExitCode {
   indeterminate = 4,
   failed = 70,
   interrupted = 75
+};
+
+/// Ends a command before its own end; what there was to say is said.
+struct Ended {
+  ExitCode code;
 };
 
 /// Text goes out at once. What is wanted as JSON is collected, results and errors alike, and goes out as one
@@ -37,17 +44,23 @@ class Console {
   /// A text result, to stdout; nothing when the result is wanted as JSON.
   void print_text(std::string_view text);
   /// Members of the one JSON object; nothing unless it is wanted.
-  void print_json(nlohmann::ordered_json members);
+  void print_json(Json members);
   /// A remark on stderr; nothing when quiet.
   void remark(std::string_view text) const;
   /// What ended the command, on stderr always, and as the member `error`.
-  void error(const std::string& message);
-  void error(const scene::InputError& error);
+  void error(const std::string& message, const scene::InputError& parts = {});
+  void error(const scene::InputError& fault) { error(fault.message(), fault); }
   /// `error` as the end of the command: of an input that is wrong, or of a machine that fails.
   template <class Fault>
   ExitCode refuse(const Fault& fault) {
     error(fault);
     return ExitCode::bad_input;
+  }
+  /// What was read; a fault instead of it ends the command, refused.
+  template <class Value>
+  Value value_of(scene::Expected<Value> read) {
+    if (!read) throw Ended{refuse(read.error())};
+    return std::move(*read);
   }
   ExitCode fail(const std::string& message);
   /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
@@ -64,15 +77,14 @@ class Console {
   bool quiet_;
   bool json_;
   bool output_lost_ = false;
-  nlohmann::ordered_json object_ = nlohmann::ordered_json::object();
+  Json object_ = Json::object();
 
   void write_result(std::string_view text);
-  void add_error(const std::string& message, const scene::InputError& parts);
 };
 
 /// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
 /// Allocates nothing, never throws.
-ExitCode fail_at_once(const char* message);
+void fail_at_once(const char* message);
 
 /// True once the user wants the program to end. Whoever finds that nothing useful can follow may set it too.
 std::atomic<bool>& stop_requested();

@@ -1,7 +1,7 @@
 // launchsafe emit: the scripts that run a study on a Slurm cluster: an array of shards, the merge behind it,
 // and what submits both.
 #include "built_in_texts.hpp"
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/page_texts.hpp"
@@ -20,6 +20,16 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct EmitArguments {
+  std::string engine;  ///< what the script is for: "slurm"
+  std::filesystem::path study, output;
+  int shards = 0;
+  int jobs = 0;                      ///< threads of a shard; 0: not given
+  std::optional<double> memory;      ///< bytes, of a shard
+  std::optional<double> time_limit;  ///< s of wall time, of one case
+  std::vector<std::string> sbatch;   ///< further options for every #SBATCH line, such as "--partition=long"
+};
 
 using std::filesystem::path;
 
@@ -43,7 +53,6 @@ struct SlurmStudy {
   EmitArguments asked;  ///< with at least one job; the limits are handed on to every shard
   path program;
   std::size_t cases = 0;
-  double update_rate = 0;  ///< particle updates per second on a core that the needed time rests on
   ShardNeeds needs = {};
 };
 
@@ -195,7 +204,7 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
       {"merge_options", user_options(study, true)},
       {"output", shell_quoted(study.asked.output.string())},
       {"program", shell_quoted(study.program.string())},
-      {"rate", fmt::format("{:.3g}", study.update_rate / 1e6)},
+      {"rate", fmt::format("{:.3g}", run::cautious_update_rate / 1e6)},
       {"shard_limit", slurm_time(request.minutes)},
       {"shard_options", user_options(study, false)},
       {"shards", std::to_string(study.asked.shards)},
@@ -275,10 +284,7 @@ SlurmStudy slurm_study(EmitArguments asked, const study::StudyFile& file) {
   asked.study = absolute_path(asked.study);
   asked.output = absolute_path(asked.output);
   asked.jobs = std::max(1, asked.jobs);
-  // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
-  // were.
-  return {std::move(asked), std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size(),
-          run::cautious_update_rate};
+  return {std::move(asked), std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size()};
 }
 
 /// Lets everybody start the script that submits the others.
@@ -310,21 +316,20 @@ void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts
                       {"predicted_memory_bytes", study.needs.memory}});
 }
 
-}  // namespace
-
 ExitCode perform(const EmitArguments& arguments, Console& console) {
-  const auto file = kinds::read_study(arguments.study);
-  if (!file) return console.refuse(file.error());
-  if (const auto error = study::all_out_of_reach(*file, {})) return console.refuse(*error);
-  SlurmStudy study = slurm_study(arguments, *file);
+  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
+  if (const auto error = study::all_out_of_reach(file, {})) return console.refuse(*error);
+  SlurmStudy study = slurm_study(arguments, file);
   if (const auto fault = fault_of(study)) return console.refuse(*fault);
-  const store::Manifest manifest = study_manifest(*file, study.asked.jobs);
+  const store::Manifest manifest = study_manifest(file, study.asked.jobs);
   if (const auto obstacle =
-          obstacle_in_folder(study.asked.output, kinds::kind_of(file->study), manifest, false))
+          obstacle_in_folder(study.asked.output, kinds::kind_of(file.study), manifest, false))
     return console.refuse(*obstacle);
   study::StudyOptions options;
   options.jobs = study.asked.jobs;
-  study.needs = needs_of(study::forecast_study(*file, options, study.update_rate), study.asked.shards,
+  // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
+  // were.
+  study.needs = needs_of(study::forecast_study(file, options, run::cautious_update_rate), study.asked.shards,
                          study.asked.jobs);
 
   const path folder = slurm_folder(arguments.output);
@@ -332,13 +337,31 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
     return console.refuse(
         fmt::format("{} is a link, and nothing is written through one; move it away", folder.string()));
   const NamedTexts scripts = slurm_scripts(study);
-  if (const ExitCode code = write_where_absent(folder, scripts, console); code != ExitCode::done) return code;
+  write_where_absent(folder, scripts, console);
   make_executable(folder / submit_name);
   print_scripts(study, folder, scripts, console);
   if (study.needs.idle > 0)
     console.remark(
         fmt::format("{} of the {} shards will have nothing to do", study.needs.idle, study.asked.shards));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_emit(CLI::App& app, CommandLine& line) {
+  auto [command, emit] = add_command<EmitArguments>(
+      app, line, "emit", "Write batch scripts that run a study on a cluster, in shards");
+  add_required(command, "engine", emit.engine, "slurm", "What the scripts are for: slurm")
+      ->check(CLI::IsMember({"slurm"}));
+  add_required(command, "study", emit.study, "STUDY.toml", "Study file");
+  add_folder(command, emit.output, "Folder for cases, tables and report, seen by all nodes")->required();
+  constexpr int most_shards = 10000;
+  add_required(command, "--shards", emit.shards, "N", "Number of shards")->check(CLI::Range(1, most_shards));
+  add_jobs(command, emit.jobs, "Cases at a time, and processors, of every shard");
+  add_limits(command, emit.memory, emit.time_limit);
+  add_optional(command, "--sbatch", emit.sbatch, "TEXT",
+               "A further #SBATCH option, such as --sbatch=--partition=long")
+      ->allow_extra_args(false);
 }
 
 }  // namespace launchsafe::app

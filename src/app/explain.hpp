@@ -2,36 +2,45 @@
 // machine is; and what the program says of itself, and of materials.
 #pragma once
 
-#include "commands.hpp"
+#include "console.hpp"
 #include "launchsafe/study/forecast.hpp"
 
 namespace launchsafe::app {
 
+struct ExplainArguments {
+  std::filesystem::path
+      file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
+  bool keys = false, results = false, materials = false;
+  bool lists() const { return keys || results || materials; }
+  std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
+  std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
+};
+
 std::string scene_text(const scene::Scene& scene, double update_rate);
-nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate);
+Json scene_json(const scene::Scene& scene, double update_rate);
 
 /// Peaks, smoothing and roughness of a load, in SI.
-nlohmann::ordered_json load_json(const scene::Scene& scene);
+Json load_json(const scene::Scene& scene);
 
 /// Key, value, plausible range and acceptance (or null) of every value that is not plausible.
-nlohmann::ordered_json plausibility_json(const scene::Scene& scene);
+Json plausibility_json(const scene::Scene& scene);
 
 /// The first modes of a shell beside the rings of a measured load, and which ring is near one; empty without
 /// rings.
 std::string rings_text(const scene::Load& load, const scene::Scene& shell);
 /// The same in SI, with all modes; null without rings.
-nlohmann::ordered_json rings_json(const scene::Load& load, const scene::Scene& shell);
+Json rings_json(const scene::Load& load, const scene::Scene& shell);
 
 /// Totals, then a row for each of the first mechanical runs. `folder` holds the store that the rate was
 /// learned from, if any. `begin`: when the study begins, whose end is told then.
 std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast,
                           const std::filesystem::path& folder, std::optional<std::time_t> begin = {});
-nlohmann::ordered_json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
+Json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
 
 /// Particle updates per second that this program does on this machine with this scene, from the first third
-/// of a second of its run, on a coarser mesh where its own has very many particles; nothing when the user
-/// stops it, which is said.
-std::optional<double> measured_update_rate(const scene::Scene& scene, Console& console);
+/// of a second of its run, on a coarser mesh where its own has very many particles. Ends the command where
+/// the user stops it.
+double measured_update_rate(const scene::Scene& scene, Console& console);
 
 /// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
@@ -43,10 +52,10 @@ ExitCode explain_material_file(const std::filesystem::path& file, Console& conso
 
 /// Of a scene file. What a schema cannot say, such as the range of a quantity with its unit, is in the
 /// descriptions, and in "unit", "range" and "example" beside every key.
-nlohmann::ordered_json scene_schema();
+Json scene_schema();
 /// Of a study file of any kind.
-nlohmann::ordered_json study_schema();
+Json study_schema();
 /// Of a file of what is published, which studies name by `references`.
-nlohmann::ordered_json references_schema();
+Json references_schema();
 
 }  // namespace launchsafe::app

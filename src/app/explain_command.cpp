@@ -1,5 +1,5 @@
 // launchsafe explain: what would be computed, and at what cost.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_pictures.hpp"
@@ -92,52 +92,58 @@ std::string section_of(const char* title, const std::vector<std::string>& lines)
 }
 
 /// Writes the half section and the grid.
-ExitCode draw_grid(const std::filesystem::path& picture, const scene::Scene& scene, Console& console) {
+void draw_grid(const std::filesystem::path& picture, const scene::Scene& scene, Console& console) {
   if (picture.extension() != ".svg")
-    return console.refuse(fmt::format(
-        "--grid: found \"{}\"; allowed: the name of an SVG file, such as grid.svg", picture.string()));
-  const ExitCode code = write_where_absent(store::folder_of(picture),
-                                           {{picture.filename(), report::section_svg(scene)}}, console);
-  if (code == ExitCode::done) console.remark(fmt::format("wrote {}", picture.string()));
-  return code;
+    throw Ended{console.refuse(fmt::format(
+        "--grid: found \"{}\"; allowed: the name of an SVG file, such as grid.svg", picture.string()))};
+  write_where_absent(store::folder_of(picture), {{picture.filename(), report::section_svg(scene)}}, console);
+  console.remark(fmt::format("wrote {}", picture.string()));
 }
 
 ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
-  const auto file = scene::read_scene(arguments.file);
-  if (!file) return console.refuse(file.error());
-  for (const std::string& note : file->notes) console.remark(note);
-  if (arguments.picture)
-    if (const ExitCode code = draw_grid(*arguments.picture, file->scene, console); code != ExitCode::done)
-      return code;
-  const auto update_rate = measured_update_rate(file->scene, console);
-  if (!update_rate) return ExitCode::interrupted;
-  console.print_text(
-      scene_text(file->scene, *update_rate) + section_of("Plausibility", plausibility_lines(file->scene)) +
-      section_of("Acceptances", acceptance_lines(acceptances_of(*file), file->scene.accepted)));
-  console.print_json(scene_json(file->scene, *update_rate));
+  const scene::SceneFile file = console.value_of(scene::read_scene(arguments.file));
+  const scene::Scene& scene = file.scene;
+  for (const std::string& note : file.notes) console.remark(note);
+  if (arguments.picture) draw_grid(*arguments.picture, scene, console);
+  const double update_rate = measured_update_rate(scene, console);
+  console.print_text(scene_text(scene, update_rate) + section_of("Plausibility", plausibility_lines(scene)) +
+                     section_of("Acceptances", acceptance_lines(acceptances_of(file), scene.accepted)));
+  console.print_json(scene_json(scene, update_rate));
   return ExitCode::done;
 }
 
 ExitCode explain_study(const std::filesystem::path& path, Console& console) {
-  const auto file = kinds::read_study(path);
-  if (!file) return console.refuse(file.error());
-  for (const std::string& note : file->scene.notes) console.remark(note);
-  const auto update_rate = measured_update_rate(file->cases.front().scene.scene, console);
-  if (!update_rate) return ExitCode::interrupted;
-  const study::Forecast forecast = study::forecast_study(*file, {}, *update_rate);
-  const std::vector<std::string> lines = plausibility_lines(*file);
+  const study::StudyFile file = console.value_of(kinds::read_study(path));
+  for (const std::string& note : file.scene.notes) console.remark(note);
+  const study::Forecast forecast =
+      study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
+  const std::vector<std::string> lines = plausibility_lines(file);
   console.print_text(
-      forecast_text(*file, forecast, {}) + section_of("Plausibility", lines) +
-      section_of("Acceptances", acceptance_lines(study::acceptances_of(*file), file->scene.scene.accepted)));
-  nlohmann::ordered_json object = forecast_json(*file, forecast);
+      forecast_text(file, forecast, {}) + section_of("Plausibility", lines) +
+      section_of("Acceptances", acceptance_lines(study::acceptances_of(file), file.scene.scene.accepted)));
+  Json object = forecast_json(file, forecast);
   object["implausible"] = lines;
   console.print_json(object);
   return ExitCode::done;
 }
 
+/// What of these options makes no sense together; empty for nothing.
+std::string contradiction(const ExplainArguments& explain) {
+  const bool of_program = !explain.schema.empty();
+  const bool lists = explain.lists();
+  if (!lists && of_program != explain.file.empty())
+    return "explain: allowed: a scene, study or file of materials, or one of --keys, --results, "
+           "--materials and --schema";
+  if (explain.picture && (of_program || lists))
+    return "explain: --grid draws the grid of a scene; allowed: with a scene file";
+  return {};
+}
+
 }  // namespace
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
+  if (const std::string fault = contradiction(arguments); !fault.empty())
+    return console.refuse(fault + usage_hint);
   if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
   const scene::InputContent content = content_of(arguments.file);
   if (content != scene::InputContent::study && content != scene::InputContent::materials)
@@ -148,6 +154,37 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
                     arguments.file.string()));
   return content == scene::InputContent::study ? explain_study(arguments.file, console)
                                                : explain_material_file(arguments.file, console);
+}
+
+void add_explain(CLI::App& app, CommandLine& line) {
+  auto [command, explain] = add_command<ExplainArguments>(
+      app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost");
+  add_optional(
+      command, "file", explain.file, "SCENE.toml|STUDY.toml|MATERIALS.toml",
+      "Scene, study or file of materials; with --keys, --results or --materials the beginning of names, such "
+      "as load");
+  CLI::Option* keys = command.add_flag("--keys", explain.keys,
+                                       "List the keys of scene and study files, or those whose name begins "
+                                       "with the word given in the place of a "
+                                       "file: unit, range, default, standing, meaning");
+  CLI::Option* results = command.add_flag(
+      "--results", explain.results,
+      "List the columns of the tables that studies write, or those whose name begins with the word given in "
+      "the place of a file: name in files with its unit, meaning");
+  CLI::Option* materials =
+      command.add_flag("--materials", explain.materials,
+                       "List the materials that ship, or those whose name begins with the "
+                       "word given in the place of a file: every number and its source");
+  CLI::Option* schema = command
+                            .add_option("--schema", explain.schema,
+                                        "Print the JSON schema of scene or study files, for editors")
+                            ->check(CLI::IsMember({"scene", "study", "references"}))
+                            ->type_name("scene|study|references");
+  for (CLI::Option* option : {keys, results, materials, schema})
+    for (CLI::Option* other : {keys, results, materials, schema})
+      if (other != option) option->excludes(other);
+  add_place(command, "--grid", explain.picture, "FILE.svg", "file",
+            "File to draw the half section of a scene and its grid to");
 }
 
 }  // namespace launchsafe::app

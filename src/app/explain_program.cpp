@@ -13,8 +13,6 @@
 namespace launchsafe::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string standings() {
   using enum scene::Standing;
   std::string text;
@@ -109,8 +107,8 @@ ExitCode explain_results(const std::string& word, Console& console) {
   std::string text;
   Json list = Json::array();
   for (const kinds::Kind& kind : kinds::kinds()) {
-    for (const kinds::ResultTable& table : kind.results()) {
-      std::vector<report::Column> columns = table.columns;
+    for (const report::ReportTable& table : kind.results()) {
+      std::vector<report::Column> columns = table.table.columns;
       std::erase_if(columns, [&](const report::Column& column) { return !column.key().starts_with(word); });
       if (columns.empty()) continue;
       text += fmt::format("{}{}, `{}` of study.json{}\n", text.empty() ? "" : "\n", kind.traits.name,
@@ -142,15 +140,6 @@ ExitCode explain_results(const std::string& word, Console& console) {
   return ExitCode::done;
 }
 
-ExitCode explain_schema(const std::string& what, Console& console) {
-  const Json schema = what == "study"   ? study_schema()
-                      : what == "scene" ? scene_schema()
-                                        : references_schema();
-  console.print_text(schema.dump(2) + "\n");
-  console.print_json(schema);
-  return ExitCode::done;
-}
-
 using scene::NamedMaterial;
 
 /// A scene with the numbers of a material.
@@ -159,12 +148,6 @@ scene::Scene with_material(scene::Scene scene, const NamedMaterial& material) {
     if (const auto given = material.values.find(key.name); given != material.values.end())
       key.set(scene, given->second.value);
   return scene;
-}
-
-/// Whether the shipped calibration was made with a material of these numbers.
-bool is_calibrated(const NamedMaterial& material) {
-  const study::Calibration calibration = study::shipped_calibration();
-  return study::distance_to_calibration(with_material(calibration.scene, material), calibration).inside();
 }
 
 /// How fast an explosive heats itself by its own kinetics; empty for other laws.
@@ -202,7 +185,9 @@ Json json_of(const NamedMaterial& material) {
   for (const auto& [key, given] : material.values)
     numbers.push_back({key, scene::key_in_material(material.law, key),
                        scene::format_value(*scene::find_key(scene::scene_keys(), key), given.value)});
-  const bool calibrated = is_calibrated(material);
+  const study::Calibration shipped = study::shipped_calibration();
+  const bool calibrated =
+      study::distance_to_calibration(with_material(shipped.scene, material), shipped).inside();
   const char* calibration = calibrated
                                 ? "the constants of the 155 mm shell were calibrated with it"
                                 : "never calibrated: no verdict that rests on it is SAFE until somebody "
@@ -215,15 +200,20 @@ Json json_of(const NamedMaterial& material) {
           {"numbers", numbers_json(material.sources, numbers)}};
 }
 
-Json json_of(const scene::NamedContact& contact) {
+template <class Named>
+std::vector<Number> numbers_of(const std::vector<scene::Key<Named>>& keys, const Named& named) {
   std::vector<Number> numbers;
-  for (const auto& key : scene::interface_keys())
-    if (!key.is_written || key.is_written(contact.faces))
-      numbers.push_back({key.name, key.name, scene::format_value(key, key.get(contact.faces))});
+  for (const auto& key : keys)
+    if (key.name != "title" && key.is_used(named))
+      numbers.push_back({key.name, key.name, scene::format_value(key, key.get(named))});
+  return numbers;
+}
+
+Json json_of(const scene::NamedContact& contact) {
   return {{"name", contact.name},
           {"title", contact.title},
           {"what", "contact of an interface"},
-          {"numbers", numbers_json(contact.sources, numbers)}};
+          {"numbers", numbers_json(contact.sources, numbers_of(scene::contact_keys(), contact))}};
 }
 
 Json json_of(const scene::Decomposition& decomposition) {
@@ -231,17 +221,14 @@ Json json_of(const scene::Decomposition& decomposition) {
   const auto runaway = [&](double from) {
     return 1e3 * materials::adiabatic_runaway_time(decomposition.kinetics, specific_heat, from);
   };
-  std::vector<Number> numbers;
-  for (const auto& key : scene::decomposition_keys())
-    if (key.name != "title")
-      numbers.push_back({key.name, key.name, scene::format_value(key, key.get(decomposition))});
   return {{"name", decomposition.name},
           {"title", decomposition.title},
           {"what", "decomposition of a flame, combustion.kinetics; with the specific heat of comp-b it " +
                        report::runaway_text(decomposition.kinetics, specific_heat)},
           {"runaway_from_519_K_ms", runaway(519.0)},
           {"runaway_from_550_K_ms", runaway(550.0)},
-          {"numbers", numbers_json(decomposition.sources, numbers)}};
+          {"numbers",
+           numbers_json(decomposition.sources, numbers_of(scene::decomposition_keys(), decomposition))}};
 }
 
 /// The same for people.
@@ -298,13 +285,17 @@ ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.keys) return explain_keys(arguments.file.string(), console);
   if (arguments.results) return explain_results(arguments.file.string(), console);
   if (arguments.materials) return explain_materials(arguments.file.string(), console);
-  return explain_schema(arguments.schema, console);
+  const Json schema = arguments.schema == "study"   ? study_schema()
+                      : arguments.schema == "scene" ? scene_schema()
+                                                    : references_schema();
+  console.print_text(schema.dump(2) + "\n");
+  console.print_json(schema);
+  return ExitCode::done;
 }
 
 ExitCode explain_material_file(const std::filesystem::path& file, Console& console) {
-  const auto named = scene::read_material_file(file);
-  if (!named) return console.refuse(named.error());
-  if (print_materials(*named, {}, console)) return ExitCode::done;
+  const scene::NamedMaterials named = console.value_of(scene::read_material_file(file));
+  if (print_materials(named, {}, console)) return ExitCode::done;
   return console.refuse(
       fmt::format("{}: found no material and no contact; allowed: tables [material.NAME] and [contact.NAME]",
                   file.string()));

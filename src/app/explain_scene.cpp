@@ -13,6 +13,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 namespace launchsafe::app {
 namespace {
 
@@ -26,40 +28,29 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
-/// An interval of the grid in one direction.
-struct IntervalRow {
-  const char* along;
-  scene::GridInterval interval;
-};
-
 report::Table interval_table(const scene::Scene& scene) {
   using scene::GridInterval;
-  const auto length = [](const char* heading, int digits, double GridInterval::*member) {
-    return report::Quantity<IntervalRow>(
-        {heading, heading, keys::significant(digits, keys::millimetre), "Of the interval or its cells."},
-        [member](const IntervalRow& row) { return row.interval.*member; });
+  const auto length = [](const char* heading, int digits) {
+    return report::Column{heading, heading, keys::significant(digits, keys::millimetre),
+                          "Of the interval or its cells."};
   };
   const auto edge = [](const char* name, const char* heading,
                        std::vector<std::string> GridInterval::*member) {
-    return report::Quantity<IntervalRow>(
-        {name, heading, keys::text(), "Bodies whose edge is there."},
-        [member](const IntervalRow& row) { return list_of(row.interval.*member); });
+    return report::Quantity<GridInterval>({name, heading, keys::text(), "Bodies whose edge is there."},
+                                          member, list_of);
   };
-  const report::Quantities<IntervalRow> quantities{
-      {{"along", "along", keys::text(), "Direction."}, &IntervalRow::along},
-      length("from", 7, &GridInterval::from),
-      length("to", 7, &GridInterval::to),
-      {{"cells", "cells", keys::count(), "Cells of the interval."},
-       &IntervalRow::interval,
-       &GridInterval::cells},
-      length("smallest", 4, &GridInterval::shortest),
-      length("largest", 4, &GridInterval::longest),
+  const report::Quantities<GridInterval> quantities{
+      {{"along", "along", keys::text(), "Direction."}, &GridInterval::along},
+      {length("from", 7), &GridInterval::from},
+      {length("to", 7), &GridInterval::to},
+      {{"cells", "cells", keys::count(), "Cells of the interval."}, &GridInterval::cells},
+      {length("smallest", 4), &GridInterval::shortest},
+      {length("largest", 4), &GridInterval::longest},
       edge("edge_before", "edge before, of", &GridInterval::edge_before),
       edge("edge_behind", "edge behind, of", &GridInterval::edge_behind)};
-  const scene::GridIntervals intervals = scene::grid_intervals(scene);
-  std::vector<IntervalRow> rows;
-  for (const GridInterval& each : intervals.x) rows.push_back({"x", each});
-  for (const GridInterval& each : intervals.r) rows.push_back({"r", each});
+  const auto [x, r] = scene::grid_intervals(scene);
+  std::vector<GridInterval> rows = x;
+  rows.insert(rows.end(), r.begin(), r.end());
   report::Table table = report::table_of({}, quantities, rows);
   if (scene.numerics.formulation == scene::Formulation::updated_lagrangian)
     table.notes = {"The grid is even and need not run through edges of bodies."};
@@ -73,6 +64,13 @@ struct BodyRow {
   std::int64_t particles;
 };
 
+std::vector<BodyRow> bodies_of(const scene::Scene& scene) {
+  std::vector<BodyRow> rows;
+  for (const scene::Body& body : scene.bodies)
+    rows.push_back({body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total()});
+  return rows;
+}
+
 report::Table body_table(const scene::Scene& scene) {
   const report::Quantities<BodyRow> quantities{
       {{"body", "body", keys::text(), "The body."}, &BodyRow::name},
@@ -83,9 +81,7 @@ report::Table body_table(const scene::Scene& scene) {
       {{"cells", "cells", keys::count(), "Its cells."},
        [](const BodyRow& row) { return std::int64_t{row.cells.nx} * row.cells.nr; }},
       {{"particles", "particles", keys::count(), "Its particles."}, &BodyRow::particles}};
-  std::vector<BodyRow> rows;
-  for (const scene::Body& body : scene.bodies)
-    rows.push_back({body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total()});
+  std::vector<BodyRow> rows = bodies_of(scene);
   rows.push_back({"whole grid", scene::cells_of(scene), scene::particle_count(scene)});
   return report::table_of({}, quantities, rows);
 }
@@ -93,16 +89,13 @@ report::Table body_table(const scene::Scene& scene) {
 /// Every line two columns further right.
 std::string indented(const std::string& text) {
   std::string result;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-    result += (end - begin > 1 ? "  " : "") + text.substr(begin, end - begin);
-    begin = end;
-  }
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) result += (line.empty() ? "" : "  ") + line + "\n";
   return result;
 }
 
-nlohmann::ordered_json intervals_json(const std::vector<scene::GridInterval>& intervals) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json intervals_json(const std::vector<scene::GridInterval>& intervals) {
+  Json json = Json::array();
   for (const scene::GridInterval& each : intervals)
     json.push_back({{"from_m", each.from},
                     {"to_m", each.to},
@@ -117,17 +110,15 @@ nlohmann::ordered_json intervals_json(const std::vector<scene::GridInterval>& in
 std::string kilohertz(double frequency) { return fmt::format("{:.3g} kHz", 1e-3 * frequency); }
 
 /// The same in SI, and every line of the grid.
-nlohmann::ordered_json grid_json(const scene::Scene& scene) {
+Json grid_json(const scene::Scene& scene) {
   const scene::GridLines lines = scene::lines_at_rest(scene);
   const scene::GridIntervals intervals = scene::grid_intervals(scene);
-  nlohmann::ordered_json bodies = nlohmann::ordered_json::array();
-  for (const scene::Body& body : scene.bodies) {
-    const scene::CellRange cells = scene::cells_of(scene, body);
+  Json bodies = Json::array();
+  for (const BodyRow& body : bodies_of(scene))
     bodies.push_back({{"name", body.name},
-                      {"cells_in_x", cells.nx},
-                      {"cells_in_r", cells.nr},
-                      {"particles", scene::particles_of(scene, body).total()}});
-  }
+                      {"cells_in_x", body.cells.nx},
+                      {"cells_in_r", body.cells.nr},
+                      {"particles", body.particles}});
   return {{"x_lines_m", lines.x},
           {"r_lines_m", lines.r},
           {"x_intervals", intervals_json(intervals.x)},
@@ -135,8 +126,8 @@ nlohmann::ordered_json grid_json(const scene::Scene& scene) {
           {"bodies", bodies}};
 }
 
-nlohmann::ordered_json physics_json(const scene::Plan& plan) {
-  nlohmann::ordered_json json;
+Json physics_json(const scene::Plan& plan) {
+  Json json;
   for (const scene::NamedTerm& each : scene::plan_terms) {
     const scene::Term& term = plan.*each.term;
     json[std::string(each.member)] = {{"in", term.in},
@@ -148,15 +139,15 @@ nlohmann::ordered_json physics_json(const scene::Plan& plan) {
   return json;
 }
 
-nlohmann::ordered_json interfaces_json(const scene::Scene& scene) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json interfaces_json(const scene::Scene& scene) {
+  Json list = Json::array();
   for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
     list.push_back({{"body", each.body}, {"condition", each.condition}, {"assumes", each.assumes}});
   return list;
 }
 
 /// Before compression.
-nlohmann::ordered_json snapshots_json(const scene::Scene& scene) {
+Json snapshots_json(const scene::Scene& scene) {
   if (!scene.output.asks_for_snapshots()) return nullptr;
   const run::SnapshotSize size = run::snapshot_size(scene);
   return {{"most_of_launch", size.of_launch},
@@ -191,19 +182,18 @@ std::string rings_text(const scene::Load& load, const scene::Scene& shell) {
   return text;
 }
 
-nlohmann::ordered_json rings_json(const scene::Load& load, const scene::Scene& shell) {
+Json rings_json(const scene::Load& load, const scene::Scene& shell) {
   const std::vector<scene::Ring> rings = scene::rings_of(load);
   if (rings.empty()) return nullptr;
-  nlohmann::ordered_json modes_json = nlohmann::ordered_json::array(), rings_json = modes_json;
+  Json modes_json = Json::array(), rings_json = modes_json;
   const std::vector<run::AxialMode> modes = run::axial_modes(shell);
   for (const run::AxialMode& mode : modes)
     modes_json.push_back({{"frequency_hz", mode.frequency}, {"share_of_strongest", mode.amplitude}});
   for (const scene::Ring& ring : rings) {
     const run::AxialMode* mode = run::mode_near(ring, modes);
-    rings_json.push_back(
-        {{"frequency_hz", ring.frequency},
-         {"amplitude_pa", ring.amplitude},
-         {"near_mode_hz", mode != nullptr ? nlohmann::ordered_json(mode->frequency) : nullptr}});
+    rings_json.push_back({{"frequency_hz", ring.frequency},
+                          {"amplitude_pa", ring.amplitude},
+                          {"near_mode_hz", mode != nullptr ? Json(mode->frequency) : nullptr}});
   }
   return {{"rings", rings_json}, {"axial_modes", modes_json}};
 }
@@ -220,17 +210,17 @@ std::string scene_text(const scene::Scene& scene, double update_rate) {
   return text;
 }
 
-nlohmann::ordered_json load_json(const scene::Scene& scene) {
+Json load_json(const scene::Scene& scene) {
   const scene::Load& load = scene.load;
   const scene::PressureHistory history(load);
   const double end_time = scene::end_time(load);
   const scene::RigidMotion end = scene::rigid_motion(scene, end_time);
-  nlohmann::ordered_json exit = nullptr;
+  Json exit = nullptr;
   if (const auto time = scene::exit_time(load)) {
     const scene::RigidMotion motion = scene::rigid_motion(scene, *time);
     exit = {{"time_s", *time},
-            {"earliest_s", scene::exit_window(load)->earliest},
-            {"latest_s", scene::exit_window(load)->latest},
+            {"earliest_s", *time - load.muzzle_exit_spread},
+            {"latest_s", *time + load.muzzle_exit_spread},
             {"velocity_m_per_s", motion.velocity},
             {"travel_m", motion.travel},
             {"share_of_peak", scene::share_left(load, *time)}};
@@ -250,21 +240,21 @@ nlohmann::ordered_json load_json(const scene::Scene& scene) {
           {"roughness", scene::load_roughness(load)}};
 }
 
-nlohmann::ordered_json plausibility_json(const scene::Scene& scene) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+Json plausibility_json(const scene::Scene& scene) {
+  Json list = Json::array();
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     list.push_back({{"key", each.key},
                     {"value", each.value},
                     {"plausible", each.range},
-                    {"accepted_because", each.accepted() ? nlohmann::ordered_json(each.because) : nullptr}});
+                    {"accepted_because", each.accepted() ? Json(each.because) : nullptr}});
   }
   return list;
 }
 
-nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate) {
+Json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
   const auto refusal = run::out_of_reach(scene, reach_here());
-  nlohmann::ordered_json particles = nlohmann::ordered_json::object();
+  Json particles = Json::object();
   for (const scene::MaterialParticles& each : plan.by_material) particles[each.material] = each.particles;
   return {{"title", scene.title},
           {"load", load_json(scene)},
@@ -279,12 +269,10 @@ nlohmann::ordered_json scene_json(const scene::Scene& scene, double update_rate)
           {"memory_bytes", plan.memory},
           {"snapshots", snapshots_json(scene)},
           {"updates_per_second", update_rate},
-          {"predicted_time_s",
-           update_rate > 0 ? nlohmann::ordered_json(scene::predicted_time(plan, update_rate)) : nullptr},
-          {"predicted_time_of_a_coupled_run_s", update_rate > 0 && plan.coupling.in
-                                                    ? nlohmann::ordered_json(plan.coupled_work / update_rate)
-                                                    : nullptr},
-          {"refused", refusal ? nlohmann::ordered_json(refusal->message()) : nlohmann::ordered_json()},
+          {"predicted_time_s", update_rate > 0 ? Json(scene::predicted_time(plan, update_rate)) : nullptr},
+          {"predicted_time_of_a_coupled_run_s",
+           update_rate > 0 && plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr},
+          {"refused", refusal ? Json(refusal->message()) : Json()},
           {"implausible", plausibility_json(scene)}};
 }
 

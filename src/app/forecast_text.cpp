@@ -20,9 +20,9 @@ report::Table run_table(const std::vector<ForecastRun>& runs) {
   const report::Quantities<ForecastRun> quantities{
       {{"mechanical_run", "mechanical run", keys::text(), "The run."}, &ForecastRun::label},
       {{"cases", "cases", keys::count(), "Cases that share it."}, &ForecastRun::cases},
-      {report::quantity::particles(), &ForecastRun::particles},
-      {report::quantity::steps(), &ForecastRun::steps},
-      {report::quantity::memory(), &ForecastRun::memory},
+      {report::quantity::particles, &ForecastRun::particles},
+      {report::quantity::steps, &ForecastRun::steps},
+      {report::quantity::memory, &ForecastRun::memory},
       {{"time", "time", fixed(1, keys::second), "Time that it takes, as estimated."}, &ForecastRun::time},
       {{"shard", "shard", keys::count(), "Shard that runs it."}, &ForecastRun::shard},
       {{"state", "state", keys::text(), "Whether it is stored, or why it runs."},
@@ -149,7 +149,7 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   return text + "\n" + run_list(forecast);
 }
 
-nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
+Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
   const Totals totals = totals_of(forecast);
   return {{"title", file.study.title},
           {"kind", file.study.kind.name},
@@ -169,12 +169,12 @@ nlohmann::ordered_json forecast_json(const study::StudyFile& file, const Forecas
           {"disk_bytes", forecast.disk},
           {"predicted_time_s", forecast.time},
           {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
-          {"runs", report::to_json(run_table(forecast.runs))["rows"]}};
+          {"runs", report::json_rows(run_table(forecast.runs))}};
 }
 
 using namespace std::chrono_literals;
 
-std::optional<double> measured_update_rate(const scene::Scene& scene, Console& console) {
+double measured_update_rate(const scene::Scene& scene, Console& console) {
   std::atomic<bool> enough{false};
   const auto start = std::chrono::steady_clock::now();
   run::RunOptions options;
@@ -187,7 +187,7 @@ std::optional<double> measured_update_rate(const scene::Scene& scene, Console& c
   const double rate = run.wall_time > 0.0 ? run.particle_updates() / run.wall_time : 0.0;
   if (stop_requested()) {
     console.error("interrupted while measuring the speed of this machine; there is nothing to keep");
-    return std::nullopt;
+    throw Ended{ExitCode::interrupted};
   }
   return rate > 0.0 ? rate : run::cautious_update_rate;  // where the run breaks at its first step
 }

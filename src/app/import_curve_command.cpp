@@ -1,5 +1,5 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -12,6 +12,15 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct ImportCurveArguments {
+  std::filesystem::path record;                 ///< CSV file of a gauge
+  std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
+  std::string pressure;                         ///< name of the column; empty: the only one
+  std::optional<double> offset, trigger;        ///< Pa
+  std::optional<std::filesystem::path> scene;   ///< of a shell whose modes are told beside rings
+  std::string command;                          ///< the whole command, to be repeated in a shell
+};
 
 using scene::pressure_text, scene::time_text;
 
@@ -69,7 +78,7 @@ report::Plot plot_of(const ImportCurveArguments& arguments, const Import& import
   return plot;
 }
 
-nlohmann::ordered_json json_of(const Import& import) {
+Json json_of(const Import& import) {
   const scene::CleanedRecord& cleaned = import.cleaned;
   return {{"points", cleaned.curve.time.size()},
           {"points_before", cleaned.points_before},
@@ -87,12 +96,12 @@ nlohmann::ordered_json json_of(const Import& import) {
 }
 
 /// The curve and its picture, beside each other. A curve is whole without its picture.
-ExitCode write(const ImportCurveArguments& arguments, const Import& import, const std::string& text,
-               Console& console) {
+void write(const ImportCurveArguments& arguments, const Import& import, const std::string& text,
+           Console& console) {
   const std::filesystem::path& file = *arguments.output;
   if (file.extension() != ".csv")
-    return console.refuse(fmt::format(
-        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
+    throw Ended{console.refuse(fmt::format(
+        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()))};
   const std::filesystem::path folder = store::folder_of(file);
   const std::string csv = scene::csv_of(import.cleaned.curve, text);
   std::filesystem::path picture = file;
@@ -100,43 +109,59 @@ ExitCode write(const ImportCurveArguments& arguments, const Import& import, cons
   const auto svg = report::to_svg(plot_of(arguments, import));
   NamedTexts texts{{file.filename(), csv}};
   if (svg) texts.push_back({picture.filename(), *svg});
-  if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
+  write_where_absent(folder, texts, console);
   if (!svg) console.remark("no picture: " + svg.error().message);
   console.print_text(fmt::format(
       "\nwrote {}{}\nnext: {}\n", file.string(), svg ? " and " + picture.string() : "",
       shell_command({"launchsafe", "init", "--calibre", "155 mm", "--curve", file.string(), "-o", "shell"})));
   console.print_json({{"file", file.string()}});
+}
+
+ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
+  const std::string file = arguments.record.string();
+  const std::string text = console.value_of(scene::read_text_file(file, scene::largest_curve));
+  Import import;
+  import.record = console.value_of(scene::parse_gauge_record(text, file, arguments.pressure));
+  import.cleaned = console.value_of(scene::clean(import.record, {arguments.offset, arguments.trigger}, file));
+  import.load = scene::load_of_curve(import.cleaned.curve);
+  std::optional<scene::SceneFile> shell;
+  if (arguments.scene) shell = console.value_of(scene::read_scene(*arguments.scene));
+  const std::string done =
+      fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(text)) +
+      what_was_done(arguments, import);
+  console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
+  if (shell) console.print_text(rings_text(import.load, shell->scene));
+  Json json = json_of(import);
+  if (shell) json["rings_of_the_record"] = rings_json(import.load, shell->scene);
+  console.print_json(json);
+  if (arguments.output)
+    write(arguments, import, done, console);
+  else
+    console.print_text(fmt::format("\nnext: {}\n", arguments.command + " -o pressure.csv"));
   return ExitCode::done;
 }
 
 }  // namespace
 
-ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
-  const auto text = scene::read_text_file(arguments.record, scene::largest_curve);
-  if (!text) return console.refuse(text.error());
-  auto record = scene::parse_gauge_record(*text, arguments.record.string(), arguments.pressure);
-  if (!record) return console.refuse(record.error());
-  auto cleaned = scene::clean(*record, {arguments.offset, arguments.trigger}, arguments.record.string());
-  if (!cleaned) return console.refuse(cleaned.error());
-  Import import{std::move(*record), std::move(*cleaned), {}};
-  import.load = scene::load_of_curve(import.cleaned.curve);
-  std::optional<scene::SceneFile> shell;
-  if (arguments.scene) {
-    auto read = scene::read_scene(*arguments.scene);
-    if (!read) return console.refuse(read.error());
-    shell = std::move(*read);
-  }
-  const std::string done =
-      fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(*text)) +
-      what_was_done(arguments, import);
-  console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
-  if (shell) console.print_text(rings_text(import.load, shell->scene));
-  nlohmann::ordered_json json = json_of(import);
-  if (shell) json["rings_of_the_record"] = rings_json(import.load, shell->scene);
-  console.print_json(json);
-  if (arguments.output) return write(arguments, import, done, console);
-  console.print_text(fmt::format("\nnext: {}\n", arguments.command + " -o pressure.csv"));
-  return ExitCode::done;
+void add_import_curve(CLI::App& app, CommandLine& line) {
+  auto [command, import] = add_command<ImportCurveArguments>(
+      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units, noise");
+  import.command = line.text;
+  add_required(command, "record", import.record, "RECORD.csv",
+               "Record of a gauge, with a header that names quantities and units");
+  add_place(command, "-o,--output", import.output, "FILE.csv", "file",
+            "File for the curve, with a picture beside it; nothing is written unless given");
+  add_optional(command, "--pressure", import.pressure, "COLUMN",
+               "Name of the pressure's column, where there are several");
+  add_amount(command, "--offset", import.offset, parse_scene_quantity<scene::Dimension::pressure>,
+             "a pressure such as \"0.3 MPa\"", "PRESSURE",
+             "What the gauge shows before the launch; the median of the points before the rise unless given");
+  add_amount(
+      command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
+      "a pressure such as \"5 MPa\"", "PRESSURE",
+      "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
+  add_optional(command, "--scene", import.scene, "SCENE.toml",
+               "Scene of a shell: says which ring of the record is near a frequency at which it swings");
 }
 
 }  // namespace launchsafe::app

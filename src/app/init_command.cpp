@@ -1,6 +1,6 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "built_in_texts.hpp"
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/page_texts.hpp"
@@ -14,6 +14,13 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct InitArguments {
+  std::filesystem::path output;                ///< folder for the files
+  double calibre = 0.155;                      ///< m
+  std::optional<std::filesystem::path> curve;  ///< measured pressure; none: the analytic shape
+  std::optional<double> peak;                  ///< Pa, of the analytic shape
+};
 
 constexpr double published_calibre = 0.155;  // m
 constexpr double published_exit = 18e-3;     // s, when the published shell leaves its barrel
@@ -85,22 +92,15 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
   return files;
 }
 
-}  // namespace
-
 ExitCode perform(const InitArguments& arguments, Console& console) {
   std::optional<scene::PressureCurve> curve;
   std::string csv;
   if (arguments.curve) {
-    auto text = scene::read_text_file(*arguments.curve, scene::largest_curve);
-    if (!text) return console.refuse(text.error());
-    csv = std::move(*text);
-    auto read = scene::parse_pressure_curve(csv, arguments.curve->string());
-    if (!read) return console.refuse(read.error());
-    curve = std::move(*read);
+    csv = console.value_of(scene::read_text_file(*arguments.curve, scene::largest_curve));
+    curve = console.value_of(scene::parse_pressure_curve(csv, arguments.curve->string()));
   }
   const NamedTexts files = files_of(arguments, curve, csv);
-  if (const ExitCode code = write_where_absent(arguments.output, files, console); code != ExitCode::done)
-    return code;
+  write_where_absent(arguments.output, files, console);
   const std::vector<std::string> written = places_of(arguments.output, files);
   console.print_text(fmt::format("wrote {}\n", fmt::join(written, "\nwrote ")));
   const std::filesystem::path study = arguments.output / "critical_gap.toml";
@@ -113,6 +113,28 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
       shell_command({"launchsafe", "study", study.string(), "-o", (arguments.output / "results").string()})));
   console.print_json({{"files", written}});
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_init(CLI::App& app, CommandLine& line) {
+  auto [command, init] = add_command<InitArguments>(
+      app, line, "init", "Write a scene and a study of a shell of your own to start from");
+  const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
+    constexpr double smallest = 0.02, largest = 0.5;
+    calibre = parse_scene_quantity<scene::Dimension::length>(text).value_or(0.0);
+    return calibre >= smallest && calibre <= largest;
+  };
+  add_read(command, "--calibre", read_calibre, "20 mm to 50 cm, such as \"105 mm\"", "LENGTH",
+           "Calibre, such as \"105 mm\"")
+      ->required();
+  CLI::Option* curve = add_optional(command, "--curve", init.curve, "FILE.csv",
+                                    "Measured pressure that scenes take, such as import-curve writes");
+  add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>,
+             "a pressure such as 380MPa", "PRESSURE",
+             "Peak chamber pressure, where there is no measured curve")
+      ->excludes(curve);
+  add_folder(command, init.output, "Folder for the files")->required();
 }
 
 }  // namespace launchsafe::app

@@ -13,7 +13,6 @@
 namespace launchsafe::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using scene::KeyDescription, scene::KeyKind, scene::Dimension;
 
 /// A decimal number as scenes are written.
@@ -243,7 +242,7 @@ Json with_other_tables(Json entry, const std::string& table, const Json& changes
 
 }  // namespace
 
-nlohmann::ordered_json scene_schema() {
+Json scene_schema() {
   const std::vector<scene::DocumentedKey> keys = scene::describe_keys();
   Json schema = schema_without(scene_tables, keys, true);
   for (const char* table : {"body", "observation_point", "accept", "source"})
@@ -257,7 +256,7 @@ nlohmann::ordered_json scene_schema() {
   return with_head(std::move(schema), "Scene of launchsafe");
 }
 
-nlohmann::ordered_json study_schema() {
+Json study_schema() {
   const std::vector<scene::DocumentedKey> keys = kinds::describe_study_keys();
   std::set<std::string> tables{"accept", "settings"};
   for (const kinds::Kind& kind : kinds::kinds())
@@ -272,7 +271,7 @@ nlohmann::ordered_json study_schema() {
   return with_head(std::move(schema), "Study of launchsafe");
 }
 
-nlohmann::ordered_json references_schema() {
+Json references_schema() {
   Json schema = table_schema();
   schema["properties"]["reference"] = array_of(schema_of_table("reference", kinds::describe_study_keys()));
   return with_head(std::move(schema), "Published rows for studies of launchsafe");

@@ -1,6 +1,4 @@
 #include "commands.hpp"
-#include "launchsafe/store/manifest.hpp"
-#include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -78,37 +76,6 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-/// Version, commit, compiler, flags and libraries.
-std::string version_text() {
-  std::string libraries;
-  for (const store::LibraryVersion& library : store::library_versions()) {
-    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library.name, library.version);
-  }
-  return fmt::format("launchsafe {}\ncommit    {}\ncompiler  {}\nflags     {} ({})\nlibraries {}\n",
-                     version::number, version::commit, version::compiler, version::flags, version::build_type,
-                     libraries);
-}
-
-/// The same for --json.
-nlohmann::ordered_json version_json() {
-  nlohmann::ordered_json libraries = nlohmann::ordered_json::object();
-  for (const store::LibraryVersion& library : store::library_versions())
-    libraries[library.name] = library.version;
-  return {{"version", version::number}, {"commit", version::commit},         {"compiler", version::compiler},
-          {"flags", version::flags},    {"build_type", version::build_type}, {"libraries", libraries}};
-}
-
-ExitCode perform(const Information& information, Console& console) {
-  console.print_text(information.version ? version_text() : information.help);
-  console.print_json(information.version ? version_json()
-                                         : nlohmann::ordered_json{{"help", information.help}});
-  return ExitCode::done;
-}
-
-ExitCode perform(const UsageError& error, Console& console) {
-  return console.refuse(error.message + " (launchsafe --help shows the usage)");
-}
-
 /// "launchsafe run 1": what the JSON object of a command is, and its version, raised when members change
 /// their meaning or go.
 std::string format_of(const CommandLine& line) {
@@ -128,7 +95,9 @@ std::string out_of_memory_in(const std::string& command) {
 /// Whatever a command throws is its error.
 ExitCode perform_request(const CommandLine& line, Console& console) {
   try {
-    return std::visit([&](const auto& request) { return perform(request, console); }, line.request);
+    return line.perform(console);
+  } catch (const Ended& end) {
+    return end.code;
   } catch (const std::bad_alloc&) {
     console.error(out_of_memory_in(line.command));
   } catch (const std::exception& error) {
@@ -168,16 +137,10 @@ struct Groundwork {
 
 int main(int argument_count, char** arguments) {
   become_faster_program(arguments);
-  try {
-    catch_signals();
-    const CommandLine line = parse_command_line(argument_count, arguments);
-    Console console(line.quiet, line.json);
-    console.print_json({{"format", format_of(line)}});
-    const ExitCode code = perform_request(line, console);
-    return static_cast<int>(console.finish(code));
-  } catch (const std::bad_alloc&) {
-    return static_cast<int>(fail_at_once(out_of_memory));
-  } catch (...) {
-    return static_cast<int>(fail_at_once(unknown_error));
-  }
+  catch_signals();
+  const CommandLine line = parse_command_line(argument_count, arguments);
+  Console console(line.quiet, line.json);
+  console.print_json({{"format", format_of(line)}});
+  const ExitCode code = perform_request(line, console);
+  return static_cast<int>(console.finish(code));
 }

@@ -1,5 +1,5 @@
 // launchsafe merge: the shards of a study as one.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
@@ -8,24 +8,33 @@
 namespace launchsafe::app {
 namespace {
 
-ExitCode import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
-                        Console& console) {
+struct MergeArguments {
+  std::filesystem::path study;
+  std::filesystem::path output;                ///< folder of cases, tables and report
+  std::vector<std::filesystem::path> folders;  ///< of shards, to be copied from
+  std::optional<double> tolerance;             ///< K, as of StudyArguments
+  int jobs = 0;         ///< threads that judge gaps; 0: as many as there are processors
+  bool update = false;  ///< the folder may hold the results of an earlier study
+  std::string command;  ///< the whole command, to be repeated in a shell
+};
+
+void import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
+                    Console& console) {
   for (const std::filesystem::path& folder : folders) {
     const auto imported = session.store().import_from(folder);
     session.print_remarks();
     if (!imported) {
       const bool is_missing = imported.error().kind == store::Error::Kind::missing;
-      return is_missing ? console.refuse(imported.error().message) : console.end_with(imported.error());
+      throw Ended{is_missing ? console.refuse(imported.error().message) : console.end_with(imported.error())};
     }
     console.remark(fmt::format("{}: copied {} cases, {} were there already", folder.string(), imported->cases,
                                imported->already_there));
   }
-  return ExitCode::done;
 }
 
 /// The mechanical runs that no shard has stored.
-nlohmann::ordered_json missing_runs(const study::Forecast& forecast) {
-  nlohmann::ordered_json missing;
+Json missing_runs(const study::Forecast& forecast) {
+  Json missing;
   for (const study::ForecastRun& run : forecast.runs)
     if (!run.stored && !run.given_up) missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
   return missing;
@@ -33,15 +42,15 @@ nlohmann::ordered_json missing_runs(const study::Forecast& forecast) {
 
 /// The runs that only turned out to be missing when they were asked for: coupled runs, whose gaps follow from
 /// the mechanics, and files that were damaged after they had been looked at.
-nlohmann::ordered_json missing_runs(const kinds::StudyOutcome& result) {
-  nlohmann::ordered_json missing;
+Json missing_runs(const kinds::StudyOutcome& result) {
+  Json missing;
   for (const kinds::Failure& failure : result.failures)
     if (failure.outcome == study::RunOutcome::not_stored) missing.push_back({{"run", failure.label}});
   return missing;
 }
 
 /// Names what is missing; `what`: how many of which runs.
-ExitCode refuse_without(const nlohmann::ordered_json& missing, const std::string& what, Console& console) {
+ExitCode refuse_without(const Json& missing, const std::string& what, Console& console) {
   for (const auto& run : missing) {
     std::string line = "missing";
     for (const auto& part : run) line += ": " + part.get<std::string>();
@@ -52,36 +61,47 @@ ExitCode refuse_without(const nlohmann::ordered_json& missing, const std::string
   return ExitCode::cases_failed;
 }
 
-}  // namespace
-
 ExitCode perform(const MergeArguments& arguments, Console& console) {
-  const auto file = kinds::read_study(arguments.study, {arguments.tolerance});
-  if (!file) return console.refuse(file.error());
+  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
   study::StudyOptions options;
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.stop = &stop_requested();
   options.compute = false;
   StudySession session({arguments.study,
                         arguments.output,
-                        kinds::kind_of(file->study),
+                        kinds::kind_of(file.study),
                         arguments.update,
                         {},
                         arguments.command,
-                        study_manifest(*file, options.jobs)},
+                        study_manifest(file, options.jobs)},
                        console);
-  if (const ExitCode code = session.open(); code != ExitCode::done) return code;
-  if (const ExitCode code = import_folders(arguments.folders, session, console); code != ExitCode::done)
-    return code;
+  session.open();
+  import_folders(arguments.folders, session, console);
   options.store = &session.store();
   constexpr double any_rate = 1.0;
-  const study::Forecast forecast = study::forecast_study(*file, options, any_rate, study::largest_case_count);
+  const study::Forecast forecast = study::forecast_study(file, options, any_rate, study::largest_case_count);
   if (const auto missing = missing_runs(forecast); !missing.empty())
     return refuse_without(
         missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
-  const kinds::StudyOutcome result = session.run(*file, options);
+  const kinds::StudyOutcome result = session.run(file, options);
   if (const auto missing = missing_runs(result); !missing.empty())
     return session.end(refuse_without(missing, fmt::format("{} runs", missing.size()), console));
   return session.conclude(result, options.shard);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, CommandLine& line) {
+  auto [command, merge] = add_command<MergeArguments>(
+      app, line, "merge", "Make one report of the shards of a study; runs nothing");
+  merge.command = line.text;
+  add_required(command, "study", merge.study, "STUDY.toml", "Study file");
+  add_folder(command, merge.output, "Folder for cases, tables and report")->required();
+  add_optional(command, "folder", merge.folders, "FOLDER...",
+               "Folders of shards; none where they all used DIR");
+  add_update(command, merge.update);
+  add_tolerance(command, merge.tolerance);
+  add_jobs(command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
 }
 
 }  // namespace launchsafe::app

@@ -74,16 +74,15 @@ std::optional<std::string> prepare_output_folder(const std::filesystem::path& fo
   return std::nullopt;
 }
 
-ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {
-  if (const auto obstacle = prepare_output_folder(folder)) return console.refuse(*obstacle);
+void write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {
+  if (const auto obstacle = prepare_output_folder(folder)) throw Ended{console.refuse(*obstacle)};
   for (const auto& [name, text] : texts)
-    if (const auto obstacle = obstacle_to_file(folder / name, text)) return console.refuse(*obstacle);
+    if (const auto obstacle = obstacle_to_file(folder / name, text)) throw Ended{console.refuse(*obstacle)};
   for (const auto& [name, text] : texts) {
     if (std::filesystem::exists(folder / name)) continue;  // with this content
     if (const auto error = store::write_file_atomically(folder / name, text, store::IfExists::refuse))
-      return console.end_with(*error);
+      throw Ended{console.end_with(*error)};
   }
-  return ExitCode::done;
 }
 
 std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts) {

@@ -19,8 +19,8 @@ using NamedTexts = std::vector<report::TextFile>;
 std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts);
 
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
-/// written, which it says.
-ExitCode write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console);
+/// written, which ends the command.
+void write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console);
 
 using store::StudyRecord;
 

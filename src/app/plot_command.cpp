@@ -1,5 +1,5 @@
 // launchsafe plot: pictures of one case, or their numbers.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
@@ -12,6 +12,14 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct PlotArguments {
+  std::filesystem::path file;                   ///< of a case
+  std::optional<std::filesystem::path> output;  ///< folder; none: CASE_pictures beside the file
+  std::optional<std::string> what;              ///< words of kinds of pictures; none: all with data
+  std::optional<std::string> times;             ///< with units, of fields and profiles
+  bool tables = false;                          ///< CSV files of numbers instead
+};
 
 using report::CasePicture;
 using report::PictureKind;
@@ -32,12 +40,6 @@ struct Selection {
     return std::ranges::any_of(kinds, [&](const PictureKind* kind) { return kind->word == word; });
   }
 };
-
-/// Why nothing of a kind can be written; empty where it can.
-std::string obstacle_to_kind(const PictureKind& kind, const report::DrawnCase& drawn, bool as_tables) {
-  if (as_tables && !kind.tables) return "there are pictures of it alone";
-  return kind.lacks(drawn);
-}
 
 /// The words of kinds that a user named, each of which must be one.
 scene::Expected<std::vector<std::string>> named_kinds(const std::string& list) {
@@ -61,7 +63,8 @@ scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vec
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
     if (!named.empty() && std::ranges::find(named, kind.word) == named.end()) continue;
-    const std::string why = obstacle_to_kind(kind, drawn, as_tables);
+    const bool lacks_tables = as_tables && !kind.tables;
+    const std::string why = lacks_tables ? "there are pictures of it alone" : kind.lacks(drawn);
     if (why.empty()) {
       selection.kinds.push_back(&kind);
     } else if (named.empty()) {
@@ -69,7 +72,7 @@ scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vec
     } else {
       return scene::error_at({}, "--what",
                              fmt::format("\"{}\", which {} has no data for: {}", kind.word,
-                                         as_tables && !kind.tables ? "--csv" : "this case", why),
+                                         lacks_tables ? "--csv" : "this case", why),
                              "what the case has data for; all of that without --what");
     }
   }
@@ -130,7 +133,7 @@ store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const
   for (const PictureKind* kind : selection.kinds) {
     for (const CasePicture& picture : kind->pictures(drawn)) {
       progress.show("drawing " + picture.file);
-      auto svg = report::to_svg(picture, {.stop = &stop_requested()});
+      auto svg = report::to_svg(picture.plot, {.stop = &stop_requested()});
       if (!svg) return svg.error();
       pictures.push_back({kind->word, picture.file, std::move(*svg), picture.time, picture.gap});
     }
@@ -138,19 +141,11 @@ store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const
   return pictures;
 }
 
-/// Beside the case, unless the user names a folder.
-std::filesystem::path folder_of(const PlotArguments& arguments) {
-  if (arguments.output) return *arguments.output;
-  return arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures");
-}
-
-nlohmann::ordered_json written_json(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
-                                    const Selection& selection, const char* list) {
-  nlohmann::ordered_json object{{"folder", folder.string()},
-                                {list, nlohmann::ordered_json::array()},
-                                {"left_out", nlohmann::ordered_json::array()}};
+Json written_json(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
+                  const Selection& selection, const char* list) {
+  Json object{{"folder", folder.string()}, {list, Json::array()}, {"left_out", Json::array()}};
   for (const DrawnFile& each : files) {
-    nlohmann::ordered_json entry{{"what", each.what}, {"file", (folder / each.name).string()}};
+    Json entry{{"what", each.what}, {"file", (folder / each.name).string()}};
     if (each.time) entry["time_ms"] = 1e3 * *each.time;
     if (each.gap) entry["gap_cm"] = scene::in_unit(*each.gap, scene::Dimension::length, "cm");
     object[list].push_back(std::move(entry));
@@ -172,8 +167,6 @@ ExitCode end_of_drawing(const store::Error& error, Console& console) {
       "installed");
 }
 
-}  // namespace
-
 ExitCode perform(const PlotArguments& arguments, Console& console) {
   const auto file = store::read_case_with_scene(arguments.file);
   if (!file)
@@ -182,29 +175,40 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   report::DrawnCase drawn{file->scene, file->stored.result};
   const bool tables = arguments.tables;
   std::vector<std::string> named;
-  if (arguments.what) {
-    auto words = named_kinds(*arguments.what);
-    if (!words) return console.refuse(words.error());
-    named = std::move(*words);
-  }
-  const auto selection = select(drawn, named, tables);
-  if (!selection) return console.refuse(selection.error());
-  if (arguments.times) {
-    auto times = wanted_times(drawn, *selection, *arguments.times);
-    if (!times) return console.refuse(times.error());
-    drawn.times = std::move(*times);
-  }
-  const auto files = tables ? tabulate(drawn, *selection) : draw(drawn, *selection, console);
+  if (arguments.what) named = console.value_of(named_kinds(*arguments.what));
+  const Selection selection = console.value_of(select(drawn, named, tables));
+  if (arguments.times) drawn.times = console.value_of(wanted_times(drawn, selection, *arguments.times));
+  const auto files = tables ? tabulate(drawn, selection) : draw(drawn, selection, console);
   if (!files) return end_of_drawing(files.error(), console);
-  const std::filesystem::path folder = folder_of(arguments);
+  const std::filesystem::path folder = arguments.output.value_or(
+      arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures"));
   NamedTexts texts;
   for (const DrawnFile& each : *files) texts.push_back({each.name, each.text});
-  if (const ExitCode code = write_where_absent(folder, texts, console); code != ExitCode::done) return code;
-  for (const auto& [kind, why] : selection->left_out)
+  write_where_absent(folder, texts, console);
+  for (const auto& [kind, why] : selection.left_out)
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
   if (!texts.empty()) console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
-  console.print_json(written_json(*files, folder, *selection, tables ? "tables" : "pictures"));
+  console.print_json(written_json(*files, folder, selection, tables ? "tables" : "pictures"));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, CommandLine& line) {
+  auto [command, plot] = add_command<PlotArguments>(
+      app, line, "plot", "Draw a case: histories, profiles, and fields over the section");
+  add_required(command, "case", plot.file, "CASE.h5", "Case file");
+  add_folder(command, plot.output, "Folder for the pictures; CASE_pictures beside the file unless given");
+  std::vector<const char*> kinds;
+  for (const report::PictureKind& kind : report::picture_kinds()) kinds.push_back(kind.word);
+  command
+      .add_option("--what", plot.what,
+                  "One or several, with commas between; all that the case has data for unless given")
+      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
+  add_optional(command, "--times", plot.times, "LIST",
+               "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
+  command.add_flag("--csv", plot.tables,
+                   "Their numbers instead of pictures: pressure, fields and histories, as CSV files");
 }
 
 }  // namespace launchsafe::app

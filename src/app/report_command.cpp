@@ -1,6 +1,7 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/report/folder_index.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "output_folder.hpp"
 
@@ -9,6 +10,16 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct ReportArguments {
+  std::vector<std::filesystem::path> studies;      ///< folders
+  std::filesystem::path output;                    ///< folder of the report; empty with `index`
+  std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
+  std::optional<std::string> criterion, criterion_source;
+  report::DocumentHead document;
+  bool pdf = false;    ///< also as PDF, by a browser
+  bool index = false;  ///< instead: the page that leads to all reports of one folder
+};
 
 /// What manifest.json of the report says: the studies that it is of, and what was asked of them.
 store::StudyRecord record_of(const report::SafetyEvidence& evidence, const ReportArguments& arguments) {
@@ -67,16 +78,23 @@ ExitCode write_index(const std::filesystem::path& folder, Console& console) {
   return ExitCode::done;
 }
 
-}  // namespace
+/// What of these options makes no sense together; empty for nothing.
+std::string contradiction(const ReportArguments& report) {
+  if (report.index && report.studies.size() != 1) return "report: --index is of one folder";
+  if (!report.index && report.output.empty()) return "--output is required";
+  if (report.criterion.has_value() == report.criterion_source.has_value()) return {};
+  return report.criterion ? "report: --criterion requires --criterion-source, which says who asks for it"
+                          : "report: --criterion-source requires --criterion";
+}
 
 ExitCode perform(const ReportArguments& arguments, Console& console) {
+  if (const std::string fault = contradiction(arguments); !fault.empty())
+    return console.refuse(fault + usage_hint);
   if (arguments.index) return write_index(arguments.studies.front(), console);
   std::optional<report::GapCriterion> criterion;
-  if (arguments.criterion) {
-    auto parsed = report::parse_criterion(*arguments.criterion, arguments.criterion_source.value_or(""));
-    if (!parsed) return console.refuse(parsed.error());
-    criterion = std::move(*parsed);
-  }
+  if (arguments.criterion)
+    criterion = console.value_of(
+        report::parse_criterion(*arguments.criterion, arguments.criterion_source.value_or("")));
   // Its report.md would take the place of the study's.
   if (holds_study(arguments.output))
     return console.refuse(
@@ -106,6 +124,32 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   console.print_text(fmt::format("{}\n", fmt::join(places, "\n")));
   console.print_json({{"files", places}, {"remarks", rendered->remarks}});
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, CommandLine& line) {
+  auto [command, report] =
+      add_command<ReportArguments>(app, line, "report", "Make the safety report of studies that were run");
+  add_required(command, "study", report.studies, "STUDY_DIR...",
+               "Folders of studies, at most one of each kind");
+  add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures");
+  add_optional(command, "--criterion", report.criterion, "TEXT",
+               "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"");
+  add_optional(command, "--criterion-source", report.criterion_source, "TEXT",
+               "Who asks for that, as the report is to say");
+  add_optional(command, "--document", report.document.number, "TEXT", "Number of the document, for its head");
+  add_optional(command, "--author", report.document.author, "TEXT", "Who made it");
+  add_optional(command, "--date", report.document.date, "TEXT", "Its date, as it is to be printed");
+  add_optional(command, "--approvals", report.document.approvals, "NAME...",
+               "Who approves it: a line each for name, date and signature");
+  command.add_flag("--pdf", report.pdf, "Also report.pdf, by Chromium or Chrome where one is there");
+  add_place(command, "--templates", report.templates, "DIR", "folder",
+            "Folder of templates in place of those built in: letterhead, language");
+  CLI::Option* index = command.add_flag(
+      "--index", report.index, "Instead: STUDY_DIR/index.html, which leads to all reports in folders there");
+  for (const char* other : {"--output", "--criterion", "--pdf", "--templates"})
+    index->excludes(command.get_option(other));
 }
 
 }  // namespace launchsafe::app

@@ -1,5 +1,5 @@
 // launchsafe run: one case.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
@@ -10,6 +10,7 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
@@ -26,7 +27,13 @@
 namespace launchsafe::app {
 namespace {
 
-using scene::Dimension;
+struct RunArguments {
+  std::filesystem::path scene;
+  std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
+  std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
+};
+
+using scene::labelled;
 
 bool has_observation_points(const trace::BottomTrace& trace) {
   return std::ranges::any_of(trace.stations,
@@ -46,27 +53,23 @@ std::string ignition_text(const std::optional<surface::Ignition>& ignition, cons
                      place_of(trace, ignition->station));
 }
 
-std::string line(std::string_view label, const std::string& value) {
-  return fmt::format("  {:<22}{}\n", label, value);
-}
-
 std::string kilojoules(double joules) {
   return report::in_words(joules, keys::significant(6, keys::kilojoule));
 }
 
 std::string energy_text(const run::EnergyBalance& energy) {
   std::string text = "Energy balance at the end\n";
-  text += line("kinetic", kilojoules(energy.kinetic));
-  text += line("internal", kilojoules(energy.internal));
-  text += line("  plastic", kilojoules(energy.plastic));
-  text += line("  viscous", kilojoules(energy.viscous));
-  text += line("  crack", kilojoules(energy.crack));
-  text += line("damping", kilojoules(energy.damping));
-  if (energy.contact != 0.0) text += line("friction and contact", kilojoules(energy.contact));
-  text += line("external work", kilojoules(energy.external));
-  text += line("frame's body force", kilojoules(energy.body_force));
-  text += line("drift",
-               fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
+  text += labelled("kinetic", kilojoules(energy.kinetic));
+  text += labelled("internal", kilojoules(energy.internal));
+  text += labelled("  plastic", kilojoules(energy.plastic));
+  text += labelled("  viscous", kilojoules(energy.viscous));
+  text += labelled("  crack", kilojoules(energy.crack));
+  text += labelled("damping", kilojoules(energy.damping));
+  if (energy.contact != 0.0) text += labelled("friction and contact", kilojoules(energy.contact));
+  text += labelled("external work", kilojoules(energy.external));
+  text += labelled("frame's body force", kilojoules(energy.body_force));
+  text += labelled(
+      "drift", fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
                            kilojoules(energy.scale())));
   return text;
 }
@@ -74,7 +77,7 @@ std::string energy_text(const run::EnergyBalance& energy) {
 std::string limiter_text(const run::LimiterCounts& limiters) {
   std::string text;
   const auto add = [&text](std::string_view what, std::uint64_t count) {
-    if (count > 0) text += line(what, fmt::format("{} particle-steps", count));
+    if (count > 0) text += labelled(what, fmt::format("{} particle-steps", count));
   };
   add("crack at its bound", limiters.crack_at_bound);
   add("tension cut-off", limiters.tension_cutoff);
@@ -85,22 +88,22 @@ std::string limiter_text(const run::LimiterCounts& limiters) {
 std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
   const char* unit = scene.symmetry == scene::Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
   std::string text = "Run\n";
-  text += line("status", mechanics.status == run::RunStatus::completed
-                             ? run::to_string(mechanics.status)
-                             : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
-  text += line("simulated", scene::time_text(mechanics.end_time));
+  text += labelled("status", mechanics.status == run::RunStatus::completed
+                                 ? run::to_string(mechanics.status)
+                                 : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
+  text += labelled("simulated", scene::time_text(mechanics.end_time));
   std::string masses;
   for (const run::MaterialMass& each : mechanics.masses)
     masses += fmt::format("{}{} {:.6g}", masses.empty() ? "" : ", ", each.material, each.mass);
-  text += line("mass", fmt::format("{} {}", masses, unit));
-  text += line("particles", fmt::format("{}", mechanics.particles));
-  text += line("steps", fmt::format("{}", mechanics.steps));
-  text += line("wall time", report::duration(mechanics.wall_time));
+  text += labelled("mass", fmt::format("{} {}", masses, unit));
+  text += labelled("particles", fmt::format("{}", mechanics.particles));
+  text += labelled("steps", fmt::format("{}", mechanics.steps));
+  text += labelled("wall time", report::duration(mechanics.wall_time));
   if (!(mechanics.processor_time > 0)) return text;
-  text += line("processor time", report::duration(mechanics.processor_time));
+  text += labelled("processor time", report::duration(mechanics.processor_time));
   return text +
-         line("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
-                                         mechanics.update_rate() / 1e6));
+         labelled("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
+                                             mechanics.update_rate() / 1e6));
 }
 
 report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
@@ -117,18 +120,13 @@ struct MaximumRow {
 
 /// `heading`: what temperature, place and instant are called.
 report::Quantities<MaximumRow> maximum_quantities(const std::array<const char*, 3>& heading) {
-  const auto if_there = [](auto get) {
-    return [get](const MaximumRow& row) {
-      return row.maximum != nullptr ? keys::cell_of(get(row)) : report::Cell();
-    };
-  };
   using namespace report::quantity;
-  return {{headed(heading[0], temperature_max()),
-           if_there([](const MaximumRow& row) { return row.maximum->temperature; })},
-          {headed(heading[1], temperature_max_place()),
-           if_there([](const MaximumRow& row) { return place_of(*row.trace, row.maximum->station); })},
-          {headed(heading[2], temperature_max_time()),
-           if_there([](const MaximumRow& row) { return row.maximum->time; })}};
+  const auto place = [](const MaximumRow& row) {
+    return row.maximum != nullptr ? report::Cell(place_of(*row.trace, row.maximum->station)) : report::Cell();
+  };
+  return {{headed(heading[0], temperature_max), &MaximumRow::maximum, &surface::Maximum::temperature},
+          {headed(heading[1], temperature_max_place), place},
+          {headed(heading[2], temperature_max_time), &MaximumRow::maximum, &surface::Maximum::time}};
 }
 
 /// One gap of a run.
@@ -142,7 +140,7 @@ struct GapRow {
 
 report::Quantities<GapRow> gap_quantities(bool points) {
   report::Quantities<GapRow> quantities = keys::joined<GapRow>(
-      {{{report::quantity::gap(), &GapRow::gap, &run::GapResult::gap}},
+      {{{report::quantity::gap, &GapRow::gap, &run::GapResult::gap}},
        report::of_part<GapRow>(maximum_quantities({"T max", "at", "time"}), &GapRow::at_stations)});
   if (points)
     quantities = keys::joined<GapRow>(
@@ -154,33 +152,31 @@ report::Quantities<GapRow> gap_quantities(bool points) {
   return quantities;
 }
 
-nlohmann::ordered_json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
+Json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
   return report::json_of(maximum_quantities({"T max", "at", "time"}), MaximumRow{&maximum, &trace});
 }
 
-nlohmann::ordered_json ignition_json(const std::optional<surface::Ignition>& ignition,
-                                     const trace::BottomTrace& trace) {
+Json ignition_json(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
   if (!ignition) return nullptr;
   return {{"ignition_cause", study::to_string(ignition->cause)},
-          {report::quantity::ignition_time().key(),
-           report::shown_value(ignition->time, report::quantity::ignition_time().form)},
+          {report::quantity::ignition_time.key(),
+           report::shown_value(ignition->time, report::quantity::ignition_time.form)},
           {"ignition_place", place_of(trace, ignition->station)},
           {"ignition_chemical_share", ignition->chemical_share}};
 }
 
-nlohmann::ordered_json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
+Json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
   const trace::BottomTrace& trace = mechanics.trace;
   const bool observed = has_observation_points(trace);
-  nlohmann::ordered_json object{{"gap_cm", report::shown_gap(gap.gap)}};
+  Json object{{"gap_cm", report::shown_gap(gap.gap)}};
   object["maximum"] = maximum_json(gap.at_stations, trace);
-  object["at_observation_points"] =
-      observed ? maximum_json(gap.at_points, trace) : nlohmann::ordered_json(nullptr);
+  object["at_observation_points"] = observed ? maximum_json(gap.at_points, trace) : Json(nullptr);
   object["ignition"] = ignition_json(gap.skin.ignition, trace);
   object["sampling_error_K"] = gap.sampling_error;
   return object;
 }
 
-nlohmann::ordered_json energy_json(const run::EnergyBalance& energy) {
+Json energy_json(const run::EnergyBalance& energy) {
   return {{"kinetic_J", energy.kinetic},   {"internal_J", energy.internal},
           {"external_J", energy.external}, {"body_force_J", energy.body_force},
           {"damping_J", energy.damping},   {"contact_J", energy.contact},
@@ -219,10 +215,10 @@ std::string combustion_text(const scene::Scene& scene, const run::CaseResult& re
 /// What a person who knows the gun recognises.
 std::string launch_text(const scene::Scene& scene) {
   std::string text = "Launch\n";
-  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += line("muzzle exit", exit);
-  text += line("end of the launch", scene::end_text(scene));
+  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += labelled("muzzle exit", exit);
+  text += labelled("end of the launch", scene::end_text(scene));
   if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
-    text += line("load", measured);
+    text += labelled("load", measured);
   return text + "\n";
 }
 
@@ -247,21 +243,20 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result) 
 }
 
 /// The same for programs, in SI units but for the gaps (see the keys).
-nlohmann::ordered_json case_json(const scene::Scene& scene, const run::CaseResult& result) {
+Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
-  nlohmann::ordered_json object{
-      {"title", scene.title},
-      {"status", run::to_string(mechanics.status)},
-      {"reason", mechanics.reason},
-      {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
-      {"load", load_json(scene)},
-      {"gaps", nlohmann::ordered_json::array()}};
+  Json object{{"title", scene.title},
+              {"status", run::to_string(mechanics.status)},
+              {"reason", mechanics.reason},
+              {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
+              {"load", load_json(scene)},
+              {"gaps", Json::array()}};
   for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
-  object["combustion"] = report::to_json(report::combustion_table(scene, result))["rows"];
-  object["air_energy"] = report::to_json(air_table(scene, result))["rows"];
-  object["closing"] = report::to_json(report::closing_table(result))["rows"];
+  object["combustion"] = report::json_rows(report::combustion_table(scene, result));
+  object["air_energy"] = report::json_rows(air_table(scene, result));
+  object["closing"] = report::json_rows(report::closing_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
-  object["interfaces"] = report::to_json(report::interface_table(mechanics))["rows"];
+  object["interfaces"] = report::json_rows(report::interface_table(mechanics));
   object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
                         {"tension_cutoff", mechanics.limiters.tension_cutoff},
                         {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
@@ -319,16 +314,13 @@ std::vector<std::string> missing_events(const scene::Scene& scene, const run::Ca
   return words;
 }
 
-}  // namespace
-
 ExitCode perform(const RunArguments& arguments, Console& console) {
-  const auto file = scene::read_scene(arguments.scene);
-  if (!file) return console.refuse(file.error());
-  for (const std::string& note : file->notes) console.remark(note);
-  const scene::Scene& scene = file->scene;
+  const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
+  for (const std::string& note : file.notes) console.remark(note);
+  const scene::Scene& scene = file.scene;
   run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
-  if (const auto error = run::out_of_reach(*file, reach)) return console.refuse(*error);
+  if (const auto error = run::out_of_reach(file, reach)) return console.refuse(*error);
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   std::filesystem::path target;
   if (arguments.output) {
@@ -360,11 +352,11 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   if (!missing.empty())
     console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
   console.print_text(case_text(scene, result));
-  nlohmann::ordered_json object = case_json(scene, result);
+  Json object = case_json(scene, result);
   object["events_without_snapshot"] = missing;
   object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;
-  object["file"] = target.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(target.string());
+  object["file"] = target.empty() ? Json(nullptr) : Json(target.string());
   console.print_json(object);
   const bool finite = std::ranges::all_of(
       result.gaps, [](const run::GapResult& gap) { return std::isfinite(gap.at_stations.temperature); });
@@ -376,6 +368,16 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   console.error(fmt::format("the run ended early ({}): {}; every verdict on it is indeterminate",
                             run::to_string(result.mechanics.status), result.mechanics.reason));
   return ExitCode::indeterminate;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, CommandLine& line) {
+  auto [command, run] = add_command<RunArguments>(
+      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out");
+  add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
+  add_folder(command, run.output, "Folder to write the HDF5 case file to");
+  add_longest_run(command, run.longest_run);
 }
 
 }  // namespace launchsafe::app

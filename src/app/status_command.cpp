@@ -1,5 +1,5 @@
 // launchsafe status: how far studies are, from what their writers tell in status files.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/report/study_status.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
@@ -11,6 +11,11 @@
 
 namespace launchsafe::app {
 namespace {
+
+struct StatusArguments {
+  std::vector<std::filesystem::path> folders;  ///< of one study: its own, or those of its shards
+  bool watch = false;                          ///< look again until it has ended
+};
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -74,21 +79,28 @@ bool pays_to_wait(const report::Row& facts, const StatusArguments& asked) {
   return report::is_running(facts) || waits;
 }
 
-}  // namespace
-
 ExitCode perform(const StatusArguments& asked, Console& console) {
   while (true) {
-    const auto snapshots = snapshots_of(asked);
-    if (!snapshots) return console.refuse(snapshots.error());
+    const std::vector<store::StoreStatus> snapshots = console.value_of(snapshots_of(asked));
     std::vector<std::string> names(asked.folders.begin(), asked.folders.end());
     report::Row facts =
-        report::status_facts(fmt::format("{}", fmt::join(names, ", ")), *snapshots, std::time(nullptr));
+        report::status_facts(fmt::format("{}", fmt::join(names, ", ")), snapshots, std::time(nullptr));
     show(facts, asked.watch, console);
     const bool goes_on = asked.watch && pays_to_wait(facts, asked);
     if (goes_on && wait_for(::isatty(STDOUT_FILENO) == 1 ? 2s : 10s)) continue;
     console.print_json(facts);
     return goes_on ? ExitCode::interrupted : static_cast<ExitCode>(facts["exit_code"].get<int>());
   }
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, CommandLine& line) {
+  auto [command, status] = add_command<StatusArguments>(
+      app, line, "status", "Say how far a study is: done, failed, left, when it will end");
+  add_required(command, "folder", status.folders, "DIR...",
+               "Folder of a study or of its shards, or those of shards that have one each");
+  command.add_flag("--watch", status.watch, "Look again every few seconds until it has ended");
 }
 
 }  // namespace launchsafe::app

@@ -8,6 +8,9 @@
 
 #include <unistd.h>
 
+#include <condition_variable>
+#include <thread>
+
 namespace launchsafe::app {
 namespace {
 
@@ -91,30 +94,133 @@ std::string progress_line(const study::Progress& progress, std::time_t now, std:
 
 }  // namespace
 
+/// From before the runs to the end of the study. A thread of its own shows what was told last, also while
+/// runs tell nothing.
+class StudyWatch {
+ public:
+  /// `command` goes on after an interruption. At the time `until` the study is asked to stop, as by a signal.
+  StudyWatch(store::CaseStore& store, std::string command, bool quiet, std::optional<std::time_t> until)
+      : store_(store), command_(std::move(command)), until_(until), told_(Clock::now()), line_(quiet) {
+    thread_ = std::thread([this] { show_until_ended(); });
+  }
+  ~StudyWatch() { end_line(); }
+  StudyWatch(const StudyWatch&) = delete;
+  StudyWatch& operator=(const StudyWatch&) = delete;
+
+  /// For the runs: remembers how far they are.
+  study::ProgressCallback callback() {
+    return [this](const study::Progress& progress) {
+      const std::lock_guard lock(mutex_);
+      progress_ = progress;
+      told_ = Clock::now();
+    };
+  }
+
+  /// Removes the line; nothing is shown any more but the end.
+  void end_line() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+    line_.reset();
+  }
+
+  /// Tells the folder how the study ended.
+  void tell_end(int exit_code) {
+    end_line();
+    Json told = members(progress_);
+    told["runs_running"] = 0;
+    told["time_left_s"] = nullptr;
+    told["exit_code"] = exit_code;
+    store_.tell_progress(std::move(told), true);
+    write_page();
+  }
+
+ private:
+  void show_until_ended() {
+    std::unique_lock lock(mutex_);
+    while (!changed_.wait_for(lock, between_looks, [this] { return ended_; })) {
+      lock.unlock();
+      if (until_ && std::time(nullptr) >= *until_) stop_requested() = true;
+      // What watches the study must not end it.
+      try {
+        show();
+      } catch (const std::exception&) {
+      }
+      lock.lock();
+    }
+  }
+
+  study::Progress progress_now() {
+    const std::lock_guard lock(mutex_);
+    study::Progress now = progress_;
+    const double since = std::chrono::duration<double>(Clock::now() - told_).count();
+    if (now.seconds_left >= 0) now.seconds_left = std::max(0.0, now.seconds_left - since);
+    if (now.total > 0 && now.done == now.total) now.phase = study::Phase::report;
+    return now;
+  }
+
+  void show() {
+    const study::Progress now = progress_now();
+    line_->show(progress_line(now, std::time(nullptr), terminal_width(STDERR_FILENO).value_or(80) - 1));
+    store_.tell_progress(members(now));
+    if (page_written_ && Clock::now() - *page_written_ < between_pages) return;
+    page_written_ = Clock::now();
+    write_page();
+  }
+
+  Json members(const study::Progress& progress) const {
+    Json members = report::progress_row(progress);
+    members["command"] = command_;
+    return members;
+  }
+
+  void write_page() {
+    const auto snapshots = store::statuses_in(store_.folder());
+    if (snapshots.empty()) return;
+    const std::time_t now = std::time(nullptr);
+    const auto facts = report::status_facts(store_.folder().filename().string(), snapshots, now);
+    store_.write_page(report::status_page(facts, reports_in(store_.folder())));
+  }
+
+  store::CaseStore& store_;
+  std::string command_;
+  std::optional<std::time_t> until_;
+  std::mutex mutex_;  ///< of what follows
+  std::condition_variable changed_;
+  bool ended_ = false;
+  study::Progress progress_;
+  Clock::time_point told_;
+  std::optional<Clock::time_point> page_written_;
+  std::optional<Progress> line_;
+  std::thread thread_;
+};
+
 StudySession::StudySession(SessionRequest request, Console& console)
     : request_(std::move(request)), console_(console) {}
 
-ExitCode StudySession::open() {
+StudySession::~StudySession() = default;
+
+void StudySession::open() {
   auto obstacle = obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update);
   if (!obstacle) obstacle = prepare_output_folder(request_.folder);
-  if (obstacle) return console_.refuse(*obstacle);
-  store::StoreOptions options;
-  options.part = request_.part;
-  options.model_version = request_.manifest.model_version;
-  options.on_failure = [](const store::Error&) { stop_requested() = true; };
-  auto opened = store::CaseStore::open(request_.folder, options);
-  if (!opened) return console_.end_with(opened.error());
+  if (obstacle) throw Ended{console_.refuse(*obstacle)};
+  const auto stop = [](const store::Error&) { stop_requested() = true; };
+  auto opened = store::CaseStore::open(request_.folder, request_.part, stop);
+  if (!opened) throw Ended{console_.end_with(opened.error())};
   store_ = std::move(*opened);
   print_remarks();
   // Until the store was ours somebody else may have been at work here.
   if (const auto late =
           obstacle_in_folder(request_.folder, request_.kind, request_.manifest, request_.update))
-    return console_.refuse(*late);
+    throw Ended{console_.refuse(*late)};
   if (request_.part.empty()) remove_leftovers(request_.folder);
   const auto moved = take_folder(request_.folder, record());
-  if (!moved) return console_.end_with(moved.error());
+  if (!moved) throw Ended{console_.end_with(moved.error())};
   if (!moved->empty()) console_.remark(fmt::format("the earlier report moved to {}", moved->string()));
-  return ExitCode::done;
 }
 
 bool StudySession::kept() {
@@ -186,7 +292,7 @@ ExitCode StudySession::deliver_shard(const kinds::StudyOutcome& result, const st
 
 ExitCode StudySession::deliver_whole(const kinds::StudyOutcome& result) {
   console_.print_text(report::to_text(result.report, request_.folder, width_of_output()));
-  if (console_.json()) console_.print_json(nlohmann::ordered_json::parse(result.report.json));
+  if (console_.json()) console_.print_json(Json::parse(result.report.json));
   console_.failures(result.failures);
   console_.remark(report::timing_text(result.timing));
   if (const ExitCode written = write_files(result); written != ExitCode::done) return written;
@@ -225,87 +331,6 @@ ExitCode StudySession::write_files(const kinds::StudyOutcome& result) {
   console_.error(fmt::format(
       "interrupted while a picture was drawn; all results are kept; for the picture: {}", request_.command));
   return ExitCode::interrupted;
-}
-
-StudyWatch::StudyWatch(store::CaseStore& store, std::string command, bool quiet,
-                       std::optional<std::time_t> until)
-    : store_(store), command_(std::move(command)), until_(until), told_(Clock::now()), line_(quiet) {
-  thread_ = std::thread([this] { show_until_ended(); });
-}
-
-study::ProgressCallback StudyWatch::callback() {
-  return [this](const study::Progress& progress) {
-    const std::lock_guard lock(mutex_);
-    progress_ = progress;
-    told_ = Clock::now();
-  };
-}
-
-void StudyWatch::end_line() {
-  if (!thread_.joinable()) return;
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-  line_.reset();
-}
-
-void StudyWatch::tell_end(int exit_code) {
-  end_line();
-  nlohmann::ordered_json told = members(progress_);
-  told["runs_running"] = 0;
-  told["time_left_s"] = nullptr;
-  told["exit_code"] = exit_code;
-  store_.tell_progress(std::move(told), true);
-  write_page();
-}
-
-void StudyWatch::show_until_ended() {
-  std::unique_lock lock(mutex_);
-  while (!changed_.wait_for(lock, between_looks, [this] { return ended_; })) {
-    lock.unlock();
-    if (until_ && std::time(nullptr) >= *until_) stop_requested() = true;
-    // What watches the study must not end it.
-    try {
-      show();
-    } catch (const std::exception&) {
-    }
-    lock.lock();
-  }
-}
-
-study::Progress StudyWatch::progress_now() {
-  const std::lock_guard lock(mutex_);
-  study::Progress now = progress_;
-  const double since = std::chrono::duration<double>(Clock::now() - told_).count();
-  if (now.seconds_left >= 0) now.seconds_left = std::max(0.0, now.seconds_left - since);
-  if (now.total > 0 && now.done == now.total) now.phase = study::Phase::report;
-  return now;
-}
-
-void StudyWatch::show() {
-  const study::Progress now = progress_now();
-  line_->show(progress_line(now, std::time(nullptr), terminal_width(STDERR_FILENO).value_or(80) - 1));
-  store_.tell_progress(members(now));
-  if (page_written_ && Clock::now() - *page_written_ < between_pages) return;
-  page_written_ = Clock::now();
-  write_page();
-}
-
-nlohmann::ordered_json StudyWatch::members(const study::Progress& progress) const {
-  nlohmann::ordered_json members = report::progress_row(progress);
-  members["command"] = command_;
-  return members;
-}
-
-void StudyWatch::write_page() {
-  const auto snapshots = store::statuses_in(store_.folder());
-  if (snapshots.empty()) return;
-  const std::time_t now = std::time(nullptr);
-  const auto facts = report::status_facts(store_.folder().filename().string(), snapshots, now);
-  store_.write_page(report::status_page(facts, reports_in(store_.folder())));
 }
 
 }  // namespace launchsafe::app

@@ -2,52 +2,14 @@
 // delivery of its outcome.
 #pragma once
 
-#include "commands.hpp"
+#include "console.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/scheduler.hpp"
 
-#include <condition_variable>
-#include <thread>
-
 namespace launchsafe::app {
 
-/// From before the runs to the end of the study. A thread of its own shows what was told last, also while
-/// runs tell nothing.
-class StudyWatch {
- public:
-  /// `command` goes on after an interruption. At the time `until` the study is asked to stop, as by a signal.
-  StudyWatch(store::CaseStore& store, std::string command, bool quiet, std::optional<std::time_t> until);
-  ~StudyWatch() { end_line(); }
-  StudyWatch(const StudyWatch&) = delete;
-  StudyWatch& operator=(const StudyWatch&) = delete;
-
-  /// For the runs: remembers how far they are.
-  study::ProgressCallback callback();
-  /// Removes the line; nothing is shown any more but the end.
-  void end_line();
-  /// Tells the folder how the study ended.
-  void tell_end(int exit_code);
-
- private:
-  void show_until_ended();
-  void show();
-  study::Progress progress_now();
-  nlohmann::ordered_json members(const study::Progress& progress) const;
-  void write_page();
-
-  store::CaseStore& store_;
-  std::string command_;
-  std::optional<std::time_t> until_;
-  std::mutex mutex_;  ///< of what follows
-  std::condition_variable changed_;
-  bool ended_ = false;
-  study::Progress progress_;
-  std::chrono::steady_clock::time_point told_;
-  std::optional<std::chrono::steady_clock::time_point> page_written_;
-  std::optional<Progress> line_;
-  std::thread thread_;
-};
+class StudyWatch;
 
 /// How a study uses its folder.
 struct SessionRequest {
@@ -65,10 +27,11 @@ struct SessionRequest {
 class StudySession {
  public:
   StudySession(SessionRequest request, Console& console);
+  ~StudySession();
 
-  /// Takes the folder and opens its store. Anything but `done` is the end; then the reason was printed, and
-  /// unless the machine failed nothing was written.
-  ExitCode open();
+  /// Takes the folder and opens its store, or ends the command; unless the machine failed nothing was written
+  /// then.
+  void open();
   /// Where results are kept; only once open.
   store::CaseStore& store() { return *store_; }
 

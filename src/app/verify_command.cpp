@@ -1,6 +1,6 @@
 // launchsafe verify: numbers that an installed program must reproduce. The laws and the mechanics have their
 // full tests in the source.
-#include "commands.hpp"
+#include "common_options.hpp"
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/johnson_cook.hpp"
 #include "launchsafe/materials/jwl.hpp"
@@ -13,16 +13,20 @@
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/surface/skin.hpp"
 
+#include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <set>
 
 namespace launchsafe::app {
 namespace {
+
+struct VerifyArguments {
+  std::string filter;  ///< part of a check's group or name, case ignored
+};
 
 // ---- the laws ----
 
@@ -248,8 +252,8 @@ report::Table check_table(const std::vector<Check>& checks, std::size_t failed) 
   return table;
 }
 
-nlohmann::ordered_json json_of(const std::vector<Check>& checks, std::size_t failed) {
-  nlohmann::ordered_json object{{"checks", nlohmann::ordered_json::array()}};
+Json json_of(const std::vector<Check>& checks, std::size_t failed) {
+  Json object{{"checks", Json::array()}};
   for (const Check& check : checks)
     object["checks"].push_back({{"group", check.group},
                                 {"name", check.name},
@@ -265,14 +269,6 @@ nlohmann::ordered_json json_of(const std::vector<Check>& checks, std::size_t fai
   return object;
 }
 
-/// Whether a title has the filter in it, case ignored.
-bool has_in_it(const std::string& title, const std::string& filter) {
-  const auto same = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
-  return std::ranges::search(title, filter, same).begin() != title.end();
-}
-
-}  // namespace
-
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
   std::vector<Check> checks;
   std::set<std::string> groups;
@@ -282,7 +278,7 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
       return ExitCode::interrupted;
     }
     groups.insert(check.group);
-    if (!has_in_it(check.title(), arguments.filter)) continue;
+    if (!boost::algorithm::icontains(check.title(), arguments.filter)) continue;
     check.computed = check.compute();
     checks.push_back(std::move(check));
   }
@@ -294,6 +290,15 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
   console.print_text(report::to_text(check_table(checks, failed), width_of_output()));
   console.print_json(json_of(checks, failed));
   return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, CommandLine& line) {
+  auto [command, verify] =
+      add_command<VerifyArguments>(app, line, "verify", "Test an installed program against known numbers");
+  add_optional(command, "--filter", verify.filter, "TEXT",
+               "Only checks with this in their name, case ignored");
 }
 
 }  // namespace launchsafe::app

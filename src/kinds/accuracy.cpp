@@ -1,7 +1,6 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
 #include "answer_tables.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
@@ -38,14 +37,12 @@ std::vector<double> ignition_times(const AccuracyRow& row) {
   return times;
 }
 
-/// What the reference meshes, finest first, tend to. T max and critical gap are those of the record: their
-/// limits may be off by what no mesh has exact.
-AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study::RecordedReference& recorded,
-                               const std::vector<bool>& inert) {
+/// What the reference meshes, finest first, tend to.
+AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study::AccuracyRecord& record,
+                               std::vector<bool> inert) {
   AccuracyReference reference;
-  reference.temperature = recorded.temperature;
-  reference.critical_gap = recorded.critical_gap;
-  reference.inert = inert;
+  static_cast<study::RecordedReference&>(reference) = study::reference_of(record);
+  reference.inert = std::move(inert);
   reference.ignition_time = over_meshes(meshes, ignition_times);
   reference.peak_pressure =
       over_meshes(meshes, [](const AccuracyRow& mesh) { return std::vector{mesh.peak_pressure}; }).front();
@@ -184,7 +181,6 @@ study::AccuracyRecord record_of(const VariantAccuracy& variant) {
   const scene::Scene& scene = variant.study.scene.scene;
   study::AccuracyRecord record;
   record.title = variant.study.study.title;
-  record.model_version = run::model_version;
   record.scene = scene;
   scene::clear_remarks(record.scene);
   record.scene.accepted.clear();
@@ -225,11 +221,10 @@ void compare(VariantAccuracy& variant) {
     return;
   }
   variant.record = record_of(variant);
-  const study::RecordedReference recorded = study::reference_of(variant.record);
-  variant.reference = reference_of(finest_first, recorded, inert);
+  variant.reference = reference_of(finest_first, variant.record, inert);
   for (AccuracyRow& row : variant.rows) {
     if (!row.computed()) continue;
-    find_bounds(recorded, row.setting);
+    find_bounds(*variant.reference, row.setting);
     find_errors(*variant.reference, row);
   }
   mark_front(variant.rows);

@@ -30,9 +30,9 @@ Fault read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
                     "numerics keys, frame, friction.closure, ...; the gaps are the study's");
   }
   auto description = scene::describe_key(study.scene, leaf.name, place);
-  if (!description) return study::in_table(description.error(), "settings");
+  if (!description) return scene::within("settings", description.error());
   const auto values = scene::read_values(*leaf.node, *description, study.file);
-  if (!values) return study::in_table(values.error(), "settings");
+  if (!values) return scene::within("settings", values.error());
   SettingsAxis& axis = settings_of<AccuracySettings>(study.study).settings[block].emplace_back();
   for (const Value& value : *values)
     axis.push_back({leaf.name, value, scene::format_value(*description, value), key, place});
@@ -245,16 +245,15 @@ Fault make_accuracy_cases(const StudySource& source, StudyFile& study) {
   return std::nullopt;
 }
 
-std::vector<scene::Key<AccuracySettings>> accuracy_keys() {
-  return {
-      assumed_list("reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1),
-                   "Cell sizes of at least three grids, each fitting the charge, that the reference is "
-                   "extrapolated from.",
-                   &AccuracySettings::reference_cell_sizes),
-      assumed_list("times", scene::Dimension::time, scene::between(0, 1),
-                   "Instants at which temperatures are compared too.", &AccuracySettings::times),
-  };
-}
+const std::vector<scene::Key<AccuracySettings>> accuracy_keys{
+    scene::list_key("reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1),
+                    scene::Standing::assumed,
+                    "Cell sizes of at least three grids, each fitting the charge, that the reference is "
+                    "extrapolated from.",
+                    &AccuracySettings::reference_cell_sizes),
+    scene::list_key("times", scene::Dimension::time, scene::between(0, 1), scene::Standing::assumed,
+                    "Instants at which temperatures are compared too.", &AccuracySettings::times),
+};
 
 std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
   std::vector<Failure> failures;
@@ -281,12 +280,12 @@ Kind accuracy_kind() {
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false,
                  .closing_gaps = study::ClosingGaps::compared},
-      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys())}),
+      .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys)}),
       .tables = {{"settings", {}}, {variant_key, {}}},
       .read = read_accuracy,
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,
-      .files = {{"accuracy.json"}, {"accuracy_", ".json"}, {"error_against_time.svg"}},
+      .files = {"accuracy.json", "accuracy_*.json", "error_against_time.svg"},
       .results = accuracy_results,
   };
 }

@@ -127,9 +127,8 @@ Plot error_plot(const VariantAccuracy& variant) {
   constexpr int blue = 0, orange = 1, black = 6, grey = 7;
   const double known_to = variant.reference_uncertainty();
   Plot plot;
-  plot.x = {headed("processor time of a run", quantity::processor_time()).label(),
-            report::Scale::logarithmic};
-  plot.y = {headed("distance of T max from the limit", quantity::temperature_max()).label(),
+  plot.x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic};
+  plot.y = {headed("distance of T max from the limit", quantity::temperature_max).label(),
             report::Scale::logarithmic};
   plot.width = 760;
   plot.height = 480;
@@ -196,20 +195,17 @@ report::Report report_of(const AccuracyResult& result) {
     const std::string name = each.name.empty() ? "accuracy.json" : "accuracy_" + each.name + ".json";
     report.files.push_back({name, study::to_json_text(each.record)});
   }
-  if (!drawn.empty())
-    report.items.push_back(
-        report::Picture{"error_against_time.svg", picture_of(drawn), "error against run time"});
-  if (several) report.items.push_back(ReportTable{variant_table(result), "variants.csv", "variants"});
+  if (!drawn.empty()) report.draw({"error_against_time.svg", picture_of(drawn), "error against run time"});
+  if (several) report.add({variant_table(result), "variants.csv", "variants"});
   const Shown settings = several ? Shown::file : Shown::page_and_terminal;
-  report.items.push_back(ReportTable{setting_table(result), "accuracy.csv", "settings", settings});
-  report.items.push_back(ReportTable{reference_table(result), "reference.csv", "reference", Shown::file});
-  report.items.push_back(ReportTable{point_table(result), "points.csv", "points", Shown::file});
-  report.items.push_back(Statement{said_below("accuracy.files")});
+  report.add({setting_table(result), "accuracy.csv", "settings", settings});
+  report.add({reference_table(result), "reference.csv", "reference", Shown::file});
+  report.add({point_table(result), "points.csv", "points", Shown::file});
+  report.say(said_below("accuracy.files"));
   if (first.baseline() != nullptr)
-    report.items.push_back(
-        Statement{"## Why believe that?\n\n" + said_below("accuracy.belief", belief_facts(first))});
-  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(first.study)});
-  report.items.push_back(Statement{report::timing_sentence(result.timing)});
+    report.say("## Why believe that?\n\n" + said_below("accuracy.belief", belief_facts(first)));
+  report.say("## Setup\n\n" + report::setup_text(first.study));
+  report.say(report::timing_sentence(result.timing));
   report.json = study_json(result.study, report, {{"timing", report::timing_json(result.timing)}});
   return report;
 }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 namespace launchsafe::kinds {
 
 using keys::Cell, keys::fixed, keys::Form, keys::kelvin, keys::significant, keys::text;
@@ -40,10 +42,10 @@ std::vector<double> all_of_variants(const AccuracyResult& result, List list) {
 
 /// The rows of all variants begin with its name where there are several.
 template <class Row>
-Quantities<Row> with_variants(const AccuracyResult& result, Quantities<Row> quantities) {
+Quantities<Row> with_variants(const AccuracyResult& result, const Quantities<Row>& quantities,
+                              const VariantAccuracy* Row::*variant) {
   if (result.variants.size() == 1) return quantities;
-  return keys::joined<Row>(
-      {{{quantity::variant(), [](const Row& row) { return row.variant->name; }}}, std::move(quantities)});
+  return keys::joined<Row>({{{quantity::variant, variant, &VariantAccuracy::name}}, quantities});
 }
 
 /// A compared quantity, and what the reference meshes say of it.
@@ -63,28 +65,26 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
       return row.value->limit.justified ? std::optional(get(row)) : std::nullopt;
     };
   };
-  Quantities<ReferenceRow> quantities{{quantity::subject(), &ReferenceRow::what, &Column::heading},
-                                      {quantity::unit(), &ReferenceRow::what, &Column::form, &Form::unit}};
+  Quantities<ReferenceRow> quantities{{quantity::subject, &ReferenceRow::what, &Column::heading},
+                                      {quantity::unit, &ReferenceRow::what, &Column::form, &Form::unit}};
   for (const double size : sizes) {
-    const std::string cells = report::digits_of(size, quantity::cell_size().form);
-    quantities.emplace_back(
-        Column{"cells_" + cells + "_mm", cells + " mm", significant(7), "Value on that reference mesh."},
-        [size](const ReferenceRow& row) {
-          return report::shown_value(value_at(row.value->values, cell_sizes_of(*row.variant), size),
-                                     row.what.form);
-        });
+    const std::string cells = report::digits_of(size, quantity::cell_size.form);
+    quantities.emplace_back("cells_" + cells + "_mm", cells + " mm", significant(7),
+                            "Value on that reference mesh.", [size](const ReferenceRow& row) {
+                              return report::shown_value(
+                                  value_at(row.value->values, cell_sizes_of(*row.variant), size),
+                                  row.what.form);
+                            });
   }
   return keys::joined<ReferenceRow>(
       {quantities,
-       {{{"order", "order", fixed(2),
-          "Order at which the meshes converge; none where no limit is justified."},
+       {{"order", "order", fixed(2), "Order at which the meshes converge; none where no limit is justified.",
          if_justified([](const ReferenceRow& row) { return row.value->limit.order; })},
-        {{"extrapolated", "extrapolated", significant(7),
-          "Limit of the meshes; none where none is justified."},
+        {"extrapolated", "extrapolated", significant(7), "Limit of the meshes; none where none is justified.",
          if_justified(in_unit([](const ReferenceValue& value) { return value.limit.value; }))},
-        {{"uncertainty", "uncertainty", significant(2), "By how much the reference may be off."},
+        {"uncertainty", "uncertainty", significant(2), "By how much the reference may be off.",
          in_unit([](const ReferenceValue& value) { return value.limit.uncertainty; })},
-        {{"method", "by", text(), "How the limit was found, or why there is none."},
+        {"method", "by", text(), "How the limit was found, or why there is none.",
          [](const ReferenceRow& row) {
            const math::Extrapolation& limit = row.value->limit;
            return limit.justified ? limit.method : "no extrapolation: " + limit.reason;
@@ -108,7 +108,9 @@ Table quantity_table(const AccuracyResult& result,
   std::vector<ReferenceRow> rows;
   for (const VariantAccuracy& variant : result.variants)
     if (variant.reference) add({variant, rows}, *variant.reference);
-  return table_of({}, with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of))),
+  return table_of({},
+                  with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of)),
+                                &ReferenceRow::variant),
                   rows);
 }
 
@@ -125,27 +127,19 @@ std::string remark_of(const AccuracyRow& row) {
 }
 
 /// One setting of a variant.
-struct SettingRow {
-  const VariantAccuracy* variant;
-  const AccuracyRow* row;
-};
+using SettingRow = PartOf<VariantAccuracy, const AccuracyRow*>;
 
 /// One of a list, of which there is one for every gap, or time, of the variant.
 template <class Keys>
 auto of_list(std::vector<double> AccuracyRow::*list, Keys keys, double key) {
-  return [=](const SettingRow& row) { return value_at(row.row->*list, keys(*row.variant), key); };
+  return [=](const SettingRow& row) { return value_at(row.part->*list, keys(*row.whole), key); };
 }
 
-Column temperature_bound() {
-  return {"temperature_bound", "T bound", fixed(2, kelvin), "By how much T max may be off, over all gaps."};
-}
-Column critical_gap_bound() {
-  return {"critical_gap_bound", "its bound", significant(2, keys::centimetre),
-          "By how much that may be off."};
-}
-Column processor_time() {
-  return {"processor_time", "processor time", fixed(1, keys::second), "Of the run."};
-}
+const Column temperature_bound{"temperature_bound", "T bound", fixed(2, kelvin),
+                               "By how much T max may be off, over all gaps."};
+const Column critical_gap_bound{"critical_gap_bound", "its bound", significant(2, keys::centimetre),
+                                "By how much that may be off."};
+const Column processor_time{"processor_time", "processor time", fixed(1, keys::second), "Of the run."};
 
 /// An error at every gap.
 Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string& heading,
@@ -153,8 +147,8 @@ Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string
                               std::vector<double> AccuracyRow::*list) {
   Quantities<SettingRow> quantities;
   for (const double gap : gaps)
-    quantities.emplace_back(Column{name + "_" + report::digits_of(gap, quantity::gap().form) + "_cm",
-                                   heading + " at " + centimetres(gap), form, "Error at that gap."},
+    quantities.emplace_back(name + "_" + report::digits_of(gap, quantity::gap.form) + "_cm",
+                            heading + " at " + centimetres(gap), form, "Error at that gap.",
                             of_list(list, gaps_of, gap));
   return quantities;
 }
@@ -166,55 +160,48 @@ struct ComparedAt {
 
 /// The cost of a setting and its errors.
 Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
-  Quantities<SettingRow> quantities{
-      {{"setting", "setting", text(), "What is set otherwise than in the scene."},
-       &SettingRow::row,
-       &AccuracyRow::setting,
-       &RecordedSetting::label},
-      {{"cell", "cell", significant(3, keys::millimetre),
-        "Size of the charge's smallest cells, as computed."},
-       &SettingRow::row,
-       &AccuracyRow::setting,
-       &RecordedSetting::cell},
-      {processor_time(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::processor_time},
-      {quantity::wall_time(), &SettingRow::row, &AccuracyRow::wall_time},
-      {{"particle_steps", "particle steps", significant(3), "Particles times steps."},
-       &SettingRow::row,
-       &AccuracyRow::particle_steps},
-      {quantity::memory(), &SettingRow::row, &AccuracyRow::memory}};
-  quantities = keys::joined<SettingRow>(
-      {quantities,
-       by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
-       {{temperature_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
-        {quantity::critical_gap(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap},
-        {{"critical_gap_error", "its error", significant(2, keys::centimetre),
-          "Critical gap minus the reference."},
-         &SettingRow::row,
-         &AccuracyRow::critical_gap_error},
-        {critical_gap_bound(), &SettingRow::row, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
-        {{"bottom_pressure_error", "p(t)", fixed(2, keys::percent),
-          "Relative L2 difference of the bottom pressure from the finest mesh."},
-         &SettingRow::row,
-         &AccuracyRow::pressure_error},
-        {{"bottom_pressure_peak_error", "p peak", fixed(2, keys::percent), "Relative error of its peak."},
-         &SettingRow::row,
-         &AccuracyRow::peak_pressure_error}},
-       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, keys::millisecond),
-              &AccuracyRow::ignition_time_error)});
+  const auto of_row = [](const Quantities<AccuracyRow>& quantities) {
+    return of_part<SettingRow>(quantities, &SettingRow::part);
+  };
+  Quantities<SettingRow> of_times;
   for (const double time : at.times)
-    quantities.emplace_back(
+    of_times.emplace_back(
         for_programs(
             Column{"temperature_error_" + report::digits_of(time, significant(6, keys::millisecond)) + "_ms",
                    "T error at " + report::milliseconds(time), fixed(2, kelvin),
                    "Error of the hottest point then, first gap, without reaction."}),
         of_list(&AccuracyRow::error_at_times, times_of, time));
   return keys::joined<SettingRow>(
-      {quantities,
-       {{quantity::energy_drift(), &SettingRow::row,
-         [](const AccuracyRow& row) { return row.answer.run.energy_drift; }},
-        {for_programs(Column{"is_scene", "of the scene", text(), "Whether it is the setting of the scene."}),
-         &SettingRow::row, &AccuracyRow::baseline},
-        {{"remark", "remark", text(), "What is to be known of the setting."}, &SettingRow::row, remark_of}}});
+      {of_row({{"setting", "setting", text(), "What is set otherwise than in the scene.",
+                &AccuracyRow::setting, &RecordedSetting::label},
+               {"cell", "cell", significant(3, keys::millimetre),
+                "Size of the charge's smallest cells, as computed.", &AccuracyRow::setting,
+                &RecordedSetting::cell},
+               {processor_time, &AccuracyRow::setting, &RecordedSetting::processor_time},
+               {quantity::wall_time, &AccuracyRow::wall_time},
+               {"particle_steps", "particle steps", significant(3), "Particles times steps.",
+                &AccuracyRow::particle_steps},
+               {quantity::memory, &AccuracyRow::memory}}),
+       by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
+       of_row({{temperature_bound, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
+               {quantity::critical_gap, &AccuracyRow::setting, &RecordedSetting::critical_gap},
+               {"critical_gap_error", "its error", significant(2, keys::centimetre),
+                "Critical gap minus the reference.", &AccuracyRow::critical_gap_error},
+               {critical_gap_bound, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
+               {"bottom_pressure_error", "p(t)", fixed(2, keys::percent),
+                "Relative L2 difference of the bottom pressure from the finest mesh.",
+                &AccuracyRow::pressure_error},
+               {"bottom_pressure_peak_error", "p peak", fixed(2, keys::percent),
+                "Relative error of its peak.", &AccuracyRow::peak_pressure_error}}),
+       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, keys::millisecond),
+              &AccuracyRow::ignition_time_error),
+       of_times,
+       of_row({{quantity::energy_drift, &AccuracyRow::answer, &study::CaseAnswer::run,
+                &study::RunSummary::energy_drift},
+               {for_programs(
+                    Column{"is_scene", "of the scene", text(), "Whether it is the setting of the scene."}),
+                &AccuracyRow::baseline},
+               {"remark", "remark", text(), "What is to be known of the setting.", remark_of}})});
 }
 
 /// How wrong the own setting of a variant is: nothing but its name where that setting did not run soundly.
@@ -236,43 +223,36 @@ VariantRow row_of(const VariantAccuracy& variant) {
   return row;
 }
 
-Quantities<VariantRow> variant_quantities() {
-  return {
-      {quantity::variant(),
-       [](const VariantRow& row) {
-         if (row.own != nullptr) return row.variant->name;
-         return row.variant->name + ": " +
-                (row.variant->reference ? "its own setting did not run soundly" : row.variant->no_reference);
-       }},
-      {temperature_bound(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
-      {{"temperature_distance", "T distance", fixed(2, kelvin), "Distance of T max from the reference."},
-       &VariantRow::own,
-       &AccuracyRow::largest_temperature_error},
-      {quantity::critical_gap(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap},
-      {critical_gap_bound(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
-      {{"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
-        "By how much the reference of T max may itself be off."},
-       [](const VariantRow& row) {
-         return row.own ? row.variant->reference_uncertainty() : study::not_a_number;
-       }},
-      {processor_time(), &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
-      {{"half_bound_setting", "cheapest with half the bound", text(),
-        "The cheapest setting with half the bound."},
-       [](const VariantRow& row) {
-         if (row.half_bound != nullptr) return Cell(row.half_bound->label);
-         return row.own != nullptr ? Cell(std::string("none here")) : Cell();
-       }},
-      {{"half_bound_processor_time", "its time", fixed(1, keys::second), "Its processor time."},
-       &VariantRow::half_bound,
-       &RecordedSetting::processor_time},
-      {{"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference."},
-       &VariantRow::most_distant,
-       &AccuracyRow::setting,
-       &RecordedSetting::label},
-      {{"most_distant", "its distance", fixed(2, kelvin), "Its distance of T max."},
-       &VariantRow::most_distant,
-       &AccuracyRow::largest_temperature_error}};
-}
+const Quantities<VariantRow> variant_quantities{
+    {quantity::variant,
+     [](const VariantRow& row) {
+       if (row.own != nullptr) return row.variant->name;
+       return row.variant->name + ": " +
+              (row.variant->reference ? "its own setting did not run soundly" : row.variant->no_reference);
+     }},
+    {temperature_bound, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
+    {"temperature_distance", "T distance", fixed(2, kelvin), "Distance of T max from the reference.",
+     &VariantRow::own, &AccuracyRow::largest_temperature_error},
+    {quantity::critical_gap, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap},
+    {critical_gap_bound, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
+    {"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
+     "By how much the reference of T max may itself be off.",
+     [](const VariantRow& row) {
+       return row.own ? row.variant->reference_uncertainty() : study::not_a_number;
+     }},
+    {processor_time, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
+    {"half_bound_setting", "cheapest with half the bound", text(),
+     "The cheapest setting with half the bound.",
+     [](const VariantRow& row) {
+       if (row.half_bound != nullptr) return Cell(row.half_bound->label);
+       return row.own != nullptr ? Cell(std::string("none here")) : Cell();
+     }},
+    {"half_bound_processor_time", "its time", fixed(1, keys::second), "Its processor time.",
+     &VariantRow::half_bound, &RecordedSetting::processor_time},
+    {"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference.",
+     &VariantRow::most_distant, &AccuracyRow::setting, &RecordedSetting::label},
+    {"most_distant", "its distance", fixed(2, kelvin), "Its distance of T max.", &VariantRow::most_distant,
+     &AccuracyRow::largest_temperature_error}};
 
 }  // namespace
 
@@ -281,17 +261,17 @@ Table reference_table(const AccuracyResult& result) {
     const study::Study& study = to.variant.study.study;
     for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
       const std::string at = " at " + centimetres(study.gaps[gap]);
-      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at,
-             quantity::temperature_max().form, reference.temperature[gap]);
-      to.add("ignition time" + at, quantity::ignition_time().form, reference.ignition_time[gap]);
+      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max.form,
+             reference.temperature[gap]);
+      to.add("ignition time" + at, quantity::ignition_time.form, reference.ignition_time[gap]);
     }
-    to.add("critical gap", quantity::critical_gap().form, reference.critical_gap);
-    to.add("peak pressure of the charge bottom", quantity::pressure().form, reference.peak_pressure);
+    to.add("critical gap", quantity::critical_gap.form, reference.critical_gap);
+    to.add("peak pressure of the charge bottom", quantity::pressure.form, reference.peak_pressure);
     for (std::size_t i = 0; i < reference.at_times.size(); ++i)
       to.add(fmt::format("T without reaction at {}, gap {}",
                          report::milliseconds(settings_of<AccuracySettings>(study).times[i]),
                          centimetres(study.gaps.front())),
-             quantity::temperature_max().form, reference.at_times[i]);
+             quantity::temperature_max.form, reference.at_times[i]);
   });
 }
 
@@ -299,16 +279,15 @@ Table point_table(const AccuracyResult& result) {
   return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
     const std::string gap = ", gap " + centimetres(to.variant.study.study.gaps.front());
     for (std::size_t i = 0; i < reference.points.size(); ++i)
-      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max().form,
+      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max.form,
              reference.points[i]);
   });
 }
 
 Table setting_table(const AccuracyResult& result) {
-  std::vector<SettingRow> rows;
-  for (const VariantAccuracy& variant : result.variants)
-    if (variant.reference)
-      for (const AccuracyRow& row : variant.rows) rows.push_back({&variant, &row});
+  const auto rows = parts_of<AccuracyRow>(result.variants, [](const VariantAccuracy& variant) {
+    return variant.reference ? std::span(variant.rows) : std::span<const AccuracyRow>();
+  });
   // A gap whose time can be compared ignites on all reference meshes.
   const auto igniting_gaps_of = [](const VariantAccuracy& variant) {
     std::vector<double> gaps;
@@ -318,25 +297,23 @@ Table setting_table(const AccuracyResult& result) {
   };
   const ComparedAt at{all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
                       all_of_variants(result, times_of)};
-  Table table = table_of("Error against run time", with_variants(result, setting_quantities(at)), rows);
-  table.notes = said("accuracy.note.settings");
-  return table;
+  return table_of("Error against run time", with_variants(result, setting_quantities(at), &SettingRow::whole),
+                  rows, said("accuracy.note.settings"));
 }
 
 Table variant_table(const AccuracyResult& result) {
   std::vector<VariantRow> rows;
   for (const VariantAccuracy& variant : result.variants) rows.push_back(row_of(variant));
-  Table table = table_of("How wrong each variant is with its own setting", variant_quantities(), rows);
-  table.notes = said("accuracy.note.variants");
-  return table;
+  return table_of("How wrong each variant is with its own setting", variant_quantities, rows,
+                  said("accuracy.note.variants"));
 }
 
-std::vector<ResultTable> accuracy_results() {
+std::vector<report::ReportTable> accuracy_results() {
   const auto reference = keys::described(reference_quantities({1e-3}));
-  return {{"settings", "accuracy.csv", keys::described(setting_quantities({{0.0}, {0.0}, {1e-3}}))},
-          {"variants", "variants.csv", keys::described(variant_quantities())},
-          {"reference", "reference.csv", reference},
-          {"points", "points.csv", reference}};
+  return {{table_of({}, setting_quantities({{0.0}, {0.0}, {1e-3}}), {}), "accuracy.csv", "settings"},
+          {table_of({}, variant_quantities, {}), "variants.csv", "variants"},
+          {Table{.columns = reference}, "reference.csv", "reference"},
+          {Table{.columns = reference}, "points.csv", "points"}};
 }
 
 }  // namespace launchsafe::kinds

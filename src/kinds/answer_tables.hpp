@@ -104,6 +104,31 @@ std::string limited_text(const SweepCounts& counts, const std::string& noun);
 /// left out.
 std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study);
 
+/// A part of something that is told with it, as a row of a table.
+template <class Whole, class Part>
+struct PartOf {
+  const Whole* whole;
+  Part part;
+};
+
+/// What there is to say of both.
+template <class Whole, class Part>
+report::Quantities<PartOf<Whole, const Part*>> with_whole(const report::Quantities<Whole>& of_whole,
+                                                          const report::Quantities<Part>& of_part) {
+  using Row = PartOf<Whole, const Part*>;
+  return keys::joined<Row>(
+      {keys::of_part<Row>(of_whole, &Row::whole), keys::of_part<Row>(of_part, &Row::part)});
+}
+
+/// A row for every part of all, which `list` has.
+template <class Part, class Whole, class List>
+std::vector<PartOf<Whole, const Part*>> parts_of(const std::vector<Whole>& all, List list) {
+  std::vector<PartOf<Whole, const Part*>> rows;
+  for (const Whole& whole : all)
+    for (const Part& each : std::invoke(list, whole)) rows.push_back({&whole, &each});
+  return rows;
+}
+
 /// A case with its answer, and where it lies.
 struct AnsweredCase {
   const study::StudyFile* study;

@@ -1,7 +1,6 @@
 #include "launchsafe/kinds/calibration.hpp"
 
 #include "calibration_parts.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/run_cases.hpp"
@@ -76,7 +75,7 @@ CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, Frictio
     row.calibrated = calibrate(model, run.mechanics.trace, targets);
     row.failure = row.calibrated.failure;
     if (!row.failure.empty()) return row;
-    row.calibrated.constants.put_into(model.surface, model.kinetics);
+    put(row.calibrated.constants, model.surface, model.kinetics);
   }
   compare(study.study, model, run.mechanics.trace, row);
   return row;
@@ -94,12 +93,9 @@ std::size_t row_place(const CalibrationResult& result, double cell_size, Frictio
 
 /// Finest and coarsest mesh that were run, m.
 std::pair<double, double> mesh_range(const CalibrationResult& result) {
-  double finest = 1e300, coarsest = 0;
-  for (const CalibrationRun& run : result.runs) {
-    finest = std::min(finest, run.input.cell_size);
-    coarsest = std::max(coarsest, run.input.cell_size);
-  }
-  return {finest, coarsest};
+  const auto cell = [](const CalibrationRun& run) { return run.input.cell_size; };
+  const auto [finest, coarsest] = std::ranges::minmax_element(result.runs, {}, cell);
+  return {cell(*finest), cell(*coarsest)};
 }
 
 void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>& kinetics) {
@@ -111,7 +107,7 @@ void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>&
       const auto constants_on = [&](double mesh) {
         return result.rows[row_place(result, mesh, closure, set.name)].calibrated.constants;
       };
-      const Constants a = constants_on(finest), b = constants_on(coarsest);
+      const surface::SurfaceConstants a = constants_on(finest), b = constants_on(coarsest);
       result.convergence.push_back({closure, set.name, (a.localisation - b.localisation) / a.localisation,
                                     (a.exchange_time - b.exchange_time) / a.exchange_time});
     }
@@ -205,7 +201,7 @@ void recommend(CalibrationResult& result) {
 std::vector<double> end_temperatures(const CalibrationRun& run, const CalibrationRow& constants) {
   surface::SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = constants.closure;
-  constants.calibrated.constants.put_into(model.surface, model.kinetics);
+  put(constants.calibrated.constants, model.surface, model.kinetics);
   const trace::BottomTrace& trace = run.mechanics.trace;
   const auto history = surface::integrate_skin(model, trace, 0.0);
   std::vector<double> temperatures;
@@ -254,15 +250,13 @@ void compare_stations(CalibrationResult& result) {
 /// Runs, fits, compares and recommends; all but what an interruption is told by.
 void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
-  const scene::Scene& scene = study.scene.scene;
-  result.in_scene = {scene.surface.localisation, scene.surface.exchange_time,
-                     scene.charge().kinetics.ignition_temperature};
+  result.in_scene = surface::constants_of(surface::skin_model(study.scene.scene));
   const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
   for (const study::StudyCase& input : study.cases) {
     CalibrationRun run;
     run.input = input;
-    if (result.load) run.input.scene = with_load(input.scene, *result.load);
+    if (result.load && result.load->bell) run.input.scene.scene.load = *result.load->bell;
     if (result.load) run.failure = result.load->failure;
     result.runs.push_back(std::move(run));
   }
@@ -298,7 +292,7 @@ scene::Scene calibrated_scene(const CalibrationResult& result, const Calibration
       result.runs, [&](const auto& each) { return each.input.cell_size == row.cell_size; });
   scene::Scene scene = run->input.scene.scene;
   scene.surface.friction = row.closure;
-  row.calibrated.constants.put_into(scene.surface, scene.charge().kinetics);
+  put(row.calibrated.constants, scene.surface, scene.charge().kinetics);
   scene.accepted.clear();
   return scene;
 }
@@ -315,7 +309,6 @@ std::optional<study::CalibrationRecord> record_of(const CalibrationResult& resul
   if (!targets || result.interrupted) return std::nullopt;
   study::CalibrationRecord record;
   record.title = result.study.study.title;
-  record.model_version = run::model_version;
   record.load_fitted = result.load.has_value();
   record.references_digest = digest_of(result.study.study.references);
   if (!result.recommendation.row) {

@@ -42,64 +42,58 @@ Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& target
                   fitted_keys.size()));
 }
 
-std::vector<scene::Key<CalibrationSettings>> calibration_keys() {
-  return {
-      assumed_list("meshes", Dimension::length, scene::between(1e-5, 1),
-                   "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
-      scene::flag_key("compare_kinetics", scene::Standing::assumed,
-                      "Calibrate with every named kinetics rather than with the scene's alone.",
-                      &CalibrationSettings::compare_kinetics),
-      scene::range_key("ignition_bracket", Dimension::temperature, scene::between(0, 5000),
-                       scene::Standing::paper,
-                       "Published bracket of the ignition temperature, a check on the calibrated one.",
-                       &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
-      scene::flag_key("load_fitted", scene::Standing::assumed,
-                      "Fit peak time, width and steepness of the load's bell too, with the constants by "
-                      "least squares, to the highest temperatures over the launch and at early_time (0.5 K) "
-                      "and to the two instants of the fast rise (0.5 ms) of the calibrated rows.",
-                      &CalibrationSettings::load_fitted),
-      scene::text_key(
-          "frozen_at", scene::Standing::input,
-          "Where rule and weights of the calibration were settled before its fit, for the report.", "1fd14b4",
-          &CalibrationSettings::frozen_at),
-  };
-}
+const std::vector<scene::Key<CalibrationSettings>> calibration_keys{
+    scene::list_key("meshes", Dimension::length, scene::between(1e-5, 1), scene::Standing::assumed,
+                    "Cell sizes, each a mechanical run; the scene's if absent.",
+                    &CalibrationSettings::meshes),
+    scene::flag_key("compare_kinetics", scene::Standing::assumed,
+                    "Calibrate with every named kinetics rather than with the scene's alone.",
+                    &CalibrationSettings::compare_kinetics),
+    scene::range_key("ignition_bracket", Dimension::temperature, scene::between(0, 5000),
+                     scene::Standing::paper,
+                     "Published bracket of the ignition temperature, a check on the calibrated one.",
+                     &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
+    scene::flag_key("load_fitted", scene::Standing::assumed,
+                    "Fit peak time, width and steepness of the load's bell too, with the constants by "
+                    "least squares, to the highest temperatures over the launch and at early_time (0.5 K) "
+                    "and to the two instants of the fast rise (0.5 ms) of the calibrated rows.",
+                    &CalibrationSettings::load_fitted),
+    scene::text_key("frozen_at", scene::Standing::input,
+                    "Where rule and weights of the calibration were settled before its fit, for the report.",
+                    "1fd14b4", &CalibrationSettings::frozen_at),
+};
 
 const FiringSettings& settings_in(const study::Study& study) {
   return settings_of<CalibrationSettings>(study).firings;
 }
 
-const std::vector<Key<Firing>>& firing_row_keys() {
-  static const std::vector<Key<Firing>> keys{
-      scene::text_key("name", Standing::input, "What the rounds are called.", "series of March",
-                      &Firing::name),
-      scene::required(scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
-                                      {{"no ignition", false}, {"ignition", true}}, &Firing::ignited)),
-      scene::number_key("rounds", Dimension::count, scene::between(1, study::most_rounds), Standing::input,
-                        "How many rounds.", &Firing::rounds),
-      scene::usually(scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9),
-                                       Standing::input, "Their mean peak pressure.", &Firing::pressure),
-                     "that of the scene"),
-      scene::usually(
-          scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
-                            "Its standard deviation from round to round.", &Firing::pressure_spread),
-          "2 % of it"),
-      scene::usually(
-          scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
-                            "Mean temperature of charge and air.", &Firing::temperature),
-          "that of the scene"),
-      scene::usually(
-          scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
-                            Standing::input, "Its standard deviation from round to round.",
-                            &Firing::temperature_spread),
-          "6 K"),
-      scene::required(scene::value_or_range(
-          scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
-                           "The gap of the rounds, or between which lengths it was; then the smaller counts.",
-                           &Firing::gap, &Firing::most_gap))),
-  };
-  return keys;
-}
+const std::vector<Key<Firing>> firing_row_keys{
+    scene::text_key("name", Standing::input, "What the rounds are called.", "series of March", &Firing::name),
+    scene::required(scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
+                                    {{"no ignition", false}, {"ignition", true}}, &Firing::ignited)),
+    scene::number_key("rounds", Dimension::count, scene::between(1, study::most_rounds), Standing::input,
+                      "How many rounds.", &Firing::rounds),
+    scene::usually(scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9),
+                                     Standing::input, "Their mean peak pressure.", &Firing::pressure),
+                   "that of the scene"),
+    scene::usually(
+        scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
+                          "Its standard deviation from round to round.", &Firing::pressure_spread),
+        "2 % of it"),
+    scene::usually(
+        scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
+                          "Mean temperature of charge and air.", &Firing::temperature),
+        "that of the scene"),
+    scene::usually(
+        scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
+                          Standing::input, "Its standard deviation from round to round.",
+                          &Firing::temperature_spread),
+        "6 K"),
+    scene::required(scene::value_or_range(
+        scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
+                         "The gap of the rounds, or between which lengths it was; then the smaller counts.",
+                         &Firing::gap, &Firing::most_gap))),
+};
 
 /// What a firing leaves out is of the scene, or assumed.
 void complete(Firing& firing, const scene::Scene& scene) {
@@ -170,18 +164,12 @@ std::vector<Key<study::Study>> firing_keys() {
 
 /// Reads [[firing]], where there are any.
 Fault read_firings(const toml::table& root, StudyFile& study) {
-  const auto tables = study::tables_of(root, "firing", study.file);
-  if (!tables) return tables.error();
   std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
-  for (const toml::table* table : *tables) {
-    Firing firing;
-    auto read = scene::read_table(*table, firing_row_keys(), {}, study.file, firing);
-    if (!read) return study::in_table(read.error(), "firing");
-    const std::size_t place = firings.size();
-    for (auto& [key, where] : *read) study.places[fmt::format("firing.{}.{}", place, key)] = where;
-    complete(firing, study.scene.scene);
-    if (Fault fault = check_curve(study, firing, place)) return fault;
-    firings.push_back(std::move(firing));
+  if (Fault fault = study::read_rows(root, "firing", firing_row_keys, study.file, study, firings))
+    return fault;
+  for (std::size_t place = 0; place < firings.size(); ++place) {
+    complete(firings[place], study.scene.scene);
+    if (Fault fault = check_curve(study, firings[place], place)) return fault;
   }
   return std::nullopt;
 }
@@ -294,13 +282,12 @@ Kind calibration_kind() {
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false},
       .keys =
-          joined({reference_keys(), calibration_record_keys(), own_keys(calibration_keys()), firing_keys()}),
-      .tables = {reference_table(), study_table_of("firing", firing_row_keys())},
+          joined({reference_keys(), calibration_record_keys(), own_keys(calibration_keys), firing_keys()}),
+      .tables = {reference_table(), study_table_of("firing", firing_row_keys)},
       .read = read_calibration,
       .make_cases = make_calibration_cases,
       .run = run,
-      // Reports of older programs had hold-outs and files of cases too.
-      .files = {{"calibration.json"}, {"hold_outs.csv"}, {"case_", ".h5"}, {"case_", ".xdmf"}},
+      .files = {"calibration.json"},
       .results = calibration_results,
   };
 }

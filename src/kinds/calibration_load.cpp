@@ -1,13 +1,11 @@
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 
 namespace launchsafe::kinds {
 
-using report::Quantities;
 using study::FinishedRun, study::fitted_keys, study::StudyFile, study::StudyOptions, study::Timing;
 
 namespace {
@@ -26,25 +24,26 @@ LoadNumbers numbers_of(const scene::Load& load) {
 }
 
 /// Tries loads, each by a mechanical run the first time that it is asked for.
-class LoadTrials {
- public:
-  LoadTrials(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
-             Timing& timing)
-      : study_(study), targets_(targets), options_(options), timing_(timing) {
-    start_.load = study.scene.scene.load;
-  }
+struct LoadTrials {
+  const StudyFile& study;
+  const CalibrationTargets& targets;
+  const StudyOptions& options;
+  Timing& timing;
+  Trial start{study.scene.scene.load};
+  std::map<LoadNumbers, trace::BottomTrace> traces = {};
+  std::string failure = {};
 
   /// Constants that meet the highest temperatures under the scene's load; false with `failure` where none do.
   bool find_start() {
-    if (!run_all({start_.load})) return false;
-    surface::SkinModel model = surface::skin_model(study_.scene.scene);
-    CalibrationTargets highest = targets_;
+    if (!run_all({start.load})) return false;
+    surface::SkinModel model = surface::skin_model(study.scene.scene);
+    CalibrationTargets highest = targets;
     highest.load_fitted = false;
-    const CalibratedConstants found = calibrate(model, trace_of(start_.load), highest);
+    const CalibratedConstants found = calibrate(model, trace_of(start.load), highest);
     // An ignition temperature is found at the end, and what stands in its way here may be gone then.
     if (!std::isfinite(found.constants.localisation)) return fail(found.failure);
-    start_.localisation = found.constants.localisation;
-    start_.exchange_time = found.constants.exchange_time;
+    start.localisation = found.constants.localisation;
+    start.exchange_time = found.constants.exchange_time;
     return true;
   }
 
@@ -71,7 +70,7 @@ class LoadTrials {
   }
 
   Trial trial_at(const std::vector<double>& point) const {
-    Trial trial = start_;
+    Trial trial = start;
     std::size_t next = 0;
     for (double* number : {&trial.load.peak_time, &trial.load.width, &trial.load.steepness,
                            &trial.localisation, &trial.exchange_time})
@@ -79,36 +78,32 @@ class LoadTrials {
     return trial;
   }
 
-  std::size_t runs() const { return traces_.size(); }
-  const std::string& failure() const { return failure_; }
-
- private:
   bool fail(std::string why) {
-    if (failure_.empty()) failure_ = std::move(why);
+    if (failure.empty()) failure = std::move(why);
     return false;
   }
 
   scene::Scene scene_under(const scene::Load& load) const {
-    scene::Scene scene = study_.scene.scene;
+    scene::Scene scene = study.scene.scene;
     scene.load = load;
     return scene;
   }
 
-  const trace::BottomTrace& trace_of(const scene::Load& load) const { return traces_.at(numbers_of(load)); }
+  const trace::BottomTrace& trace_of(const scene::Load& load) const { return traces.at(numbers_of(load)); }
 
   std::vector<double> misfits_of(const Trial& trial) const {
-    surface::SkinModel model = surface::skin_model(study_.scene.scene);
+    surface::SkinModel model = surface::skin_model(study.scene.scene);
     model.surface.localisation = trial.localisation;
     model.surface.exchange_time = trial.exchange_time;
-    return weighted_misfits(model, trace_of(trial.load), targets_);
+    return weighted_misfits(model, trace_of(trial.load), targets);
   }
 
   /// Runs those loads that were not run before.
   bool run_all(const std::vector<scene::Load>& loads) {
-    if (stop_requested(options_)) return fail("interrupted");
+    if (stop_requested(options)) return fail("interrupted");
     std::map<LoadNumbers, scene::Load> untried;
     for (const scene::Load& load : loads)
-      if (!traces_.contains(numbers_of(load))) untried[numbers_of(load)] = load;
+      if (!traces.contains(numbers_of(load))) untried[numbers_of(load)] = load;
     std::vector<study::PlannedRun> runs;
     std::vector<scene::Load> tried;
     for (const auto& [numbers, load] : untried) {
@@ -117,13 +112,13 @@ class LoadTrials {
     }
     std::vector<FinishedRun> finished(tried.size());
     study::ProgressTracker untold({});
-    run_each(std::move(runs), options_, untold, timing_,
+    run_each(std::move(runs), options, untold, timing,
              [&](std::size_t i, const FinishedRun& run) { finished[i] = run; });
     for (std::size_t i = 0; i < tried.size(); ++i) {
       const FinishedRun& run = finished[i];
       if (!run.failure.empty())
         return fail(fmt::format("the run with its {}: {}", label_of(tried[i]), run.failure));
-      traces_[numbers_of(tried[i])] = trace::until(run.result.mechanics.trace, scene::read_time(tried[i]));
+      traces[numbers_of(tried[i])] = trace::until(run.result.mechanics.trace, scene::read_time(tried[i]));
     }
     return true;
   }
@@ -132,22 +127,11 @@ class LoadTrials {
     return fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}", 1e3 * load.peak_time,
                        1e3 * load.width, load.steepness);
   }
-
-  const StudyFile& study_;
-  const CalibrationTargets& targets_;
-  const StudyOptions& options_;
-  Timing& timing_;
-  Trial start_;
-  std::map<LoadNumbers, trace::BottomTrace> traces_;
-  std::string failure_;
 };
 
 /// The fit in the words of the calibration.
 void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trials) {
-  const scene::Load bell = trials.trial_at(fit.unknowns).load;
-  load.peak_time = bell.peak_time;
-  load.width = bell.width;
-  load.steepness = bell.steepness;
+  load.bell = trials.trial_at(fit.unknowns).load;
   load.numbers = fit.residuals.size();
   load.sum_of_squares = fit.sum_of_squares();
   load.condition = fit.condition;
@@ -156,34 +140,7 @@ void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trial
   load.covariance = fit.covariance;
   for (double& entry : load.covariance) entry *= variance;
   const std::vector<double> derivative = trials.base_derivative(fit);
-  if (derivative.empty()) return;
-  if (const auto base = math::add_unknown(fit, derivative)) {
-    load.base_change = base->change;
-    load.base_gain = base->gain;
-  }
-}
-
-bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
-
-/// One of the fitted keys.
-struct FittedRow {
-  const FittedLoad* load;
-  std::size_t place;
-};
-
-Quantities<FittedRow> fitted_quantities() {
-  Quantities<FittedRow> quantities{
-      {{"key", "key", keys::text(), "Key of the scene."},
-       [](const FittedRow& row) { return std::string(fitted_keys[row.place]); }},
-      {{"standard_deviation", "standard deviation", keys::fixed(2, keys::percent), "Of its logarithm."},
-       [](const FittedRow& row) { return row.load->deviation(row.place); }}};
-  for (std::size_t other = 0; other < fitted_keys.size(); ++other) {
-    const std::string key(fitted_keys[other]);
-    quantities.emplace_back(
-        report::Column{"correlation_" + key, "with " + key, keys::fixed(2), "Correlation with it."},
-        [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
-  }
-  return quantities;
+  if (!derivative.empty()) load.base = math::add_unknown(fit, derivative);
 }
 
 }  // namespace
@@ -209,7 +166,7 @@ std::string calibration_validity_warnings(const scene::Scene& scene, const run::
 
 FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
                     Timing& timing) {
-  LoadTrials trials(study, targets, options, timing);
+  LoadTrials trials{study, targets, options, timing};
   FittedLoad load;
   if (trials.find_start()) {
     const auto fit = math::fit_nonlinear([&](const auto& points) { return trials.misfits(points); },
@@ -217,70 +174,9 @@ FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, c
     load.failure = text_of(fit);
     if (load.failure.empty()) describe(load, fit, trials);
   }
-  if (!trials.failure().empty()) load.failure = trials.failure();
-  load.runs = trials.runs();
+  if (!trials.failure.empty()) load.failure = trials.failure;
+  load.runs = trials.traces.size();
   return load;
-}
-
-scene::SceneFile with_load(const scene::SceneFile& scene, const FittedLoad& load) {
-  scene::SceneFile changed = scene;
-  changed.scene.load.peak_time = load.peak_time;
-  changed.scene.load.width = load.width;
-  changed.scene.load.steepness = load.steepness;
-  return changed;
-}
-
-std::vector<report::Column> fitted_columns() { return keys::described(fitted_quantities()); }
-
-report::Table fitted_table(const CalibrationResult& result) {
-  if (!has_load(result)) return {};
-  std::vector<FittedRow> rows;
-  for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
-  report::Table table =
-      report::table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows);
-  table.notes = said("calibration.note.fitted");
-  return table;
-}
-
-std::string fit_text(const CalibrationResult& result) {
-  if (!has_load(result)) return {};
-  report::Row facts = load_json(result);
-  facts.update(
-      {{"temperature_weight_K", temperature_weight},
-       {"instant_weight_ms", report::shown_value(instant_weight, keys::significant(6, keys::millisecond))}});
-  return said_below("calibration.fit", facts);
-}
-
-std::string misfits_text(const CalibrationResult& result) {
-  if (result.recommended() == nullptr) return {};
-  const MisfitBound misfits = misfit_bound(*result.recommended());
-  return said_below("calibration.misfits", {{"count", misfits.count},
-                                            {"root_mean_square_K", misfits.root_mean_square},
-                                            {"factor", misfits.factor},
-                                            {"bound_K", misfits.bound()}});
-}
-
-nlohmann::ordered_json load_json(const CalibrationResult& result) {
-  if (!result.load) return nullptr;
-  const Quantities<FittedLoad> quantities{
-      {quantity::load_peak_time(), &FittedLoad::peak_time},
-      {quantity::load_width(), &FittedLoad::width},
-      {quantity::load_steepness(), &FittedLoad::steepness},
-      {{"numbers", "numbers", keys::count(), "Published numbers that were fitted to."}, &FittedLoad::numbers},
-      {{"sum_of_squares", "sum of squares", keys::fixed(2), "Of what is left, over the weights."},
-       &FittedLoad::sum_of_squares},
-      {{"condition", "condition", keys::fixed(0), "Of the fit, in logarithms."}, &FittedLoad::condition},
-      {{"base_change", "change of the base", keys::significant(2, keys::megapascal),
-        "By which load.base would move as a sixth unknown."},
-       &FittedLoad::base_change},
-      {{"base_gain", "gain", keys::significant(2), "By which the sum of squares would fall."},
-       &FittedLoad::base_gain},
-      {{"runs", "runs", keys::count(), "Mechanical runs that it took."}, &FittedLoad::runs},
-      {quantity::reason(), &FittedLoad::failure}};
-  nlohmann::ordered_json json = report::json_of(quantities, *result.load);
-  json["covariance_of_logarithms"] = result.load->covariance;
-  json["frozen_at"] = settings_of<CalibrationSettings>(result.study.study).frozen_at;
-  return json;
 }
 
 }  // namespace launchsafe::kinds

@@ -223,10 +223,11 @@ std::string text_of(const math::NonlinearFit& fit) {
   return {};
 }
 
-void Constants::put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const {
-  surface.localisation = localisation;
-  surface.exchange_time = exchange_time;
-  kinetics.ignition_temperature = ignition_temperature;
+void put(const surface::SurfaceConstants& constants, scene::Surface& surface,
+         materials::KineticsParameters& kinetics) {
+  surface.localisation = constants.localisation;
+  surface.exchange_time = constants.exchange_time;
+  kinetics.ignition_temperature = constants.ignition_temperature;
 }
 
 CalibratedConstants calibrate(const surface::SkinModel& given, const trace::BottomTrace& trace,

@@ -3,9 +3,6 @@
 #pragma once
 
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/math/statistics.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace launchsafe::kinds {
 
@@ -51,21 +48,5 @@ report::Table run_table(const std::vector<CalibrationRun>& runs);
 /// those of one Jacobian at once. `timing` counts them.
 FittedLoad fit_load(const study::StudyFile& study, const CalibrationTargets& targets,
                     const study::StudyOptions& options, study::Timing& timing);
-
-/// A scene under that load. Only of one without a failure.
-scene::SceneFile with_load(const scene::SceneFile& scene, const FittedLoad& load);
-
-/// What the calibrated rows determine: the five, their standard deviations and correlations. No rows where no
-/// load was fitted.
-report::Table fitted_table(const CalibrationResult& result);
-std::vector<report::Column> fitted_columns();
-
-/// What was settled before, condition of the fit, and what a sixth unknown would do. Empty likewise.
-std::string fit_text(const CalibrationResult& result);
-
-/// The bound of the misfits, and what it rests on. Empty without any.
-std::string misfits_text(const CalibrationResult& result);
-
-nlohmann::ordered_json load_json(const CalibrationResult& result);
 
 }  // namespace launchsafe::kinds

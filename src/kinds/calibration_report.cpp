@@ -7,10 +7,11 @@
 
 namespace launchsafe::kinds {
 
-using keys::fixed, keys::kelvin, keys::millisecond, keys::percent, keys::significant, keys::text;
+using keys::count, keys::fixed, keys::kelvin, keys::megapascal, keys::millisecond, keys::percent,
+    keys::significant, keys::text;
 using report::in_words, report::json_of, report::Quantities, report::ReportTable, report::Row, report::Shown,
     report::Statement, report::Table, report::table_of;
-using study::StationConvergence;
+using study::fitted_keys, study::StationConvergence;
 
 namespace {
 
@@ -31,17 +32,16 @@ std::string bracket_check(const study::Study& study, const CalibrationRow& row) 
 }
 
 /// What tells one calibration from another.
-Quantities<CalibrationRow> calibration_setting_quantities() {
-  return {{quantity::cell_size(), &CalibrationRow::cell_size},
-          {quantity::closure(), [](const CalibrationRow& row) { return study::to_string(row.closure); }},
-          {quantity::kinetics(), &CalibrationRow::kinetics}};
-}
+const Quantities<CalibrationRow> calibration_setting_quantities{
+    {quantity::cell_size, &CalibrationRow::cell_size},
+    {quantity::closure, [](const CalibrationRow& row) { return study::to_string(row.closure); }},
+    {quantity::kinetics, &CalibrationRow::kinetics}};
 
-Quantities<Constants> constant_quantities() {
-  return {{quantity::localisation(), &Constants::localisation},
-          {quantity::exchange_time(), &Constants::exchange_time},
-          {quantity::ignition_temperature(), &Constants::ignition_temperature}};
-}
+using surface::SurfaceConstants;
+const Quantities<surface::SurfaceConstants> constant_quantities{
+    {quantity::localisation, &SurfaceConstants::localisation},
+    {quantity::exchange_time, &SurfaceConstants::exchange_time},
+    {quantity::ignition_temperature, &SurfaceConstants::ignition_temperature}};
 
 Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
   const auto left_over = [](const char* name, const char* heading, const char* meaning) {
@@ -49,40 +49,25 @@ Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
         report::Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
   };
   return keys::joined<CalibrationRow>(
-      {calibration_setting_quantities(),
-       of_part<CalibrationRow>(constant_quantities(), &CalibrationRow::calibrated,
+      {calibration_setting_quantities,
+       of_part<CalibrationRow>(constant_quantities, &CalibrationRow::calibrated,
                                &CalibratedConstants::constants),
-       {{{"ignition_lowest", "T1 from", fixed(2, kelvin), "T max, untriggered, of the largest safe gap."},
-         &CalibrationRow::calibrated,
-         &CalibratedConstants::ignition_lowest},
-        {{"ignition_highest", "to", fixed(2, kelvin), "T max, untriggered, of the smallest igniting gap."},
-         &CalibrationRow::calibrated,
-         &CalibratedConstants::ignition_highest},
-        {{"published_bracket", "published bracket", text(), "Whether T1 lies in the published bracket."},
+       {{"ignition_lowest", "T1 from", fixed(2, kelvin), "T max, untriggered, of the largest safe gap.",
+         &CalibrationRow::calibrated, &CalibratedConstants::ignition_lowest},
+        {"ignition_highest", "to", fixed(2, kelvin), "T max, untriggered, of the smallest igniting gap.",
+         &CalibrationRow::calibrated, &CalibratedConstants::ignition_highest},
+        {"published_bracket", "published bracket", text(), "Whether T1 lies in the published bracket.",
          [study](const CalibrationRow& row) { return bracket_check(study, row); }},
         {left_over("zero_gap", "without gap", "What the fit leaves of T max without a gap."),
          &CalibrationRow::calibrated, &CalibratedConstants::zero_gap_misfit},
         {left_over("wide_gap", "wide gap", "What the fit leaves of T max at the wide gap."),
          &CalibrationRow::calibrated, &CalibratedConstants::wide_gap_misfit},
-        {{"rms", "RMS", fixed(2, kelvin), "Root mean square over temperatures that nothing was fitted to."},
+        {"rms", "RMS", fixed(2, kelvin), "Root mean square over temperatures that nothing was fitted to.",
          &CalibrationRow::root_mean_square},
-        {{"spread_rms", "RMS of spreads", fixed(2, kelvin), "The same over the spreads."},
+        {"spread_rms", "RMS of spreads", fixed(2, kelvin), "The same over the spreads.",
          &CalibrationRow::spread_root_mean_square},
-        {quantity::selection_rms(), &CalibrationRow::selection_root_mean_square},
-        {{"remark", "remark", text(), "What is to be known of the row."}, calibration_remark}}});
-}
-
-/// A published number beside what one row computes, or where a maximum is.
-template <class Compared>
-struct RowOf {
-  const CalibrationRow* row;
-  const Compared* compared;
-};
-template <class Compared>
-Quantities<RowOf<Compared>> with_setting(const Quantities<Compared>& quantities) {
-  return keys::joined<RowOf<Compared>>(
-      {of_part<RowOf<Compared>>(calibration_setting_quantities(), &RowOf<Compared>::row),
-       of_part<RowOf<Compared>>(quantities, &RowOf<Compared>::compared)});
+        {quantity::selection_rms, &CalibrationRow::selection_root_mean_square},
+        {"remark", "remark", text(), "What is to be known of the row.", calibration_remark}}});
 }
 
 /// Numbers are in the unit of the row.
@@ -92,62 +77,56 @@ Quantities<ComparedNumber> compared_quantities() {
     return
         [=](const ComparedNumber& row) { return report::shown_value(std::invoke(member, row), form(row)); };
   };
-  return {{quantity::subject(), &ComparedNumber::quantity},
-          {quantity::gap(), &ComparedNumber::gap},
-          {{"computed", "computed", fixed(2), "Computed number."}, in_unit(&ComparedNumber::computed)},
+  return {{quantity::subject, &ComparedNumber::quantity},
+          {quantity::gap, &ComparedNumber::gap},
+          {"computed", "computed", fixed(2), "Computed number.", in_unit(&ComparedNumber::computed)},
           {keys::always({"published", "published", fixed(2), "Published number."}),
            in_unit(&ComparedNumber::published)},
-          {{"computed_minus_published", "computed - published", fixed(2), "Their difference."},
+          {"computed_minus_published", "computed - published", fixed(2), "Their difference.",
            in_unit(&ComparedNumber::misfit)},
-          {quantity::unit(), [form](const ComparedNumber& row) { return form(row).unit; }},
-          {{"line_minus_published", "line - published", fixed(2),
-            "The same of a straight line through the two fitted rows, the rival of the model."},
+          {quantity::unit, [form](const ComparedNumber& row) { return form(row).unit; }},
+          {"line_minus_published", "line - published", fixed(2),
+           "The same of a straight line through the two fitted rows, the rival of the model.",
            [](const ComparedNumber& row) { return row.line - row.published; }},
-          {quantity::used_for(), &ComparedNumber::use}};
+          {quantity::used_for, &ComparedNumber::use}};
 }
 
 /// Every published number beside what one row computes: with what it was used for, and the model's rival.
 Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
-  Table table = table_of(fmt::format("Against the published results: {}, {}, {}",
-                                     in_words(row.cell_size, quantity::cell_size().form),
-                                     study::to_string(row.closure), row.kinetics),
-                         compared_quantities(), row.compared);
   Row facts{{"places", Row::array()}, {"without_rows", result.study.study.references.empty()}};
   for (const Placement& each : row.placements)
     facts["places"].push_back(fmt::format("{} at {} {} ({})", each.quantity, report::centimetres(each.gap),
                                           each.computed, each.published));
-  table.notes = said("calibration.note.compared", facts);
-  return table;
+  return table_of(fmt::format("Against the published results: {}, {}, {}",
+                              in_words(row.cell_size, quantity::cell_size.form),
+                              study::to_string(row.closure), row.kinetics),
+                  compared_quantities(), row.compared, said("calibration.note.compared", facts));
 }
 
-Quantities<SelectionMisfit> selection_quantities() {
-  return {{quantity::subject(), &SelectionMisfit::quantity},
-          {{"computed_minus_published", "computed - published", fixed(2, kelvin), "Difference."},
-           &SelectionMisfit::misfit}};
-}
+const Quantities<SelectionMisfit> selection_quantities{
+    {quantity::subject, &SelectionMisfit::quantity},
+    {"computed_minus_published", "computed - published", fixed(2, kelvin), "Difference.",
+     &SelectionMisfit::misfit}};
 
 /// What the constants do from mesh to mesh.
-Quantities<Convergence> convergence_quantities() {
-  return {{quantity::closure(), [](const Convergence& each) { return study::to_string(each.closure); }},
-          {quantity::kinetics(), &Convergence::kinetics},
-          {{"localisation_change", "localisation", fixed(1, percent),
-            "Change from the coarsest to the finest mesh."},
-           &Convergence::localisation_change},
-          {{"exchange_time_change", "exchange time", fixed(1, percent), "The same of the exchange time."},
-           &Convergence::exchange_time_change}};
-}
+const Quantities<Convergence> convergence_quantities{
+    {quantity::closure, [](const Convergence& each) { return study::to_string(each.closure); }},
+    {quantity::kinetics, &Convergence::kinetics},
+    {"localisation_change", "localisation", fixed(1, percent), "Change from the coarsest to the finest mesh.",
+     &Convergence::localisation_change},
+    {"exchange_time_change", "exchange time", fixed(1, percent), "The same of the exchange time.",
+     &Convergence::exchange_time_change}};
 
-Quantities<Placement> placement_quantities() {
-  return {{quantity::subject(), &Placement::quantity},
-          {quantity::gap(), &Placement::gap},
-          {{"computed", "computed", text(), "Station where it was computed."}, &Placement::computed},
-          {{"published", "published", text(), "Where it was published to be."}, &Placement::published}};
-}
+const Quantities<Placement> placement_quantities{
+    {quantity::subject, &Placement::quantity},
+    {quantity::gap, &Placement::gap},
+    {"computed", "computed", text(), "Station where it was computed.", &Placement::computed},
+    {"published", "published", text(), "Where it was published to be.", &Placement::published}};
 
 Json stations_json(const StationConvergence& stations) {
   Json json = json_of<StationConvergence>(
-      {{named("change_to_finer", quantity::change_to_finer()), &StationConvergence::finer},
-       {named("change_from_coarser", quantity::change_from_coarser()), &StationConvergence::coarser}},
+      {{named("change_to_finer", quantity::change_to_finer), &StationConvergence::finer},
+       {named("change_from_coarser", quantity::change_from_coarser), &StationConvergence::coarser}},
       stations);
   json["converge"] = stations.converges();
   return json;
@@ -155,12 +134,9 @@ Json stations_json(const StationConvergence& stations) {
 
 /// What `list` of all rows has, in one table, for other programs.
 template <class Compared>
-Table table_of_all(const CalibrationResult& result, const Quantities<Compared>& quantities,
+Table table_of_all(const std::vector<CalibrationRow>& rows, const Quantities<Compared>& quantities,
                    std::vector<Compared> CalibrationRow::*list) {
-  std::vector<RowOf<Compared>> rows;
-  for (const CalibrationRow& row : result.rows)
-    for (const Compared& each : row.*list) rows.push_back({&row, &each});
-  return table_of({}, with_setting(quantities), rows);
+  return table_of({}, with_whole(calibration_setting_quantities, quantities), parts_of<Compared>(rows, list));
 }
 
 /// A constant that was calibrated, beside that of the scene.
@@ -169,13 +145,81 @@ struct ConstantRow {
   double difference = study::not_a_number;  ///< as a share of the calibrated one
 };
 
-Quantities<ConstantRow> scene_quantities() {
-  return {
-      {{"key", "key", text(), "Key of the scene."}, &ConstantRow::key},
-      {{"calibrated", "calibrated", text(), "Its calibrated value."}, &ConstantRow::calibrated},
-      {{"in_the_scene_now", "in the scene now", text(), "What the scene has."}, &ConstantRow::in_scene},
-      {{"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated."},
-       &ConstantRow::difference}};
+const Quantities<ConstantRow> scene_quantities{
+    {"key", "key", text(), "Key of the scene.", &ConstantRow::key},
+    {"calibrated", "calibrated", text(), "Its calibrated value.", &ConstantRow::calibrated},
+    {"in_the_scene_now", "in the scene now", text(), "What the scene has.", &ConstantRow::in_scene},
+    {"difference", "difference", fixed(2, percent), "By how much the scene's is above the calibrated.",
+     &ConstantRow::difference}};
+
+bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
+
+/// One of the fitted keys.
+struct FittedRow {
+  const FittedLoad* load;
+  std::size_t place;
+};
+
+Quantities<FittedRow> fitted_quantities() {
+  Quantities<FittedRow> quantities{
+      {"key", "key", text(), "Key of the scene.",
+       [](const FittedRow& row) { return std::string(fitted_keys[row.place]); }},
+      {"standard_deviation", "standard deviation", fixed(2, percent), "Of its logarithm.",
+       [](const FittedRow& row) { return row.load->deviation(row.place); }}};
+  for (std::size_t other = 0; other < fitted_keys.size(); ++other) {
+    const std::string key(fitted_keys[other]);
+    quantities.emplace_back(
+        "correlation_" + key, "with " + key, fixed(2), "Correlation with it.",
+        [other](const FittedRow& row) { return row.load->correlation(row.place, other); });
+  }
+  return quantities;
+}
+
+Json load_json(const CalibrationResult& result) {
+  if (!result.load) return nullptr;
+  const Quantities<FittedLoad> quantities{
+      {quantity::load_peak_time, &FittedLoad::bell, &scene::Load::peak_time},
+      {quantity::load_width, &FittedLoad::bell, &scene::Load::width},
+      {quantity::load_steepness, &FittedLoad::bell, &scene::Load::steepness},
+      {"numbers", "numbers", count(), "Published numbers that were fitted to.", &FittedLoad::numbers},
+      {"sum_of_squares", "sum of squares", fixed(2), "Of what is left, over the weights.",
+       &FittedLoad::sum_of_squares},
+      {"condition", "condition", fixed(0), "Of the fit, in logarithms.", &FittedLoad::condition},
+      {"base_change", "change of the base", significant(2, megapascal),
+       "By which load.base would move as a sixth unknown.", &FittedLoad::base, &math::AddedUnknown::change},
+      {"base_gain", "gain", significant(2), "By which the sum of squares would fall.", &FittedLoad::base,
+       &math::AddedUnknown::gain},
+      {"runs", "runs", count(), "Mechanical runs that it took.", &FittedLoad::runs},
+      {quantity::reason, &FittedLoad::failure}};
+  Json json = json_of(quantities, *result.load);
+  json["covariance_of_logarithms"] = result.load->covariance;
+  json["frozen_at"] = settings_of<CalibrationSettings>(result.study.study).frozen_at;
+  return json;
+}
+
+Table fitted_table(const CalibrationResult& result) {
+  if (!has_load(result)) return {};
+  std::vector<FittedRow> rows;
+  for (std::size_t i = 0; i < fitted_keys.size(); ++i) rows.push_back({&*result.load, i});
+  return table_of("How well the calibrated rows determine what is fitted", fitted_quantities(), rows,
+                  said("calibration.note.fitted"));
+}
+
+std::string fit_text(const CalibrationResult& result) {
+  if (!has_load(result)) return {};
+  Row facts = load_json(result);
+  facts.update({{"temperature_weight_K", temperature_weight},
+                {"instant_weight_ms", report::shown_value(instant_weight, significant(6, millisecond))}});
+  return said_below("calibration.fit", facts);
+}
+
+std::string misfits_text(const CalibrationResult& result) {
+  if (result.recommended() == nullptr) return {};
+  const MisfitBound misfits = misfit_bound(*result.recommended());
+  return said_below("calibration.misfits", {{"count", misfits.count},
+                                            {"root_mean_square_K", misfits.root_mean_square},
+                                            {"factor", misfits.factor},
+                                            {"bound_K", misfits.bound()}});
 }
 
 }  // namespace
@@ -190,7 +234,7 @@ Table run_table(const std::vector<CalibrationRun>& runs) {
 Table constants_table(const CalibrationResult& result) {
   if (!result.recommended()) return {};
   const CalibrationRow& row = *result.recommended();
-  const Constants &fitted = row.calibrated.constants, &now = result.in_scene;
+  const surface::SurfaceConstants &fitted = row.calibrated.constants, &now = result.in_scene;
   std::vector<ConstantRow> rows{{"friction.closure", study::to_string(row.closure),
                                  study::to_string(result.study.scene.scene.surface.friction)}};
   const auto add = [&rows](std::string key, double value, double held, const keys::Unit& unit = {}) {
@@ -199,23 +243,22 @@ Table constants_table(const CalibrationResult& result) {
   };
   add("friction.localisation", fitted.localisation, now.localisation);
   add("gap.exchange_time", fitted.exchange_time, now.exchange_time, millisecond);
-  if (result.load && result.load->failure.empty()) {
-    const scene::Load& held = result.study.scene.scene.load;
-    add("load.peak_time", result.load->peak_time, held.peak_time, millisecond);
-    add("load.width", result.load->width, held.width, millisecond);
-    add("load.steepness", result.load->steepness, held.steepness);
+  if (has_load(result)) {
+    const scene::Load &bell = *result.load->bell, &held = result.study.scene.scene.load;
+    add("load.peak_time", bell.peak_time, held.peak_time, millisecond);
+    add("load.width", bell.width, held.width, millisecond);
+    add("load.steepness", bell.steepness, held.steepness);
   }
   add("kinetics.ignition_temperature", fitted.ignition_temperature, now.ignition_temperature, kelvin);
-  Table table = table_of("Constants the scene should hold", scene_quantities(), rows);
-  table.notes = said("calibration.note.constants", json_of(calibration_setting_quantities(), row));
-  return table;
+  return table_of("Constants the scene should hold", scene_quantities, rows,
+                  said("calibration.note.constants", json_of(calibration_setting_quantities, row)));
 }
 
 std::string answer(const CalibrationResult& result) {
   Row facts{{"reason", result.recommendation.reason}, {"load", load_json(result)}};
   if (const CalibrationRow* row = result.recommended()) {
-    facts["row"] = json_of(calibration_setting_quantities(), *row);
-    facts["row"].update(json_of(constant_quantities(), row->calibrated.constants));
+    facts["row"] = json_of(calibration_setting_quantities, *row);
+    facts["row"].update(json_of(constant_quantities, row->calibrated.constants));
   }
   return said("calibration.answer", facts).front();
 }
@@ -224,40 +267,36 @@ report::Report report_of(const CalibrationResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
-  report.items.push_back(Statement{said_below("calibration.stations", stations_json(result.stations))});
-  report.items.push_back(ReportTable{constants_table(result), "", "constants"});
-  report.items.push_back(ReportTable{fitted_table(result), "", "fitted"});
-  report.items.push_back(Statement{fit_text(result)});
-  report.items.push_back(Statement{misfits_text(result)});
-  Table calibrations = table_of("Calibrated constants, and how far they miss what nothing was fitted to",
-                                calibration_quantities(result.study.study), result.rows);
-  calibrations.notes = said("calibration.note.calibrations");
-  report.items.push_back(ReportTable{std::move(calibrations), "calibration.csv", "calibrations"});
+  report.say(said_below("calibration.stations", stations_json(result.stations)));
+  report.add({constants_table(result), "", "constants"});
+  report.add({fitted_table(result), "", "fitted"});
+  report.say(fit_text(result));
+  report.say(misfits_text(result));
+  report.add({table_of("Calibrated constants, and how far they miss what nothing was fitted to",
+                       calibration_quantities(result.study.study), result.rows,
+                       said("calibration.note.calibrations")),
+              "calibration.csv", "calibrations"});
   // By which a model is chosen among others.
   if (const CalibrationRow* row = result.recommended(); row != nullptr && row->selection.size() > 1) {
-    Table selection =
-        table_of("Differences that choose among models", selection_quantities(), row->selection);
-    selection.notes = said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}});
-    report.items.push_back(ReportTable{std::move(selection), "", "selection", Shown::page});
+    report.add({table_of("Differences that choose among models", selection_quantities, row->selection,
+                         said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}})),
+                "", "selection", Shown::page});
   }
-  report.items.push_back(ReportTable{
-      table_of("From the coarsest to the finest mesh", convergence_quantities(), result.convergence), "",
-      "convergence"});
+  report.add({table_of("From the coarsest to the finest mesh", convergence_quantities, result.convergence),
+              "", "convergence"});
   // Of the row that is recommended; the file has all.
-  if (const CalibrationRow* row = result.recommended())
-    report.items.push_back(ReportTable{compared_table(result, *row)});
-  report.items.push_back(ReportTable{table_of_all(result, compared_quantities(), &CalibrationRow::compared),
-                                     "compared.csv", "compared", Shown::file});
-  report.items.push_back(
-      ReportTable{table_of_all(result, placement_quantities(), &CalibrationRow::placements), "", "placements",
-                  Shown::file});
-  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(ReportTable{run_table(result.runs), "", "runs", Shown::page});
-  report.items.push_back(Statement{report::timing_sentence(result.timing)});
+  if (const CalibrationRow* row = result.recommended()) report.add({compared_table(result, *row)});
+  report.add({table_of_all(result.rows, compared_quantities(), &CalibrationRow::compared), "compared.csv",
+              "compared", Shown::file});
+  report.add({table_of_all(result.rows, placement_quantities, &CalibrationRow::placements), "", "placements",
+              Shown::file});
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.add({run_table(result.runs), "", "runs", Shown::page});
+  report.say(report::timing_sentence(result.timing));
   Json recommendation{{"reason", result.recommendation.reason}, {"row", nullptr}};
   if (result.recommendation.row) recommendation["row"] = *result.recommendation.row;
   Json in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
-  in_scene.update(json_of(constant_quantities(), result.in_scene));
+  in_scene.update(json_of(constant_quantities, result.in_scene));
   report.json = study_json(result.study, report,
                            {{"recommendation", recommendation},
                             {"in_scene", in_scene},
@@ -267,17 +306,17 @@ report::Report report_of(const CalibrationResult& result) {
   return report;
 }
 
-std::vector<ResultTable> calibration_results() {
-  std::vector<ResultTable> results = firing_results();
-  const std::vector<ResultTable> of_rows{
-      {"constants", "", keys::described(scene_quantities())},
-      {"fitted", "", fitted_columns()},
-      {"calibrations", "calibration.csv", keys::described(calibration_quantities({}))},
-      {"selection", "", keys::described(selection_quantities())},
-      {"convergence", "", keys::described(convergence_quantities())},
-      {"compared", "compared.csv", keys::described(with_setting(compared_quantities()))},
-      {"placements", "", keys::described(with_setting(placement_quantities()))},
-      {"runs", "", report::run_columns()}};
+std::vector<ReportTable> calibration_results() {
+  std::vector<ReportTable> results = firing_results();
+  const std::vector<ReportTable> of_rows{
+      {table_of({}, scene_quantities, {}), "", "constants"},
+      {table_of({}, fitted_quantities(), {}), "", "fitted"},
+      {table_of({}, calibration_quantities({}), {}), "calibration.csv", "calibrations"},
+      {table_of({}, selection_quantities, {}), "", "selection"},
+      {table_of({}, convergence_quantities, {}), "", "convergence"},
+      {table_of_all({}, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared"},
+      {table_of_all({}, placement_quantities, &CalibrationRow::placements), "", "placements"},
+      {report::run_table({}), "", "runs"}};
   results.insert(results.end(), of_rows.begin(), of_rows.end());
   return results;
 }

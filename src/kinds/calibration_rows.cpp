@@ -51,99 +51,82 @@ double on_line(const std::vector<Reference>& references, double gap, double Refe
 }
 
 /// What one published row says of one calibrated model.
-class RowComparison {
- public:
-  RowComparison(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
-                const Reference& reference, CalibrationRow& row)
-      : study_(study),
-        reference_(reference),
-        model_(model),
-        trace_(trace),
-        history_(surface::integrate_skin(model, trace, reference.gap)),
-        at_early_(fmt::format(" at {:.6g} ms", 1e3 * study.early_time)),
-        end_(trace.time.empty() ? 0.0 : trace.time.back()),
-        rest_(reference.selection ? Use::chosen_by : Use::held_out),
-        row_(row) {
-    if (!reference.calibrated || !row.calibratable) return;
-    of_maximum_ = Use::fitted;
-    if (settings_of<CalibrationSettings>(study).load_fitted) of_others_ = Use::fitted;
-  }
+struct RowComparison {
+  const Study& study;
+  const surface::SkinModel& model;
+  const trace::BottomTrace& trace;
+  const Reference& reference;
+  CalibrationRow& row;
+
+  surface::SkinHistory history = surface::integrate_skin(model, trace, reference.gap);
+  std::string at_early = fmt::format(" at {:.6g} ms", 1e3 * study.early_time);
+  double end = trace.time.empty() ? 0.0 : trace.time.back();        ///< s
+  Use rest = reference.selection ? Use::chosen_by : Use::held_out;  ///< of what is not fitted
+  bool fitted = reference.calibrated && row.calibratable;           ///< T max is
+  bool all_fitted = fitted && settings_of<CalibrationSettings>(study).load_fitted;
 
   void add_all() {
-    const auto maximum = surface::maximum_at_stations(history_, trace_);
-    const auto early = surface::maximum_at_time(history_, trace_, study_.early_time);
-    add_temperature("T max", maximum.temperature, &Reference::maximum_temperature, of_maximum_);
-    add_temperature("T" + at_early_, early.temperature, &Reference::early_temperature, of_others_);
+    const auto maximum = surface::maximum_at_stations(history, trace);
+    const auto early = surface::maximum_at_time(history, trace, study.early_time);
+    add_temperature("T max", maximum.temperature, &Reference::maximum_temperature, fitted);
+    add_temperature("T" + at_early, early.temperature, &Reference::early_temperature, all_fitted);
     add_rise();
-    add("spread at the end", spread_at(end_), reference_.spread, spread());
-    add("spread" + at_early_, spread_at(study_.early_time), reference_.early_spread, spread());
+    add("spread at the end", spread_at(end), reference.spread, spread());
+    add("spread" + at_early, spread_at(study.early_time), reference.early_spread, spread());
     // T1 was set so that this gap ignites: when it does is not held out.
-    add("ignition time", history_.ignition ? history_.ignition->time : not_a_number, reference_.ignition_time,
+    add("ignition time", history.ignition ? history.ignition->time : not_a_number, reference.ignition_time,
         {.temperature = false, .in_seconds = true, .use = Use::chosen_by});
-    place("T max", name_of(trace_, maximum), reference_.ignited() ? std::string{} : reference_.point);
-    if (reference_.ignited()) {
-      place("first ignition", history_.ignition ? trace_.stations[history_.ignition->station].name : "none",
-            reference_.point);
+    place("T max", name_of(trace, maximum), reference.ignited() ? std::string{} : reference.point);
+    if (reference.ignited()) {
+      place("first ignition", history.ignition ? trace.stations[history.ignition->station].name : "none",
+            reference.point);
     }
-    place("T" + at_early_, name_of(trace_, early), reference_.early_point);
-    if (reference_.selection && reference_.gap == 0.0) add_places();
+    place("T" + at_early, name_of(trace, early), reference.early_point);
+    if (reference.selection && reference.gap == 0.0) add_places();
   }
 
- private:
-  double spread_at(double time) const { return surface::spread_at_time(history_, trace_, time); }
+  double spread_at(double time) const { return surface::spread_at_time(history, trace, time); }
   ComparedNumber spread() const {
-    return {.temperature = false, .selects = reference_.selection, .use = rest_};
+    return {.temperature = false, .selects = reference.selection, .use = rest};
   }
 
   void add(std::string quantity, double computed, double published, ComparedNumber number) {
     if (!std::isfinite(published)) return;
     number.quantity = std::move(quantity);
-    number.gap = reference_.gap;
+    number.gap = reference.gap;
     number.computed = computed;
     number.published = published;
-    row_.compared.push_back(std::move(number));
+    row.compared.push_back(std::move(number));
   }
-  void add_temperature(std::string quantity, double computed, double Reference::*number,
-                       const std::optional<Use>& use) {
+  void add_temperature(std::string quantity, double computed, double Reference::*number, bool is_fitted) {
     const bool early = number == &Reference::early_temperature;
-    if (!early && reference_.ignited()) return;
+    if (!early && reference.ignited()) return;
     // Without a gap the temperature at the early time tells of the load, not of the interfaces.
-    ComparedNumber compared{.selects = early && reference_.selection && reference_.gap > 0.0,
-                            .use = use.value_or(rest_)};
-    if (!use) compared.line = on_line(study_.references, reference_.gap, number);
-    add(std::move(quantity), computed, reference_.*number, std::move(compared));
+    ComparedNumber compared{.selects = early && reference.selection && reference.gap > 0.0,
+                            .use = is_fitted ? Use::fitted : rest};
+    if (!is_fitted) compared.line = on_line(study.references, reference.gap, number);
+    add(std::move(quantity), computed, reference.*number, std::move(compared));
   }
   void add_rise() {
-    if (!std::isfinite(reference_.rise_begins) && !std::isfinite(reference_.rise_ends)) return;
-    const FastRise rise =
-        fast_rise(surface::integrate_skin(untriggered(model_), trace_, reference_.gap), trace_);
-    const ComparedNumber instant{.temperature = false, .in_seconds = true, .use = of_others_.value_or(rest_)};
-    add("fast rise begins", rise.begins, reference_.rise_begins, instant);
-    add("fast rise ends", rise.unfinished ? not_a_number : rise.ends, reference_.rise_ends, instant);
+    if (!std::isfinite(reference.rise_begins) && !std::isfinite(reference.rise_ends)) return;
+    const FastRise rise = fast_rise(surface::integrate_skin(untriggered(model), trace, reference.gap), trace);
+    const ComparedNumber instant{
+        .temperature = false, .in_seconds = true, .use = all_fitted ? Use::fitted : rest};
+    add("fast rise begins", rise.begins, reference.rise_begins, instant);
+    add("fast rise ends", rise.unfinished ? not_a_number : rise.ends, reference.rise_ends, instant);
   }
   void place(std::string quantity, std::string computed, const std::string& published) {
     if (!published.empty())
-      row_.placements.push_back({std::move(quantity), reference_.gap, std::move(computed), published});
+      row.placements.push_back({std::move(quantity), reference.gap, std::move(computed), published});
   }
   void add_places() {
     const auto add_place = [&](const std::string& at, const std::string& point, double time) {
-      const double misfit = place_misfit(history_, trace_, point, time);
-      if (!point.empty()) row_.selection.push_back({"hottest place" + at, misfit});
+      const double misfit = place_misfit(history, trace, point, time);
+      if (!point.empty()) row.selection.push_back({"hottest place" + at, misfit});
     };
-    add_place(at_early_, reference_.early_point, study_.early_time);
-    add_place(" at the end", reference_.point, end_);
+    add_place(at_early, reference.early_point, study.early_time);
+    add_place(" at the end", reference.point, end);
   }
-
-  const Study& study_;
-  const Reference& reference_;
-  const surface::SkinModel& model_;
-  const trace::BottomTrace& trace_;
-  surface::SkinHistory history_;
-  std::string at_early_;                       ///< " at 10 ms"
-  double end_;                                 ///< s
-  Use rest_;                                   ///< of what is not fitted
-  std::optional<Use> of_maximum_, of_others_;  ///< where fitted
-  CalibrationRow& row_;
 };
 
 /// Over what is not fitted. NaN where any of the misfits is: a row with a number that cannot be computed has
@@ -191,7 +174,7 @@ MisfitBound misfit_bound(const CalibrationRow& row) {
 void compare(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
              CalibrationRow& row) {
   for (const Reference& reference : study.references)
-    RowComparison(study, model, trace, reference, row).add_all();
+    RowComparison{study, model, trace, reference, row}.add_all();
   add_selection(row);
   row.root_mean_square = root_mean_square(row, true);
   row.spread_root_mean_square = root_mean_square(row, false);

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 namespace launchsafe::kinds {
 
 using keys::fixed, keys::text;
@@ -28,17 +26,13 @@ struct ClosingRow {
   }
   /// On a bound by its name; nullptr where it was not computed.
   const ClosingPoint* point(std::string_view bound) const {
-    const auto answer = std::ranges::find(outcome->closing, bound, &ClosingAnswer::name);
-    return answer == outcome->closing.end() ? nullptr : answer->at(gap);
-  }
-  double temperature(std::string_view bound) const {
-    const ClosingPoint* found = point(bound);
-    return found != nullptr ? found->maximum_temperature : not_a_number;
+    const ClosingAnswer* answer = keys::find_named(outcome->closing, bound);
+    return answer == nullptr ? nullptr : answer->at(gap);
   }
 };
 
-auto temperature_on(const char* bound) {
-  return [bound](const ClosingRow& row) { return row.temperature(bound); };
+auto on(const char* bound) {
+  return [bound](const ClosingRow& row) { return row.point(bound); };
 }
 
 /// K, by which T max is higher on one bound than on another; NaN where either ignites.
@@ -75,64 +69,54 @@ report::Column kelvins(const char* name, const char* label, const char* meaning)
   return {name, label, fixed(1, keys::kelvin), meaning};
 }
 
-report::Quantities<ClosingRow> closing_quantities() {
-  return {
-      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
-      {quantity::gap(), &ClosingRow::gap},
-      {kelvins("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
-       [](const ClosingRow& row) {
-         return row.verdict() != nullptr ? row.verdict()->maximum.temperature : not_a_number;
-       }},
-      {kelvins("temperature_max_conducting", "closing, base conducts",
-               "Highest temperature at any depth where the gap closes and its base takes heat."),
-       temperature_on("conducting")},
-      {kelvins("temperature_max_insulated", "base insulated",
-               "Highest temperature at any depth where the gap closes and its base takes no heat."),
-       temperature_on("insulated")},
-      {kelvins("temperature_max_corner", "worst corner",
-               "Highest temperature at any depth on the worst terms: insulated, smoothest, worst flow and "
-               "release."),
-       temperature_on("corner")},
-      {{"corner_place", "at", text(), "Station of that."},
-       [](const ClosingRow& row) {
-         return row.point("corner") ? row.point("corner")->place : std::string{};
-       }},
-      {{"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there."},
-       [](const ClosingRow& row) {
-         return row.point("corner") ? row.point("corner")->release : not_a_number;
-       }},
-      {kelvins("corner_numerical", "of its computation",
-               "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
-       uncertainty_on("corner")},
-      {for_programs(kelvins("conducting_numerical", "of computation, base conducts",
-                            "The same where the base takes heat.")),
-       uncertainty_on("conducting")},
-      {for_programs(kelvins("insulated_numerical", "of computation, base insulated",
-                            "The same where the base takes no heat.")),
-       uncertainty_on("insulated")},
-      {{"remark", "remark", text(), "Why a temperature is not known."}, why_unknown}};
-}
+const report::Quantities<ClosingRow> closing_quantities{
+    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+    {quantity::gap, &ClosingRow::gap},
+    {kelvins("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
+     &ClosingRow::verdict, &GapVerdict::maximum, &study::Peak::temperature},
+    {kelvins("temperature_max_conducting", "closing, base conducts",
+             "Highest temperature at any depth where the gap closes and its base takes heat."),
+     on("conducting"), &ClosingPoint::maximum_temperature},
+    {kelvins("temperature_max_insulated", "base insulated",
+             "Highest temperature at any depth where the gap closes and its base takes no heat."),
+     on("insulated"), &ClosingPoint::maximum_temperature},
+    {kelvins("temperature_max_corner", "worst corner",
+             "Highest temperature at any depth on the worst terms: insulated, smoothest, worst flow and "
+             "release."),
+     on("corner"), &ClosingPoint::maximum_temperature},
+    {"corner_place", "at", text(), "Station of that.", on("corner"), &ClosingPoint::place},
+    {"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there.",
+     on("corner"), &ClosingPoint::release},
+    {kelvins("corner_numerical", "of its computation",
+             "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
+     uncertainty_on("corner")},
+    {for_programs(kelvins("conducting_numerical", "of computation, base conducts",
+                          "The same where the base takes heat.")),
+     uncertainty_on("conducting")},
+    {for_programs(kelvins("insulated_numerical", "of computation, base insulated",
+                          "The same where the base takes no heat.")),
+     uncertainty_on("insulated")},
+    {"remark", "remark", text(), "Why a temperature is not known.", why_unknown}};
 
 /// What is not known of a gap that closes, an interval each, with what its worst end adds to T max where all
 /// before it stand at theirs.
-report::Quantities<ClosingRow> closing_share_quantities() {
-  return {
-      {quantity::case_name(), &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
-      {quantity::gap(), &ClosingRow::gap},
-      {kelvins("own_terms", "own terms, base conducts", "T max on the case's own terms."),
-       temperature_on("conducting")},
-      {kelvins("of_base", "the base takes no heat", "What that adds."), hotter_on("insulated", "conducting")},
-      {kelvins("of_roughness", "smoothest faces", "What faces of 1 um add to it."),
-       hotter_on("smooth", "insulated")},
-      {kelvins("of_air_flow", "worst flow", "What air that flows, or stays, adds to both."),
-       hotter_on("flowing", "smooth")},
-      {kelvins("of_release", "worst release", "What the worst instant of release adds to all of that."),
-       hotter_on("corner", "flowing")},
-      {kelvins("corner", "worst corner", "The sum: T max on the worst terms."), temperature_on("corner")},
-      {kelvins("of_melting", "were the charge to melt",
-               "What melting would add with an insulated base; no verdict rests on it."),
-       hotter_on("melting", "insulated")}};
-}
+const report::Quantities<ClosingRow> closing_share_quantities{
+    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+    {quantity::gap, &ClosingRow::gap},
+    {kelvins("own_terms", "own terms, base conducts", "T max on the case's own terms."), on("conducting"),
+     &ClosingPoint::maximum_temperature},
+    {kelvins("of_base", "the base takes no heat", "What that adds."), hotter_on("insulated", "conducting")},
+    {kelvins("of_roughness", "smoothest faces", "What faces of 1 um add to it."),
+     hotter_on("smooth", "insulated")},
+    {kelvins("of_air_flow", "worst flow", "What air that flows, or stays, adds to both."),
+     hotter_on("flowing", "smooth")},
+    {kelvins("of_release", "worst release", "What the worst instant of release adds to all of that."),
+     hotter_on("corner", "flowing")},
+    {kelvins("corner", "worst corner", "The sum: T max on the worst terms."), on("corner"),
+     &ClosingPoint::maximum_temperature},
+    {kelvins("of_melting", "were the charge to melt",
+             "What melting would add with an insulated base; no verdict rests on it."),
+     hotter_on("melting", "insulated")}};
 
 /// What one bound says of the critical gap.
 struct BoundRow {
@@ -151,21 +135,16 @@ auto text_of_bound(std::size_t bound) {
   };
 }
 
-report::Quantities<BoundRow> closing_bound_quantities() {
-  return {
-      {quantity::case_name(), [](const BoundRow& row) { return *row.label; }},
-      {{"bound", "where the gap closes", text(), "Terms on which it closes."},
-       [](const BoundRow& row) { return bound_name(*row.answer); }},
-      {{"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
-        "Largest gap below the first that ignites."},
-       &BoundRow::answer,
-       &ClosingAnswer::lower},
-      {{"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites."},
-       &BoundRow::answer,
-       &ClosingAnswer::upper},
-      {{"launches", "gaps computed", keys::significant(6), "Gaps that were computed."},
-       [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
-}
+const report::Quantities<BoundRow> closing_bound_quantities{
+    {quantity::case_name, [](const BoundRow& row) { return *row.label; }},
+    {"bound", "where the gap closes", text(), "Terms on which it closes.",
+     [](const BoundRow& row) { return bound_name(*row.answer); }},
+    {"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
+     "Largest gap below the first that ignites.", &BoundRow::answer, &ClosingAnswer::lower},
+    {"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites.",
+     &BoundRow::answer, &ClosingAnswer::upper},
+    {"launches", "gaps computed", keys::significant(6), "Gaps that were computed.",
+     [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
 
 /// By which kinetics the cases of rows may ignite, and whether records say how far T max may be off.
 report::Row closing_facts(const std::vector<ClosingRow>& rows) {
@@ -194,12 +173,10 @@ report::Row closing_facts(const std::vector<ClosingRow>& rows) {
 }  // namespace
 
 report::Quantities<study::CaseAnswer> closing_gap_quantities() {
-  return {{{"closing_conducting", "closing, base conducts", text(),
-            "Smallest gap that ignites where it closes and its base takes heat."},
-           text_of_bound(0)},
-          {{"closing_insulated", "base insulated", text(),
-            "Smallest gap that ignites where it closes and its base takes no heat."},
-           text_of_bound(1)}};
+  return {{"closing_conducting", "closing, base conducts", text(),
+           "Smallest gap that ignites where it closes and its base takes heat.", text_of_bound(0)},
+          {"closing_insulated", "base insulated", text(),
+           "Smallest gap that ignites where it closes and its base takes no heat.", text_of_bound(1)}};
 }
 
 std::vector<std::string> closing_answer(const CriticalGapResult& result) {
@@ -237,13 +214,12 @@ std::vector<ReportTable> closing_tables(const CriticalGapResult& result) {
     }
   }
   if (rows.empty()) return {};
-  Table temperatures = report::table_of("Where the gap closes", closing_quantities(), rows);
-  temperatures.notes = said("critical_gap.note.closing");
+  Table temperatures =
+      report::table_of("Where the gap closes", closing_quantities, rows, said("critical_gap.note.closing"));
   // A gap no wider than the faces are rough does not close: it is one launch on whatever terms.
   std::erase_if(rows, [](const ClosingRow& row) { return row.gap <= row.outcome->input.closing->roughness; });
-  Table shares =
-      report::table_of("What the worst end of each interval adds", closing_share_quantities(), rows);
-  shares.notes = said("critical_gap.note.closing_shares", closing_facts(rows));
+  Table shares = report::table_of("What the worst end of each interval adds", closing_share_quantities, rows,
+                                  said("critical_gap.note.closing_shares", closing_facts(rows)));
   return {{std::move(temperatures), "closing.csv", "closing"},
           {std::move(shares), "closing_shares.csv", "closing_shares"}};
 }
@@ -253,7 +229,7 @@ Table closing_bound_table(const CriticalGapResult& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     for (const ClosingAnswer& answer : result.answers[i].closing)
       rows.push_back({&result.study.cases.label(i), &answer});
-  return report::table_of("Critical gap where the gap closes", closing_bound_quantities(), rows);
+  return report::table_of("Critical gap where the gap closes", closing_bound_quantities, rows);
 }
 
 std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
@@ -266,8 +242,8 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
       plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
                        report::centimetres(answer.upper);
   plot.named_in_place = true;
-  plot.x.label = quantity::gap().label();
-  plot.y.label = quantity::temperature_max().label();
+  plot.x.label = quantity::gap.label();
+  plot.y.label = quantity::temperature_max.label();
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
   // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
   const double burning = ignition + 20.0;
@@ -288,10 +264,10 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   return plot;
 }
 
-std::vector<ResultTable> closing_results() {
-  return {{"closing", "closing.csv", keys::described(closing_quantities())},
-          {"closing_shares", "closing_shares.csv", keys::described(closing_share_quantities())},
-          {"closing_bounds", "closing_bounds.csv", keys::described(closing_bound_quantities())}};
+std::vector<ReportTable> closing_results() {
+  return {{report::table_of({}, closing_quantities, {}), "closing.csv", "closing"},
+          {report::table_of({}, closing_share_quantities, {}), "closing_shares.csv", "closing_shares"},
+          {report::table_of({}, closing_bound_quantities, {}), "closing_bounds.csv", "closing_bounds"}};
 }
 
 }  // namespace launchsafe::kinds

@@ -29,12 +29,6 @@ std::string gap_text(study::GapOrBound gap, double largest) {
   return digits_of(gap, significant(4, centimetre));
 }
 
-const ModelAlternative* alternative_of(const ModelFormRecord& record, const std::string& name) {
-  const auto found =
-      std::ranges::find_if(record.alternatives, [&](const auto& each) { return each.name == name; });
-  return found == record.alternatives.end() ? nullptr : &*found;
-}
-
 /// m; critical gaps are bracketed to a tenth of it.
 constexpr double least_shift = 1e-6;
 
@@ -44,7 +38,7 @@ std::string towards_ignition(const ModelFormRecord& record, const ModelAlternati
   for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
     if (!(alternative.critical_gap[i] < record.critical_gap[i] - least_shift)) continue;
     pressures +=
-        (pressures.empty() ? "" : ", ") + digits_of(record.peak_pressures[i], quantity::peak_pressure().form);
+        (pressures.empty() ? "" : ", ") + digits_of(record.peak_pressures[i], quantity::peak_pressure.form);
   }
   return pressures;
 }
@@ -55,7 +49,7 @@ std::string counts_for(const ModelFormRecord& record, const ModelAlternative* al
   const std::string pressures = towards_ignition(record, *alternative);
   if (pressures.empty())
     return "no share: nowhere towards ignition by more than " + report::centimetres(least_shift);
-  return "a share: towards ignition at " + pressures + " " + quantity::peak_pressure().form.unit;
+  return "a share: towards ignition at " + pressures + " " + quantity::peak_pressure.form.unit;
 }
 
 /// What is said of a model, or of all that count.
@@ -67,17 +61,16 @@ struct ModelRow {
 
 Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
   Quantities<ModelRow> quantities{
-      {{"model", "model", text(), "The model."}, &ModelRow::name},
-      {{"what_it_is", "what it is", text(), "What it does otherwise."}, &ModelRow::title}};
+      {"model", "model", text(), "The model.", &ModelRow::name},
+      {"what_it_is", "what it is", text(), "What it does otherwise.", &ModelRow::title}};
   for (std::size_t i = 0; i < pressures.size(); ++i) {
-    const std::string pressure = report::in_words(pressures[i], quantity::peak_pressure().form);
-    quantities.emplace_back(report::Column{"critical_gap_at_" + keys::key_text(pressure), pressure, text(),
-                                           "Critical gap, cm, or its bound at that peak pressure."},
+    const std::string pressure = report::in_words(pressures[i], quantity::peak_pressure.form);
+    quantities.emplace_back("critical_gap_at_" + keys::key_text(pressure), pressure, text(),
+                            "Critical gap, cm, or its bound at that peak pressure.",
                             [i](const ModelRow& row) { return row.gaps[i]; });
   }
-  quantities.emplace_back(
-      report::Column{"counts_as", "counts as", text(), "Whether verdicts carry a share for it."},
-      &ModelRow::counts_as);
+  quantities.emplace_back("counts_as", "counts as", text(), "Whether verdicts carry a share for it.",
+                          &ModelRow::counts_as);
   return quantities;
 }
 
@@ -86,7 +79,7 @@ Table model_form_table(const ModelForm& form) {
   for (const ModelFormEntry& each : form.entries) {
     ModelRow& row = rows.emplace_back(ModelRow{each.name, each.title, {}, {}});
     for (const study::GapOrBound gap : each.critical_gap) row.gaps.push_back(gap_text(gap, form.largest_gap));
-    row.counts_as = counts_for(form.record, alternative_of(form.record, each.name));
+    row.counts_as = counts_for(form.record, keys::find_named(form.record.alternatives, each.name));
   }
   ModelRow shift{"shift", "of a SAFE's gap towards ignition", {}, "the largest of the models that count"};
   for (const double pressure : form.record.peak_pressures) {
@@ -105,45 +98,37 @@ Table model_form_table(const ModelForm& form) {
 using CalibratedModel = const ModelFormEntry*;
 
 Quantities<CalibratedModel> model_constant_quantities() {
-  const auto of_scene = [](auto get) {
-    return [get](CalibratedModel model) { return get(model->calibration->calibration.scene); };
-  };
-  return {
-      {{"model", "model", text(), "The model."}, &ModelFormEntry::name},
-      {quantity::load_peak_time(), of_scene([](const scene::Scene& scene) { return scene.load.peak_time; })},
-      {quantity::load_width(), of_scene([](const scene::Scene& scene) { return scene.load.width; })},
-      {quantity::load_steepness(), of_scene([](const scene::Scene& scene) { return scene.load.steepness; })},
-      {quantity::localisation(),
-       of_scene([](const scene::Scene& scene) { return scene.surface.localisation; })},
-      {quantity::exchange_time(),
-       of_scene([](const scene::Scene& scene) { return scene.surface.exchange_time; })},
-      {{"ignition_temperature", "T1", significant(6, kelvin), "Ignition temperature."},
-       of_scene([](const scene::Scene& scene) { return scene.charge().kinetics.ignition_temperature; })},
-      {{"selection_rms", "RMS of selection", significant(4, kelvin), quantity::selection_rms().meaning},
-       &ModelFormEntry::calibration,
+  using scene::Load, scene::Scene, scene::Surface;
+  const Quantities<Scene> of_scene{
+      {quantity::load_peak_time, &Scene::load, &Load::peak_time},
+      {quantity::load_width, &Scene::load, &Load::width},
+      {quantity::load_steepness, &Scene::load, &Load::steepness},
+      {quantity::localisation, &Scene::surface, &Surface::localisation},
+      {quantity::exchange_time, &Scene::surface, &Surface::exchange_time},
+      {"ignition_temperature", "T1", significant(6, kelvin), "Ignition temperature.",
+       [](const Scene& scene) { return scene.charge().kinetics.ignition_temperature; }}};
+  const Quantities<CalibrationRecord> of_record{
+      {"selection_rms", "RMS of selection", significant(4, kelvin), quantity::selection_rms.meaning,
        &CalibrationRecord::selection_root_mean_square},
-      {{"misfit_bound", "95 % of misfits below", significant(3, kelvin),
-        "Bound of the misfits of what nothing was fitted to."},
-       &ModelFormEntry::calibration,
-       &CalibrationRecord::misfit_bound},
-      {quantity::change_to_finer(), &ModelFormEntry::calibration, &CalibrationRecord::stations,
-       &StationConvergence::finer},
-      {quantity::change_from_coarser(), &ModelFormEntry::calibration, &CalibrationRecord::stations,
-       &StationConvergence::coarser},
-      {{"stations_converge", "stations converge", text(), "Whether they settle as cells shrink."},
-       &ModelFormEntry::calibration,
-       &CalibrationRecord::stations,
-       &StationConvergence::converges}};
+      {"misfit_bound", "95 % of misfits below", significant(3, kelvin),
+       "Bound of the misfits of what nothing was fitted to.", &CalibrationRecord::misfit_bound},
+      {quantity::change_to_finer, &CalibrationRecord::stations, &StationConvergence::finer},
+      {quantity::change_from_coarser, &CalibrationRecord::stations, &StationConvergence::coarser},
+      {"stations_converge", "stations converge", text(), "Whether they settle as cells shrink.",
+       &CalibrationRecord::stations, &StationConvergence::converges}};
+  return keys::joined<CalibratedModel>(
+      {{{"model", "model", text(), "The model.", &ModelFormEntry::name}},
+       of_part<CalibratedModel>(of_scene, &ModelFormEntry::calibration, &CalibrationRecord::calibration,
+                                &study::Calibration::scene),
+       of_part<CalibratedModel>(of_record, &ModelFormEntry::calibration)});
 }
 
 Table model_constants_table(const ModelForm& form) {
   std::vector<CalibratedModel> rows;
   for (const ModelFormEntry& each : form.entries)
     if (each.calibration->failure.empty()) rows.push_back(&each);
-  Table table = report::table_of("Constants of each model, calibrated by the same rule",
-                                 model_constant_quantities(), rows);
-  table.notes = said("comparison.note.constants");
-  return table;
+  return report::table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(),
+                          rows, said("comparison.note.constants"));
 }
 
 /// Where models differ most, and where least.
@@ -162,7 +147,7 @@ std::string apart_text(const ModelForm& form) {
   const auto [least, most] = std::ranges::minmax(apart);
   const auto text = [](const std::pair<double, double>& each) {
     return fmt::format("{} at {}", digits_of(each.first, significant(2, centimetre)) + " cm",
-                       report::in_words(each.second, quantity::peak_pressure().form));
+                       report::in_words(each.second, quantity::peak_pressure.form));
   };
   return fmt::format("Models differ by {}, by {}", text(most), text(least));
 }
@@ -170,17 +155,16 @@ std::string apart_text(const ModelForm& form) {
 report::Plot model_form_plot(const ModelForm& form) {
   constexpr int grey = 7;
   int coloured = 0;
-  report::Plot plot;
-  plot.title = apart_text(form);
-  plot.subtitle = "each calibrated by the same rule; grey and dashed: models without a share in verdicts";
-  plot.named_in_place = true;
-  plot.x.label = headed("peak pressure", quantity::peak_pressure()).label();
-  plot.y.label = quantity::critical_gap().label();
-  plot.y.minimum = 0.0;
-  plot.height = 620;
+  report::Plot plot{
+      .title = apart_text(form),
+      .x = {.label = headed("peak pressure", quantity::peak_pressure).label()},
+      .y = {.label = quantity::critical_gap.label(), .minimum = 0.0},
+      .height = 620,
+      .subtitle = "each calibrated by the same rule; grey and dashed: models without a share in verdicts",
+      .named_in_place = true};
   for (const ModelFormEntry& each : form.entries) {
     report::Series series{each.name, {}, {}, report::Style::line_and_points};
-    const ModelAlternative* alternative = alternative_of(form.record, each.name);
+    const ModelAlternative* alternative = keys::find_named(form.record.alternatives, each.name);
     if (alternative != nullptr && towards_ignition(form.record, *alternative).empty()) {
       series.style = report::Style::dashed_line;
       series.colour = grey;
@@ -189,7 +173,7 @@ report::Plot model_form_plot(const ModelForm& form) {
     }
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
-      series.add(report::shown_value(form.record.peak_pressures[i], quantity::peak_pressure().form),
+      series.add(report::shown_value(form.record.peak_pressures[i], quantity::peak_pressure.form),
                  report::shown_gap(each.critical_gap[i]));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
@@ -221,10 +205,12 @@ std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::stri
   }
   std::vector<double> pressures;
   for (const std::size_t i : order) pressures.push_back(result.study.cases[i].peak_pressure);
-  study::ModelFormOrError made = make_model_form(form.entries, std::move(pressures));
-  reason = std::move(made.error);
-  if (!made.record) return std::nullopt;
-  form.record = std::move(*made.record);
+  auto made = make_model_form(form.entries, std::move(pressures));
+  if (!made) {
+    reason = made.error();
+    return std::nullopt;
+  }
+  form.record = std::move(*made);
   return form;
 }
 
@@ -238,20 +224,19 @@ void add_model_form(const ComparisonResult& result, report::Report& report) {
   std::string reason;
   const std::optional<ModelForm> form = model_form_of(result, reason);
   if (!form) {
-    report.items.push_back(report::Statement{"There is no record of other models: " + reason + ".\n"});
+    report.say("There is no record of other models: " + reason + ".\n");
     return;
   }
   report.files.push_back({"model_form.json", to_json_text(form->record)});
-  report.items.push_back(report::Statement{"## Other models\n\n" + said_below("comparison.models")});
-  report.items.push_back(report::ReportTable{model_form_table(*form), "model_form.csv", "models"});
-  report.items.push_back(report::Picture{"model_form.svg", model_form_plot(*form), "critical gap by model"});
-  report.items.push_back(
-      report::ReportTable{model_constants_table(*form), "", "constants", report::Shown::page});
+  report.say("## Other models\n\n" + said_below("comparison.models"));
+  report.add({model_form_table(*form), "model_form.csv", "models"});
+  report.draw({"model_form.svg", model_form_plot(*form), "critical gap by model"});
+  report.add({model_constants_table(*form), "", "constants", report::Shown::page});
 }
 
-std::vector<ResultTable> model_form_results() {
-  return {{"models", "model_form.csv", keys::described(model_quantities({}))},
-          {"constants", "", keys::described(model_constant_quantities())}};
+std::vector<report::ReportTable> model_form_results() {
+  return {{report::table_of({}, model_quantities({}), {}), "model_form.csv", "models"},
+          {report::table_of({}, model_constant_quantities(), {}), "", "constants"}};
 }
 
 }  // namespace launchsafe::kinds

@@ -24,7 +24,7 @@ struct CaseRow {
 
 /// Variant, and peak pressure where there are several.
 Quantities<CaseRow> place_quantities(const Study& study) {
-  return keys::joined<CaseRow>({{{quantity::variant(), &CaseRow::variant}},
+  return keys::joined<CaseRow>({{{quantity::variant, &CaseRow::variant}},
                                 of_part<CaseRow>(report::axis_quantities(study), &CaseRow::coordinates)});
 }
 
@@ -50,22 +50,21 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
   return keys::joined<CaseRow>(
       {place_quantities(study),
        of_part<CaseRow>(report::critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
-       {{{"critical_gap_difference", "less that of the scene", significant(3, keys::centimetre),
-          "Critical gap minus that of the scene as it is."},
+       {{"critical_gap_difference", "less that of the scene", significant(3, keys::centimetre),
+         "Critical gap minus that of the scene as it is.",
          unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
-        {quantity::temperature_max_inert(), [](const CaseRow& row) { return hottest(row.compared()); }},
-        {{"temperature_max_inert_difference", "less that of the scene", fixed(1, keys::kelvin),
-          "The same minus that of the scene as it is."},
-         unless_own([](const CaseRow& row) {
+        {quantity::temperature_max_inert, [](const CaseRow& row) { return hottest(row.compared()); }},
+        {"temperature_max_inert_difference", "less that of the scene", fixed(1, keys::kelvin),
+         "The same minus that of the scene as it is.", unless_own([](const CaseRow& row) {
            return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
          })},
-        {for_programs(quantity::processor_time()),
+        {for_programs(quantity::processor_time),
          [](const CaseRow& row) { return row.compared().processor_time; }},
-        {for_programs(quantity::particles()), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
-        {for_programs(quantity::steps()), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
-        {for_programs(quantity::energy_drift()), &CaseRow::compared, &CaseAnswer::run,
+        {for_programs(quantity::particles), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
+        {for_programs(quantity::steps), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::energy_drift), &CaseRow::compared, &CaseAnswer::run,
          &RunSummary::energy_drift},
-        {quantity::reason(), [](const CaseRow& row) {
+        {quantity::reason, [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared();
            return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
@@ -75,9 +74,8 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
 Table comparison_table(const ComparisonResult& result) {
   std::vector<CaseRow> rows;
   for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
-  Table table = report::table_of("Variants side by side", compared_case_quantities(result.study.study), rows);
-  table.notes = said("comparison.note.cases");
-  return table;
+  return report::table_of("Variants side by side", compared_case_quantities(result.study.study), rows,
+                          said("comparison.note.cases"));
 }
 
 /// A station under a gap of a case.
@@ -88,11 +86,11 @@ struct StationRow {
 };
 
 Quantities<StationRow> station_quantities(const Study& study) {
-  return keys::joined<StationRow>({of_part<StationRow>(place_quantities(study), &StationRow::of),
-                                   {{quantity::gap(), &StationRow::gap},
-                                    {quantity::station(), &StationRow::station, &StationTemperature::name},
-                                    {always(quantity::temperature_max_inert()), &StationRow::station,
-                                     &StationTemperature::temperature}}});
+  return keys::joined<StationRow>(
+      {of_part<StationRow>(place_quantities(study), &StationRow::of),
+       {{quantity::gap, &StationRow::gap},
+        {quantity::station, &StationRow::station, &StationTemperature::name},
+        {always(quantity::temperature_max_inert), &StationRow::station, &StationTemperature::temperature}}});
 }
 
 /// A row for every station of every gap and case.
@@ -114,7 +112,7 @@ Table stations_side_by_side(const ComparisonResult& result) {
   const std::vector<double>& gaps = result.study.study.gaps;
   const auto gap = static_cast<std::size_t>(std::ranges::max_element(gaps) - gaps.begin());
   std::vector<std::string> rows;
-  Quantities<std::string> quantities{{quantity::station(), std::identity{}}};
+  Quantities<std::string> quantities{{quantity::station, std::identity{}}};
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const ComparedCase& each = result.answers[i];
     for (const StationTemperature& station :
@@ -122,13 +120,13 @@ Table stations_side_by_side(const ComparisonResult& result) {
       if (std::ranges::find(rows, station.name) == rows.end()) rows.push_back(station.name);
     if (result.counterpart(i) != 0) continue;
     const std::string& variant = result.variants()[each.variant].name;
-    quantities.emplace_back(
-        report::Column{variant, variant, fixed(1), "T max of the station under that variant."},
-        [&each, gap](const std::string& name) {
-          if (each.stations.empty()) return not_a_number;
-          const auto found = std::ranges::find(each.stations[gap], name, &StationTemperature::name);
-          return found == each.stations[gap].end() ? not_a_number : found->temperature;
-        });
+    quantities.emplace_back(variant, variant, fixed(1), "T max of the station under that variant.",
+                            [&each, gap](const std::string& name) {
+                              if (each.stations.empty()) return not_a_number;
+                              const auto found =
+                                  std::ranges::find(each.stations[gap], name, &StationTemperature::name);
+                              return found == each.stations[gap].end() ? not_a_number : found->temperature;
+                            });
   }
   Table table = report::table_of(
       "T max [K] by station at " + report::centimetres(gaps[gap]) + ", without reaction", quantities, rows);
@@ -167,8 +165,7 @@ report::Report report_of(const ComparisonResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {ReportTable{comparison_table(result), "comparison.csv", "cases"},
                   ReportTable{station_table(result), "stations.csv", "stations", report::Shown::file}};
-  report.items.push_back(ReportTable{
-      .table = stations_side_by_side(result), .shown = report::Shown::page, .rest = "stations.csv"});
+  report.add({.table = stations_side_by_side(result), .shown = report::Shown::page});
   add_model_form(result, report);
   Row variants = Row::array();  // what each does otherwise
   for (const Variant& each : result.variants())
@@ -176,12 +173,11 @@ report::Report report_of(const ComparisonResult& result) {
                         {"description", each.description},
                         {"changes", each.changes},
                         {"failure", each.calibration ? each.calibration->failure : ""}});
-  report.items.push_back(
-      Statement{"## Variants\n\n" + said_below("comparison.variants", {{"variants", variants}})});
-  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
-  report.items.push_back(Statement{report::station_note(result.study) + "\n"});
-  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(Statement{report::timing_sentence(result.timing)});
+  report.say("## Variants\n\n" + said_below("comparison.variants", {{"variants", variants}}));
+  report.say("## What it rests on\n\n" + report::friction_remark(result.study));
+  report.say(report::station_note(result.study) + "\n");
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.say(report::timing_sentence(result.timing));
   report.json = study_json(
       result.study, report,
       {{"axes", report::axes_json(result.study.study)},
@@ -190,12 +186,12 @@ report::Report report_of(const ComparisonResult& result) {
   return report;
 }
 
-std::vector<ResultTable> comparison_results() {
+std::vector<ReportTable> comparison_results() {
   const Study study;
-  std::vector<ResultTable> tables{
-      {"cases", "comparison.csv", keys::described(compared_case_quantities(study))},
-      {"stations", "stations.csv", keys::described(station_quantities(study))}};
-  for (ResultTable& each : model_form_results()) tables.push_back(std::move(each));
+  std::vector<ReportTable> tables{
+      {report::table_of({}, compared_case_quantities(study), {}), "comparison.csv", "cases"},
+      {report::table_of({}, station_quantities(study), {}), "stations.csv", "stations"}};
+  for (ReportTable& each : model_form_results()) tables.push_back(std::move(each));
   return tables;
 }
 

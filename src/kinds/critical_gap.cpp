@@ -2,7 +2,6 @@
 
 #include "critical_gap_tables.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
@@ -100,10 +99,12 @@ double following_cost(const study::StudyFile& study, const CaseRuns& runs, const
 }
 
 /// Runs that go on from a launch which was computed, and what takes each.
-class FollowingRuns {
- public:
-  FollowingRuns(CriticalGapResult& result, const StudyOptions& options)
-      : result_(result), options_(options) {}
+struct FollowingRuns {
+  using Taker = std::function<void(const FinishedRun&)>;
+  CriticalGapResult& result;
+  const StudyOptions& options;
+  std::vector<PlannedRun> runs = {};
+  std::vector<Taker> takers = {};
 
   /// Coupled runs on both sides of its bracket.
   void add_confirmations(CaseOutcome& outcome) {
@@ -123,7 +124,7 @@ class FollowingRuns {
 
   /// The longer launch of cases that share it.
   void add_longer_launch(const PlannedRun& planned, const std::vector<std::size_t>& members) {
-    const CaseOutcome& first = result_.details[members.front()];
+    const CaseOutcome& first = result.details[members.front()];
     if (!first.completed()) return;
     CaseRun run = planned.make();
     go_on_from(first, run);
@@ -134,34 +135,29 @@ class FollowingRuns {
         mechanics.reason = finished.failure;
       }
       for (const std::size_t each : members)
-        evaluate_longer_launch(result_.study.study, mechanics, result_.details[each]);
+        evaluate_longer_launch(result.study.study, mechanics, result.details[each]);
     });
   }
 
   void run(ProgressTracker& tracker) {
-    run_each(std::move(runs_), options_, tracker, result_.timing,
-             [this](std::size_t i, const FinishedRun& finished) { takers_[i](finished); });
+    run_each(std::move(runs), options, tracker, result.timing,
+             [this](std::size_t i, const FinishedRun& finished) { takers[i](finished); });
   }
-
- private:
-  using Taker = std::function<void(const FinishedRun&)>;
 
   void add(CaseRun run, Taker taker) {
-    runs_.push_back(planned_run(std::move(run)));
-    takers_.push_back(std::move(taker));
+    runs.push_back(planned_run(std::move(run)));
+    takers.push_back(std::move(taker));
   }
-
-  CriticalGapResult& result_;
-  const StudyOptions& options_;
-  std::vector<PlannedRun> runs_;
-  std::vector<Taker> takers_;
 };
 
-/// The launches of gaps that close, for those of the cases (or answers) that ask for them; `take` has what
-/// they say of each.
-template <class Cases, class Take>
-void run_closing_gaps(const std::vector<Cases>& cases, CriticalGapResult& result, const StudyOptions& options,
-                      ProgressTracker& tracker, Take take) {
+/// The launches of gaps that close, for those of the cases (or answers) that ask for them: what they say of
+/// each.
+template <class Case>
+std::map<std::size_t, std::vector<study::ClosingAnswer>> run_closing_gaps(const std::vector<Case>& cases,
+                                                                          CriticalGapResult& result,
+                                                                          const StudyOptions& options,
+                                                                          ProgressTracker& tracker) {
+  tracker.begin(study::Phase::closing_gaps);
   const study::RunBatch run = [&](std::vector<PlannedRun> runs, const auto& done) {
     run_each(std::move(runs), options, tracker, result.timing, done);
   };
@@ -169,7 +165,9 @@ void run_closing_gaps(const std::vector<Cases>& cases, CriticalGapResult& result
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (cases[i].completed() && result.study.cases[i].closing) closing.push_back(i);
   auto answers = find_closing_gaps(result.study, closing, run);
-  for (std::size_t i = 0; i < closing.size(); ++i) take(closing[i], std::move(answers[i]));
+  std::map<std::size_t, std::vector<study::ClosingAnswer>> found;
+  for (std::size_t i = 0; i < closing.size(); ++i) found[closing[i]] = std::move(answers[i]);
+  return found;
 }
 
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
@@ -196,7 +194,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
         tracker.found({result.details[member].input.label, gap.lower, gap.upper});
     }
   });
-  FollowingRuns following(result, options);
+  FollowingRuns following{result, options};
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (longer[i].make) following.add_longer_launch(longer[i], runs[i].members);
   if (confirm)
@@ -205,11 +203,8 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   tracker.expect(0, -foreseen);
   following.run(tracker);
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  tracker.begin(study::Phase::closing_gaps);
-  run_closing_gaps(result.details, result, options, tracker,
-                   [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
-                     result.details[i].closing = std::move(closing);
-                   });
+  for (auto& [i, closing] : run_closing_gaps(result.details, result, options, tracker))
+    result.details[i].closing = std::move(closing);
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);
@@ -222,27 +217,22 @@ void run_many(CriticalGapResult& result, const StudyOptions& options) {
   result.answers = answer_cases(result.study, options, result.timing);
   if (result.study.scene.scene.surface.model != scene::GapModel::closing) return;
   ProgressTracker tracker(options.progress);
-  tracker.begin(study::Phase::closing_gaps);
-  run_closing_gaps(result.answers, result, options, tracker,
-                   [&](std::size_t i, std::vector<study::ClosingAnswer> closing) {
-                     take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
-                   });
+  for (auto& [i, closing] : run_closing_gaps(result.answers, result, options, tracker))
+    take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
 }
 
-std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys() {
-  return {
-      scene::flag_key(
-          "confirm", scene::Standing::assumed,
-          fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on through "
-                      "combustion. Of a study with more than {} cases it is false unless stated.",
-                      most_cases_in_detail),
-          &CriticalGapSettings::confirm),
-      scene::flag_key(
-          "surrogate", scene::Standing::assumed,
-          "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
-          &CriticalGapSettings::surrogate),
-  };
-}
+const std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys{
+    scene::flag_key(
+        "confirm", scene::Standing::assumed,
+        fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on through "
+                    "combustion. Of a study with more than {} cases it is false unless stated.",
+                    most_cases_in_detail),
+        &CriticalGapSettings::confirm),
+    scene::flag_key(
+        "surrogate", scene::Standing::assumed,
+        "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
+        &CriticalGapSettings::surrogate),
+};
 
 Fault read_critical_gap(const StudySource& source, study::StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
@@ -291,24 +281,14 @@ CriticalGapResult run_critical_gap(const study::StudyFile& study, const StudyOpt
 Kind critical_gap_kind() {
   return {
       .traits = {.name = "critical-gap", .keeps_answers = true, .closing_gaps = study::ClosingGaps::beside},
-      .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys()), judging_keys(),
+      .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys), judging_keys(),
                       calibration_record_keys(), uncertainty_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},
       .varies = {.values = true},
       .read = read_critical_gap,
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
-      // Reports of older programs had files of cases too, and these in other formats.
-      .files = {{"closing.svg"},
-                {"verdicts.md"},
-                {"temperature.svg"},
-                {"critical_gaps.md"},
-                {"critical_gap", ".svg"},
-                {"critical_gaps.json"},
-                {"surrogate.json"},
-                {"ask.html"},
-                {"case_", ".h5"},
-                {"case_", ".xdmf"}},
+      .files = {"closing.svg", "temperature.svg", "critical_gap*.svg", "surrogate.json", "ask.html"},
       .results = critical_gap_results,
   };
 }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 namespace launchsafe::kinds {
 
 using keys::fixed, keys::kelvin, keys::scientific, keys::significant, keys::text;
@@ -25,25 +27,22 @@ struct CalibratedRow {
   const AsCalibrated* constant;
 };
 
-Quantities<CalibratedRow> calibrated_quantities() {
-  using keys::text;
-  return {{quantity::case_name(), &CalibratedRow::outcome, &CaseOutcome::input, &StudyCase::label},
-          {quantity::gap(), &CalibratedRow::gap, &GapVerdict::gap},
-          {quantity::verdict(), &CalibratedRow::gap, &GapVerdict::judgement, &study::Judgement::verdict},
-          {{"key", "constant", text(), "The constant that is put back."},
-           [](const CalibratedRow& row) {
-             return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
-           }},
-          {quantity::temperature_max(),
-           [](const CalibratedRow& row) { return report::known(row.gap->maximum.temperature); }},
-          {{"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
-            "Highest temperature with that constant as calibrated."},
-           &CalibratedRow::constant,
-           &AsCalibrated::temperature},
-          {{"ignites", "ignites then", text(), "Whether the gap ignites with it."},
-           &CalibratedRow::constant,
-           &AsCalibrated::ignites}};
-}
+using keys::text;
+const Quantities<CalibratedRow> calibrated_quantities{
+    {quantity::case_name, &CalibratedRow::outcome, &CaseOutcome::input, &StudyCase::label},
+    {quantity::gap, &CalibratedRow::gap, &GapVerdict::gap},
+    {quantity::verdict, &CalibratedRow::gap, &GapVerdict::judgement, &study::Judgement::verdict},
+    {"key", "constant", text(), "The constant that is put back.",
+     [](const CalibratedRow& row) {
+       return row.constant->key.empty() ? "all of gap and friction" : row.constant->key;
+     }},
+    {quantity::temperature_max,
+     [](const CalibratedRow& row) { return report::known(row.gap->maximum.temperature); }},
+    {"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+     "Highest temperature with that constant as calibrated.", &CalibratedRow::constant,
+     &AsCalibrated::temperature},
+    {"ignites", "ignites then", text(), "Whether the gap ignites with it.", &CalibratedRow::constant,
+     &AsCalibrated::ignites}};
 
 std::string ignition_word(bool ignites) { return ignites ? "ignites" : "does not ignite"; }
 
@@ -51,33 +50,28 @@ std::string outcome_word(const Confirmation& each) {
   return each.completed ? ignition_word(each.ignited) : "failed";
 }
 
-/// A coupled run of a case.
-struct CoupledRow {
-  NamedOutcome of;
-  const Confirmation* run;
-};
+/// What is told of the case itself.
+const Quantities<CaseOutcome> case_quantities{{quantity::case_name, &CaseOutcome::input, &StudyCase::label}};
 
-Quantities<CoupledRow> coupled_quantities() {
-  return keys::joined<CoupledRow>(
-      {{{quantity::case_name(), &CoupledRow::of, &CaseOutcome::input, &StudyCase::label},
-        {quantity::gap(), &CoupledRow::run, &Confirmation::gap},
-        {{"expected", "expected", text(), "What the bracket says of the gap."},
-         [](const CoupledRow& row) { return ignition_word(row.run->expected_ignition); }},
-        {{"outcome", "outcome", text(), "What the coupled run did."},
-         [](const CoupledRow& row) { return outcome_word(*row.run); }},
-        {quantity::temperature_max(),
-         [](const CoupledRow& row) { return report::known(row.run->maximum_temperature); }},
-        {{"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
-          "T max of the coupled run less that on the trace; none where either ignited."},
-         &CoupledRow::run,
-         &Confirmation::difference}},
-       of_part<CoupledRow>(report::burnt_state_quantities(), &CoupledRow::run,
-                           [](const Confirmation& run) {
-                             const auto& combustion = run.combustion;
-                             return combustion && !combustion->burnt_mass.empty() ? &*combustion : nullptr;
-                           }),
-       {{quantity::reason(), &CoupledRow::run, &Confirmation::failure}}});
-}
+const auto coupled_quantities = with_whole(
+    case_quantities, keys::joined<Confirmation>(
+                         {{{quantity::gap, &Confirmation::gap},
+                           {"expected", "expected", text(), "What the bracket says of the gap.",
+                            [](const Confirmation& run) { return ignition_word(run.expected_ignition); }},
+                           {"outcome", "outcome", text(), "What the coupled run did.", outcome_word},
+                           {quantity::temperature_max,
+                            [](const Confirmation& run) { return report::known(run.maximum_temperature); }},
+                           {"coupled_minus_traced", "coupled - traced", scientific(1, kelvin),
+                            "T max of the coupled run less that on the trace; none where either ignited.",
+                            &Confirmation::difference}},
+                          of_part<Confirmation>(report::burnt_state_quantities(),
+                                                [](const Confirmation& run) {
+                                                  const auto& combustion = run.combustion;
+                                                  return combustion && !combustion->burnt_mass.empty()
+                                                             ? &*combustion
+                                                             : nullptr;
+                                                }),
+                          {{quantity::reason, &Confirmation::failure}}}));
 
 /// A gap of a case that also has an answer on other terms.
 struct OtherRow {
@@ -89,21 +83,19 @@ struct OtherRow {
 Quantities<OtherRow> other_quantities(Column usual, Column other,
                                       std::optional<study::OtherAnswer> CaseOutcome::*member) {
   return {
-      {quantity::case_name(), &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
-      {quantity::gap(), [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
+      {quantity::case_name, &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
+      {quantity::gap, [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
       {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
       {std::move(other),
        [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
 }
 
-Quantities<OtherRow> film_quantities() {
-  return other_quantities(
-      {"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
-       "Highest temperature under the reservoir of air."},
-      {"temperature_max_film", "T max, film", fixed(1, kelvin),
-       "Highest temperature under the film of air, which gives what compression supplies alone."},
-      &CaseOutcome::film);
-}
+const Quantities<OtherRow> film_quantities = other_quantities(
+    {"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
+     "Highest temperature under the reservoir of air."},
+    {"temperature_max_film", "T max, film", fixed(1, kelvin),
+     "Highest temperature under the film of air, which gives what compression supplies alone."},
+    &CaseOutcome::film);
 
 Quantities<OtherRow> longer_launch_quantities() {
   Quantities<OtherRow> quantities =
@@ -127,41 +119,33 @@ struct FittedLine {
 };
 
 Quantities<FittedLine> line_quantities() {
-  const auto least_squares = [](double math::LeastSquares::*member) {
-    return [member](const GapFit& fit) { return fit.least_squares.*member; };
-  };
+  using keys::kelvin_per_centimetre, math::LeastSquares;
   const auto error = [](std::size_t coefficient) {
     return [coefficient](const GapFit& fit) { return fit.least_squares.standard_errors[coefficient]; };
   };
-  return {
-      {quantity::case_name(), &FittedLine::of, &CaseOutcome::input, &StudyCase::label},
-      {{"line", "line", text(), "Which line it is."}, &FittedLine::name},
-      {{"slope", "slope", fixed(1, keys::kelvin_per_centimetre), "Rise of T max over the gap."},
-       &FittedLine::line,
-       &Line::slope},
-      {{"intercept", "intercept", fixed(3, kelvin), "T max without a gap."},
-       &FittedLine::line,
-       &Line::intercept},
-      {{"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals."},
-       &FittedLine::line,
-       &Line::root_mean_square},
-      {for_programs(Column{"slope_standard_error", "slope error", fixed(1, keys::kelvin_per_centimetre),
-                           "Standard error of the slope."}),
-       &FittedLine::fit, error(1)},
-      {for_programs(Column{"intercept_standard_error", "intercept error", fixed(2, kelvin),
-                           "Standard error of the intercept."}),
-       &FittedLine::fit, error(0)},
-      {for_programs(Column{"r_squared", "R^2", fixed(5), "Share of the variance that the line explains."}),
-       &FittedLine::fit, least_squares(&math::LeastSquares::r_squared)},
-      {for_programs(Column{"residual_deviation", "residual deviation", fixed(2, kelvin),
-                           "Standard deviation of the residuals."}),
-       &FittedLine::fit, least_squares(&math::LeastSquares::residual_deviation)},
-      {for_programs(Column{"reaches_ignition", "reaches ignition at", significant(4, keys::centimetre),
-                           "Gap at which the line reaches the ignition temperature."}),
-       &FittedLine::fit, &GapFit::reaches_ignition},
-      {for_programs(Column{"reaches_ignition_half_width", "within", significant(2, keys::centimetre),
-                           "Half the width of the band of 95 % there."}),
-       &FittedLine::fit, &GapFit::reaches_ignition_half_width}};
+  const Quantities<Line> of_line{
+      {"slope", "slope", fixed(1, kelvin_per_centimetre), "Rise of T max over the gap.", &Line::slope},
+      {"intercept", "intercept", fixed(3, kelvin), "T max without a gap.", &Line::intercept},
+      {"rms", "RMS", fixed(2, kelvin), "Root mean square of the residuals.", &Line::root_mean_square}};
+  Quantities<GapFit> of_fit{
+      {"slope_standard_error", "slope error", fixed(1, kelvin_per_centimetre), "Standard error of the slope.",
+       error(1)},
+      {"intercept_standard_error", "intercept error", fixed(2, kelvin), "Standard error of the intercept.",
+       error(0)},
+      {"r_squared", "R^2", fixed(5), "Share of the variance that the line explains.", &GapFit::least_squares,
+       &LeastSquares::r_squared},
+      {"residual_deviation", "residual deviation", fixed(2, kelvin), "Standard deviation of the residuals.",
+       &GapFit::least_squares, &LeastSquares::residual_deviation},
+      {"reaches_ignition", "reaches ignition at", significant(4, keys::centimetre),
+       "Gap at which the line reaches the ignition temperature.", &GapFit::reaches_ignition},
+      {"reaches_ignition_half_width", "within", significant(2, keys::centimetre),
+       "Half the width of the band of 95 % there.", &GapFit::reaches_ignition_half_width}};
+  for (auto& each : of_fit) each = for_programs(each);
+  return keys::joined<FittedLine>(
+      {{{quantity::case_name, &FittedLine::of, &CaseOutcome::input, &StudyCase::label},
+        {"line", "line", text(), "Which line it is.", &FittedLine::name}},
+       of_part<FittedLine>(of_line, &FittedLine::line),
+       of_part<FittedLine>(of_fit, &FittedLine::fit)});
 }
 
 /// A gap that does not ignite beside the lines through it and its neighbours.
@@ -174,55 +158,41 @@ struct FittedRow {
   }
 };
 
-Quantities<FittedRow> fitted_row_quantities() {
-  return {{quantity::case_name(), &FittedRow::of, &CaseOutcome::input, &StudyCase::label},
-          {quantity::gap(), [](const FittedRow& row) { return row.fit().gaps[row.gap]; }},
-          {quantity::temperature_max(), [](const FittedRow& row) { return row.fit().temperatures[row.gap]; }},
-          {{"residual", "less the line", fixed(2, kelvin), "T max less the line of least squares."},
-           [](const FittedRow& row) { return row.residual(row.fit().ordinary); }},
-          {{"left_out", "less what the others predict", fixed(2, kelvin),
-            "T max less the line of least squares through the other rows."},
-           [](const FittedRow& row) { return row.fit().left_out[row.gap]; }},
-          {{"residual_mixed", "less the published form", fixed(2, kelvin),
-            "T max less the line of that slope through the zero-gap row."},
-           [](const FittedRow& row) { return row.residual(row.fit().mixed); }},
-          {{"residual_published", "less the published line", fixed(2, kelvin),
-            "T max less the line as published."},
-           [](const FittedRow& row) { return row.residual(row.fit().published); }}};
-}
+const Quantities<FittedRow> fitted_row_quantities{
+    {quantity::case_name, &FittedRow::of, &CaseOutcome::input, &StudyCase::label},
+    {quantity::gap, [](const FittedRow& row) { return row.fit().gaps[row.gap]; }},
+    {quantity::temperature_max, [](const FittedRow& row) { return row.fit().temperatures[row.gap]; }},
+    {"residual", "less the line", fixed(2, kelvin), "T max less the line of least squares.",
+     [](const FittedRow& row) { return row.residual(row.fit().ordinary); }},
+    {"left_out", "less what the others predict", fixed(2, kelvin),
+     "T max less the line of least squares through the other rows.",
+     [](const FittedRow& row) { return row.fit().left_out[row.gap]; }},
+    {"residual_mixed", "less the published form", fixed(2, kelvin),
+     "T max less the line of that slope through the zero-gap row.",
+     [](const FittedRow& row) { return row.residual(row.fit().mixed); }},
+    {"residual_published", "less the published line", fixed(2, kelvin), "T max less the line as published.",
+     [](const FittedRow& row) { return row.residual(row.fit().published); }}};
 
-/// A curve through the rows of a case.
-struct CurveRow {
-  NamedOutcome of;
-  const FittedCurve* curve;
-};
-
-Quantities<CurveRow> curve_quantities() {
-  return {{quantity::case_name(), &CurveRow::of, &CaseOutcome::input, &StudyCase::label},
-          {{"curve", "curve", text(), "What was fitted."}, &CurveRow::curve, &FittedCurve::name},
-          {{"coefficients", "coefficients", keys::count(), "How many it has."},
-           &CurveRow::curve,
-           &FittedCurve::coefficients},
-          {{"rms", "RMS", significant(2, kelvin), "Root mean square of the residuals."},
-           &CurveRow::curve,
-           &FittedCurve::root_mean_square},
-          {{"left_out_rms", "RMS left out", significant(2, kelvin),
-            "The same of what each row is off the curve through the others."},
-           &CurveRow::curve,
-           &FittedCurve::left_out},
-          {{"aicc", "AICc", significant(3), "Akaike's criterion, corrected for few rows: less is better."},
-           &CurveRow::curve,
-           &FittedCurve::corrected_akaike}};
-}
+/// Curves through the rows of a case.
+const auto curve_quantities = with_whole(
+    case_quantities,
+    Quantities<FittedCurve>{
+        {"curve", "curve", text(), "What was fitted.", &FittedCurve::name},
+        {"coefficients", "coefficients", keys::count(), "How many it has.", &FittedCurve::coefficients},
+        {"rms", "RMS", significant(2, kelvin), "Root mean square of the residuals.",
+         &FittedCurve::root_mean_square},
+        {"left_out_rms", "RMS left out", significant(2, kelvin),
+         "The same of what each row is off the curve through the others.", &FittedCurve::left_out},
+        {"aicc", "AICc", significant(3), "Akaike's criterion, corrected for few rows: less is better.",
+         &FittedCurve::corrected_akaike}});
 
 Table as_calibrated_table(const CriticalGapResult& result) {
   std::vector<CalibratedRow> rows;
   for (const CaseOutcome& outcome : result.details)
     for (const GapVerdict& gap : outcome.verdicts)
       for (const AsCalibrated& each : gap.as_calibrated) rows.push_back({&outcome, &gap, &each});
-  Table table = table_of("With constants of the surface as calibrated", calibrated_quantities(), rows);
-  table.notes = said("critical_gap.note.as_calibrated");
-  return table;
+  return table_of("With constants of the surface as calibrated", calibrated_quantities, rows,
+                  said("critical_gap.note.as_calibrated"));
 }
 
 Table air_energy_table(const CriticalGapResult& result) {
@@ -249,9 +219,7 @@ Table other_table(const CriticalGapResult& result, const char* title, const Quan
                                {"usual", reads_as(outcome.critical)},
                                {"other", reads_as((outcome.*member)->critical)}});
   }
-  Table table = table_of(title, quantities, rows);
-  table.notes = said(note, facts);
-  return table;
+  return table_of(title, quantities, rows, said(note, facts));
 }
 
 Table fit_table(const CriticalGapResult& result) {
@@ -264,27 +232,24 @@ Table fit_table(const CriticalGapResult& result) {
       rows.push_back({&outcome, "its slope through the zero-gap row (the published form)", &*fit.mixed});
     if (fit.published) rows.push_back({&outcome, "as published", &*fit.published});
   }
-  Table table =
-      table_of("T max = intercept + slope * gap over the rows that do not ignite", line_quantities(), rows);
   Row facts = Row::object();
   for (const FittedLine& row : rows) facts["lines"].push_back(report::json_of(line_quantities(), row));
-  table.notes = said("critical_gap.note.fit", facts);
-  return table;
+  return table_of("T max = intercept + slope * gap over the rows that do not ignite", line_quantities(), rows,
+                  said("critical_gap.note.fit", facts));
 }
 
 Table fitted_row_table(const CriticalGapResult& result) {
   std::vector<FittedRow> rows;
   for (const CaseOutcome& outcome : result.details)
     for (std::size_t i = 0; outcome.fit && i < outcome.fit->gaps.size(); ++i) rows.push_back({&outcome, i});
-  return table_of("Rows against the lines", fitted_row_quantities(), rows);
+  return table_of("Rows against the lines", fitted_row_quantities, rows);
 }
 
 Table curve_table(const CriticalGapResult& result) {
-  std::vector<CurveRow> rows;
-  for (const CaseOutcome& outcome : result.details)
-    if (outcome.fit)
-      for (const FittedCurve& curve : outcome.fit->curves) rows.push_back({&outcome, &curve});
-  return table_of("Three curves through the rows that do not ignite", curve_quantities(), rows);
+  return table_of("Three curves through the rows that do not ignite", curve_quantities,
+                  parts_of<FittedCurve>(result.details, [](const CaseOutcome& outcome) {
+                    return outcome.fit ? std::span(outcome.fit->curves) : std::span<const FittedCurve>();
+                  }));
 }
 
 Table run_table(const CriticalGapResult& result) {
@@ -324,19 +289,14 @@ std::string undecided_text(const CriticalGapResult& result) {
 }  // namespace
 
 Table coupled_run_table(const CriticalGapResult& result) {
-  std::vector<CoupledRow> rows;
-  std::vector<std::string> notes;
-  for (const CaseOutcome& outcome : result.details)
-    for (const Confirmation& each : outcome.confirmations) {
-      rows.push_back({&outcome, &each});
-      if (!each.combustion || !notes.empty()) continue;
-      const scene::Scene& scene = outcome.input.scene.scene;
-      notes = {report::flame_kinetics_note(scene)};
-      for (const std::string& warning : run::combustion_validity_warnings(scene, *each.combustion))
-        notes.push_back(fmt::format("What follows ignition is indicative: {}.", warning));
-    }
-  Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities(), rows);
-  table.notes = std::move(notes);
+  const auto rows = parts_of<Confirmation>(result.details, &CaseOutcome::confirmations);
+  Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities, rows);
+  const auto burnt = std::ranges::find_if(rows, [](const auto& row) { return bool(row.part->combustion); });
+  if (burnt == rows.end()) return table;
+  const scene::Scene& scene = burnt->whole->input.scene.scene;
+  table.notes = {report::flame_kinetics_note(scene)};
+  for (const std::string& warning : run::combustion_validity_warnings(scene, *burnt->part->combustion))
+    table.notes.push_back(fmt::format("What follows ignition is indicative: {}.", warning));
   return table;
 }
 
@@ -359,7 +319,7 @@ std::string limiter_remark(const CriticalGapResult& result) {
 void add_details(const CriticalGapResult& result, report::Report& report) {
   for (ReportTable& table : closing_tables(result)) report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
-    report.items.push_back(report::Picture{"closing.svg", std::move(*plot), "T max where the gap closes"});
+    report.draw({"closing.svg", std::move(*plot), "T max where the gap closes"});
   std::vector<report::NamedGap> cases;
   for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
   for (ReportTable table :
@@ -367,7 +327,7 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
         ReportTable{other_table(result, "In a barrel without end", longer_launch_quantities(),
                                 &CaseOutcome::longer_launch, "critical_gap.note.without_exit"),
                     "", "without_exit"},
-        ReportTable{other_table(result, "Under both models of the air", film_quantities(), &CaseOutcome::film,
+        ReportTable{other_table(result, "Under both models of the air", film_quantities, &CaseOutcome::film,
                                 "critical_gap.note.air_models"),
                     "", "air_models"},
         ReportTable{air_energy_table(result), "", "air_energy"},
@@ -376,30 +336,30 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
         ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
         ReportTable{curve_table(result), "", "fit_curves", Shown::page}})
     report.items.push_back(std::move(table));
-  report.items.push_back(report::Statement{undecided_text(result)});
+  report.say(undecided_text(result));
 }
 
 void add_runs(const CriticalGapResult& result, report::Report& report) {
   for (const CaseOutcome& outcome : result.details) {
     Table faces = report::interface_table(outcome.result.mechanics);
     if (result.details.size() > 1) faces.title += ", " + outcome.input.label;
-    report.items.push_back(ReportTable{.table = std::move(faces), .shown = Shown::page});
+    report.add({.table = std::move(faces), .shown = Shown::page});
   }
-  report.items.push_back(ReportTable{run_table(result), "", "runs"});
-  report.items.push_back(report::Statement{report::timing_sentence(result.timing)});
+  report.add({run_table(result), "", "runs"});
+  report.say(report::timing_sentence(result.timing));
 }
 
-std::vector<ResultTable> detail_results() {
-  std::vector<ResultTable> all{{"coupled_runs", "", keys::described(coupled_quantities())},
-                               {"as_calibrated", "", keys::described(calibrated_quantities())},
-                               {"without_exit", "", keys::described(longer_launch_quantities())},
-                               {"air_models", "", keys::described(film_quantities())},
-                               {"air_energy", "", report::air_energy_columns()},
-                               {"gap_shares", "", report::gap_share_columns()},
-                               {"fit", "", keys::described(line_quantities())},
-                               {"fit_rows", "", keys::described(fitted_row_quantities())},
-                               {"fit_curves", "", keys::described(curve_quantities())},
-                               {"runs", "", report::run_columns()}};
+std::vector<ReportTable> detail_results() {
+  std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"},
+                               {as_calibrated_table({}), "", "as_calibrated"},
+                               {table_of({}, longer_launch_quantities(), {}), "", "without_exit"},
+                               {table_of({}, film_quantities, {}), "", "air_models"},
+                               {Table{.columns = report::air_energy_columns()}, "", "air_energy"},
+                               {report::gap_share_table({}), "", "gap_shares"},
+                               {fit_table({}), "", "fit"},
+                               {fitted_row_table({}), "", "fit_rows"},
+                               {curve_table({}), "", "fit_curves"},
+                               {report::run_table({}), "", "runs"}};
   std::ranges::move(closing_results(), std::back_inserter(all));
   return all;
 }

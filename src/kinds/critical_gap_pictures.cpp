@@ -92,42 +92,19 @@ CriticalGapKind drawn_kind(const CriticalGap& gap) {
 }
 
 /// Critical gaps that are no values as marks along an axis, one series for every kind, in a colour that no
-/// line has.
-class GapMarks {
- public:
-  /// `answers`: all that the picture will have, which decide the labels.
-  explicit GapMarks(const std::vector<CaseAnswer>& answers) {
-    using enum CriticalGapKind;
-    const auto mark = [this](CriticalGapKind kind, std::string label, Mark look) {
-      series_[kind] = {.label = std::move(label), .style = Style::points, .colour = 6, .mark = look};
-    };
-    mark(all_safe, bound_label(answers, all_safe, "above the searched gaps") + " (bound)", Mark::up_triangle);
-    mark(all_ignite, bound_label(answers, all_ignite, "ignites at every gap") + " (bound)",
-         Mark::down_triangle);
-    mark(several_crossings, "the first of several crossings", Mark::diamond);
-  }
-
-  /// `place`: on the axis. A bound stands at its end.
-  void add(const CriticalGap& gap, double place) {
-    const CriticalGapKind kind = drawn_kind(gap);
-    if (kind == CriticalGapKind::indeterminate)
-      ++unknown_;
-    else if (kind != CriticalGapKind::value)
-      series_.at(kind).add(place, shown_gap(kind == CriticalGapKind::all_ignite ? gap.upper : gap.lower));
-  }
-
-  /// The kinds that occur, and how many there are of which nothing is known.
-  void put_into(Plot& plot) {
-    if (unknown_ > 0)
-      plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown_, "case"));
-    for (auto& [kind, series] : series_)
-      if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
-
- private:
-  std::map<CriticalGapKind, Series> series_;
-  std::int64_t unknown_ = 0;
-};
+/// line has. `answers`: all that the picture will have, which decide the labels.
+std::map<CriticalGapKind, Series> marks_for(const std::vector<CaseAnswer>& answers) {
+  using enum CriticalGapKind;
+  const auto mark = [](std::string label, Mark look) {
+    return Series{.label = std::move(label), .style = Style::points, .colour = 6, .mark = look};
+  };
+  const auto bound = [&](CriticalGapKind kind, const char* otherwise) {
+    return bound_label(answers, kind, otherwise) + " (bound)";
+  };
+  return {{all_safe, mark(bound(all_safe, "above the searched gaps"), Mark::up_triangle)},
+          {all_ignite, mark(bound(all_ignite, "ignites at every gap"), Mark::down_triangle)},
+          {several_crossings, mark("the first of several crossings", Mark::diamond)}};
+}
 
 // --- lines ---
 
@@ -145,66 +122,79 @@ std::vector<double> some_of(const std::vector<double>& values) {
 }
 
 /// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
-class GapLines {
- public:
-  GapLines(const CriticalGapResult& result, const SweptAxis& along, const SweptAxis* across)
-      : result_(result), along_(along), across_(across), marks_(result.answers) {
-    if (across != nullptr) values_across_ = some_of(across->values);
-    for (std::size_t i = 0; i < std::max<std::size_t>(values_across_.size(), 1); ++i) {
-      const std::vector<double> nothing(along.values.size(), study::not_a_number);
-      const int colour = static_cast<int>(i);
-      values_.push_back({.label = across == nullptr ? "critical gap" : label_of(values_across_[i]),
-                         .x = along.values,
-                         .y = nothing,
-                         .colour = colour});
-      lower_bounds_.push_back({.label = i > 0               ? ""
-                                        : across == nullptr ? "its lower bound"
-                                                            : "lower bound of each",
-                               .x = along.values,
-                               .y = nothing,
-                               .style = Style::dashed_line,
-                               .colour = colour});
+struct GapLines {
+  const CriticalGapResult& result;
+  const SweptAxis& along;
+  const SweptAxis* across;
+  std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
+  std::vector<Series> values = {}, lower_bounds = {};  ///< a line each
+  Series assumed = {.label = "computation or model form assumed",
+                    .style = Style::points,
+                    .colour = 7,
+                    .mark = Mark::open_circle};
+  std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
+  std::int64_t unknown = 0;
+
+  void begin() {
+    const std::vector<double> nothing(along.values.size(), study::not_a_number);
+    for (int i = 0; const double value : values_across) {
+      values.push_back({.label = across == nullptr ? "critical gap" : label_of(value),
+                        .x = along.values,
+                        .y = nothing,
+                        .colour = i});
+      lower_bounds.push_back({.label = i > 0               ? ""
+                                       : across == nullptr ? "its lower bound"
+                                                           : "lower bound of each",
+                              .x = along.values,
+                              .y = nothing,
+                              .style = Style::dashed_line,
+                              .colour = i++});
     }
   }
 
   void add(const StudyCase& input, const CaseAnswer& answer) {
-    std::size_t line = 0;
-    if (across_ != nullptr) {
-      const double value = across_->key.value(input.coordinates[across_->index]);
-      line = place_in(values_across_, value);
-      if (line == values_across_.size() || values_across_[line] != value) return;
-    }
-    const double x = along_.key.value(input.coordinates[along_.index]);
-    marks_.add(answer.critical, x);
-    if (drawn_kind(answer.critical) != CriticalGapKind::value) return;
-    const std::size_t place = place_in(along_.values, x);
-    values_[line].y[place] = shown_gap(answer.critical.value);
-    const double lower = shown_gap(answer.critical.bounds.at_least);
+    const double of = across == nullptr ? 0.0 : across->key.value(input.coordinates[across->index]);
+    const std::size_t line = place_in(values_across, of);
+    if (line == values_across.size() || values_across[line] != of) return;
+    const study::CriticalGap& gap = answer.critical;
+    const double x = along.key.value(input.coordinates[along.index]);
+    const CriticalGapKind kind = drawn_kind(gap);
+    // A bound stands at its end.
+    if (kind == CriticalGapKind::indeterminate)
+      ++unknown;
+    else if (kind != CriticalGapKind::value)
+      marks.at(kind).add(x, shown_gap(kind == CriticalGapKind::all_ignite ? gap.upper : gap.lower));
+    if (kind != CriticalGapKind::value) return;
+    const std::size_t place = place_in(along.values, x);
+    values[line].y[place] = shown_gap(gap.value);
+    const double lower = shown_gap(gap.bounds.at_least);
     if (!std::isfinite(lower)) return;
-    lower_bounds_[line].y[place] = lower;
-    if (!assumed_shares(result_.study.study, input, answer.critical.value).empty()) assumed_.add(x, lower);
+    lower_bounds[line].y[place] = lower;
+    if (!assumed_shares(result.study.study, input, gap.value).empty()) assumed.add(x, lower);
   }
 
   /// Values on lines of two and more: what a picture is made for.
   std::size_t joined() const {
     std::size_t joined = 0;
-    for (const Series& line : values_)
+    for (const Series& line : values)
       if (const std::size_t known = known_of(line); known > 1) joined += known;
     return joined;
   }
 
   void put_into(Plot& plot) {
     plot.title = finding() + plot.title;
-    for (auto* lines : {&values_, &lower_bounds_})
+    for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
-    if (!assumed_.x.empty()) plot.series.push_back(std::move(assumed_));
-    marks_.put_into(plot);
+    if (!assumed.x.empty()) plot.series.push_back(std::move(assumed));
+    if (unknown > 0)
+      plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
+    for (auto& [kind, series] : marks)
+      if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
 
- private:
   std::string label_of(double shown) const {
-    return fmt::format("{} {}{}{}", across_->key.heading, report::significant(shown, 6),
-                       across_->key.form.unit.empty() ? "" : " ", across_->key.form.unit);
+    return fmt::format("{} {}{}{}", across->key.heading, report::significant(shown, 6),
+                       across->key.form.unit.empty() ? "" : " ", across->key.form.unit);
   }
 
   static std::size_t known_of(const Series& line) {
@@ -214,16 +204,16 @@ class GapLines {
   /// "Critical gap at crack radius 30 µm falls from 0.096 cm at 250 MPa to 0.026 cm at 550 MPa", of the line
   /// that has most values.
   std::string finding() const {
-    const Series& line = *std::ranges::max_element(values_, {}, known_of);
+    const Series& line = *std::ranges::max_element(values, {}, known_of);
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < line.y.size(); ++i)
       if (std::isfinite(line.y[i])) known.push_back(i);
     if (known.size() < 2) return "Critical gap";
     const auto gap = [&](std::size_t i) { return report::significant(line.y[i], 2) + " cm"; };
     const auto at = [&](std::size_t i) {
-      return report::significant(line.x[i], 6) + " " + along_.key.form.unit;
+      return report::significant(line.x[i], 6) + " " + along.key.form.unit;
     };
-    const std::string what = "Critical gap" + (across_ == nullptr ? "" : " at " + line.label);
+    const std::string what = "Critical gap" + (across == nullptr ? "" : " at " + line.label);
     const std::string first = gap(known.front()), last = gap(known.back());
     if (first == last)
       return fmt::format("{} stays at {} from {} to {}", what, first, at(known.front()), at(known.back()));
@@ -231,17 +221,6 @@ class GapLines {
                        line.y[known.back()] < line.y[known.front()] ? "falls" : "rises", first,
                        at(known.front()), last, at(known.back()));
   }
-
-  const CriticalGapResult& result_;
-  const SweptAxis& along_;
-  const SweptAxis* across_;
-  std::vector<double> values_across_;
-  std::vector<Series> values_, lower_bounds_;  ///< a line each
-  Series assumed_{.label = "computation or model form assumed",
-                  .style = Style::points,
-                  .colour = 7,
-                  .mark = Mark::open_circle};
-  GapMarks marks_;
 };
 
 /// Pictures, and how many values their lines join.
@@ -268,10 +247,11 @@ Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& ax
     const auto number = static_cast<std::size_t>(found - combinations.begin());
     if (found == combinations.end()) {
       combinations.push_back(std::move(others));
-      lines.emplace_back(result, along, across);
+      lines.push_back({result, along, across});
+      lines.back().begin();
       plots.push_back({.title = title_of(axes, shown, input),
                        .x = picture_axis(along),
-                       .y = {.label = report::quantity::critical_gap().label(), .minimum = 0.0},
+                       .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
                        .named_in_place = true});
     }
     lines[number].add(input, result.answers[i]);

@@ -35,12 +35,10 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label,
     if (row.ignition || !std::isfinite(temperature)) continue;
     if (verdict && row.judgement.verdict != *verdict) continue;
     const study::Uncertainty& uncertainty = row.uncertainty;
-    series.x.push_back(shown_gap(row.gap));
-    series.y.push_back(temperature);
     // Of one that ignites at an end of the range nothing is known but that.
     const double below = uncertainty.total() - uncertainty.model_form;
-    series.lower.push_back(std::isfinite(below) ? temperature - below : temperature);
-    series.upper.push_back(temperature + uncertainty.total());
+    series.add(shown_gap(row.gap), temperature, std::isfinite(below) ? temperature - below : temperature,
+               temperature + uncertainty.total());
   }
   return series;
 }
@@ -68,30 +66,27 @@ void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, P
 void add_only_case(const CaseOutcome& outcome, Plot& plot) {
   constexpr int grey = 7, green = 2, orange = 4, vermilion = 1;
   add_fit(outcome, "least squares", grey, plot);
+  const auto add = [&plot](Series series, int colour, Mark mark) {
+    series.colour = colour;
+    series.mark = mark;
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  };
   for (const auto& [verdict, colour] :
-       {std::pair{study::Verdict::safe, green}, {study::Verdict::indeterminate, orange}}) {
-    Series inert = inert_series(outcome, study::to_string(verdict), verdict);
-    inert.colour = colour;
-    inert.mark = Mark::circle;
-    if (!inert.x.empty()) plot.series.push_back(std::move(inert));
-  }
-  Series ignited = ignited_series(outcome);
-  ignited.colour = vermilion;
-  ignited.mark = Mark::cross;
-  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+       {std::pair{study::Verdict::safe, green}, {study::Verdict::indeterminate, orange}})
+    add(inert_series(outcome, study::to_string(verdict), verdict), colour, Mark::circle);
+  add(ignited_series(outcome), vermilion, Mark::cross);
 }
 
 /// One of several, in a colour of its own.
 void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
   add_fit(outcome, "", static_cast<int>(index), plot);
-  Series inert = inert_series(outcome, outcome.input.label);
+  Series inert = inert_series(outcome, outcome.input.label), ignited = ignited_series(outcome);
   give_look(index, inert);
-  Series ignited = ignited_series(outcome);
-  if (inert.x.empty()) ignited.label = outcome.input.label + ": ignites";
-  if (!inert.x.empty()) plot.series.push_back(std::move(inert));
-  give_look(index, ignited);
+  ignited.colour = static_cast<int>(index);
   ignited.mark = Mark::cross;
-  if (!ignited.x.empty()) plot.series.push_back(std::move(ignited));
+  if (inert.x.empty()) ignited.label = outcome.input.label + ": ignites";
+  for (Series* each : {&inert, &ignited})
+    if (!each->x.empty()) plot.series.push_back(std::move(*each));
 }
 
 /// The axis ends above the ignition temperature: how hot a burning skin is says nothing of the gap. What is
@@ -161,8 +156,8 @@ Plot temperature_plot(const CriticalGapResult& result) {
   const bool only = result.details.size() == 1;
   Plot plot;
   plot.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom";
-  plot.x.label = quantity::gap().label();
-  plot.y.label = quantity::temperature_max().label();
+  plot.x.label = quantity::gap.label();
+  plot.y.label = quantity::temperature_max.label();
   // The legend stands below and takes two cases a line.
   plot.height = 600 + 14 * static_cast<int>(result.details.size());
   for (std::size_t i = 0; i < result.details.size(); ++i)

@@ -2,37 +2,28 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/surface/ignition_boundary.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cctype>
+#include <set>
 
 namespace launchsafe::kinds {
 
 using keys::significant, keys::text;
 using report::Picture, report::ReportTable, report::Row, report::Shown, report::shown_gap, report::Statement,
     report::Table;
-using study::StudyCase;
+using study::StudyCase, surface::Extent;
 
 namespace {
 
-/// Least and greatest of what was seen; nothing before the first.
-struct Range {
-  double least = study::not_a_number, most = study::not_a_number;
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    least = std::isnan(least) ? value : std::min(least, value);
-    most = std::isnan(most) ? value : std::max(most, value);
-  }
-  double width() const { return most - least; }  ///< NaN before the first
-};
-
 /// The cases that differ along one axis alone: their T max by gap, where no one ignites, and critical gaps.
 struct Line {
-  std::map<double, Range> temperature;  ///< K, by gap in m
-  std::map<double, bool> ignited;
-  Range critical;  ///< m
+  std::map<double, Extent> temperature;  ///< K, by gap in m
+  std::set<double> ignited;
+  Extent critical;  ///< m
 };
 
 struct Effect {
@@ -48,26 +39,26 @@ void raise(double& most, double value) {
 template <class Counts>
 Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts counts) {
   std::map<std::vector<double>, Line> lines;
-  Range extent;
+  Extent extent;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
     const study::CaseAnswer& answer = result.answers[i];
     if (input.coordinates.size() <= axis || !answer.completed() || !counts(input)) continue;
     std::vector<double> others = input.coordinates;
-    extent.add(others[axis]);
+    extent.include(others[axis]);
     others[axis] = 0.0;
     Line& line = lines[others];
-    line.critical.add(report::value_of(answer.critical));
+    line.critical.include(report::value_of(answer.critical));
     for (const study::GapVerdict& row : answer.verdicts) {
-      if (row.ignition) line.ignited[row.gap] = true;
-      line.temperature[row.gap].add(row.maximum.temperature);
+      if (row.ignition) line.ignited.insert(row.gap);
+      line.temperature[row.gap].include(row.maximum.temperature);
     }
   }
-  Effect effect{study::not_a_number, study::not_a_number, extent.least, extent.most};
+  Effect effect{study::not_a_number, study::not_a_number, extent.lowest, extent.highest};
   for (const auto& [others, line] : lines) {
-    raise(effect.critical, line.critical.width());
+    raise(effect.critical, line.critical.highest - line.critical.lowest);
     for (const auto& [gap, range] : line.temperature) {
-      if (!line.ignited.contains(gap)) raise(effect.temperature, range.width());
+      if (!line.ignited.contains(gap)) raise(effect.temperature, range.highest - range.lowest);
     }
   }
   return effect;
@@ -80,21 +71,18 @@ struct EffectRow {
   Effect effect;
 };
 
-report::Quantities<EffectRow> effect_quantities() {
-  return {{{"axis", "axis", text(), "The axis."}, &EffectRow::axis},
-          {{"from", "from", text(), "Its lowest value."},
-           [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
-          {{"to", "to", text(), "Its highest value."},
-           [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
-          {{"temperature_max_change", "T max by at most", significant(3, keys::kelvin),
-            "Largest change of T max over the axis, all else the same, where nothing ignites."},
-           &EffectRow::effect,
-           &Effect::temperature},
-          {{"critical_gap_change", "critical gap by at most", significant(3, keys::centimetre),
-            "Largest change of the critical gap over the axis, all else the same."},
-           &EffectRow::effect,
-           &Effect::critical}};
-}
+const report::Quantities<EffectRow> effect_quantities{
+    {"axis", "axis", text(), "The axis.", &EffectRow::axis},
+    {"from", "from", text(), "Its lowest value.",
+     [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
+    {"to", "to", text(), "Its highest value.",
+     [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
+    {"temperature_max_change", "T max by at most", significant(3, keys::kelvin),
+     "Largest change of T max over the axis, all else the same, where nothing ignites.", &EffectRow::effect,
+     &Effect::temperature},
+    {"critical_gap_change", "critical gap by at most", significant(3, keys::centimetre),
+     "Largest change of the critical gap over the axis, all else the same.", &EffectRow::effect,
+     &Effect::critical}};
 
 /// What there is to say of a crack radius that changes little below the flaw size; nothing where it changes
 /// much.
@@ -189,8 +177,6 @@ nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Tabl
 
 }  // namespace
 
-std::vector<report::Column> axis_effect_columns() { return keys::described(effect_quantities()); }
-
 report::Table axis_effect_table(const CriticalGapResult& result) {
   std::vector<EffectRow> rows;
   Row facts = Row::object();
@@ -206,9 +192,8 @@ report::Table axis_effect_table(const CriticalGapResult& result) {
     add(keys[axis], ", below the flaw size", below);
     facts["cracks"] = crack_facts(result, below);
   }
-  report::Table table = report::table_of("What each axis changes", effect_quantities(), rows);
-  table.notes = said("critical_gap.note.axis_effects", facts);
-  return table;
+  return report::table_of("What each axis changes", effect_quantities, rows,
+                          said("critical_gap.note.axis_effects", facts));
 }
 
 std::string answer(const CriticalGapResult& result) {
@@ -225,35 +210,33 @@ report::Report report_of(const CriticalGapResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
-  report.items.push_back(ReportTable{verdict_table(result), "verdicts.csv", "verdicts",
-                                     in_detail ? Shown::page_and_terminal : Shown::file});
-  if (in_detail)
-    report.items.push_back(Picture{"temperature.svg", temperature_plot(result), "T max against gap"});
-  report.items.push_back(ReportTable{comparison_table(result), "", "comparison"});
-  report.items.push_back(
-      ReportTable{gaps, "critical_gaps.csv", "cases", Shown::page_and_terminal, most_rows});
-  report.items.push_back(ReportTable{coupled_run_table(result), "", "coupled_runs"});
-  report.items.push_back(ReportTable{cited_limit_table(result), "", "cited_limits"});
+  report.add({verdict_table(result), "verdicts.csv", "verdicts",
+              in_detail ? Shown::page_and_terminal : Shown::file});
+  if (in_detail) report.draw({"temperature.svg", temperature_plot(result), "T max against gap"});
+  report.add({comparison_table(result), "", "comparison"});
+  report.add({gaps, "critical_gaps.csv", "cases", Shown::page_and_terminal, most_rows});
+  report.add({coupled_run_table(result), "", "coupled_runs"});
+  report.add({cited_limit_table(result), "", "cited_limits"});
   GapPictures drawn = gap_pictures(result);
   for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
   if (settings_of<CriticalGapSettings>(result.study.study).surrogate) {
     const study::SurrogateRecord record = sweep_surrogate(result);
-    report.items.push_back(ReportTable{surrogate_table(record), "", "surrogate"});
+    report.add({surrogate_table(record), "", "surrogate"});
     for (report::TextFile& file : surrogate_files(record, result.study))
       report.files.push_back(std::move(file));
   }
-  report.items.push_back(ReportTable{axis_effect_table(result), "", "axis_effects", Shown::page});
+  report.add({axis_effect_table(result), "", "axis_effects", Shown::page});
   if (Table bounds = closing_bound_table(result); !bounds.rows.empty())
-    report.items.push_back(ReportTable{std::move(bounds), "closing_bounds.csv", "closing_bounds",
-                                       in_detail ? Shown::page_and_terminal : Shown::file});
+    report.add({std::move(bounds), "closing_bounds.csv", "closing_bounds",
+                in_detail ? Shown::page_and_terminal : Shown::file});
   if (in_detail) add_details(result, report);
-  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
-  report.items.push_back(Statement{report::uncertainty_remark(result.study) +
-                                   (in_detail ? "\n" : " " + said_below("critical_gap.traces"))});
-  if (!in_detail) report.items.push_back(Statement{report::station_note(result.study) + "\n"});
-  report.items.push_back(Statement{limiter_remark(result)});
-  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
+  report.say("## What it rests on\n\n" + report::friction_remark(result.study));
+  report.say(report::uncertainty_remark(result.study) +
+             (in_detail ? "\n" : " " + said_below("critical_gap.traces")));
+  if (!in_detail) report.say(report::station_note(result.study) + "\n");
+  report.say(limiter_remark(result));
+  report.say("## Setup\n\n" + report::setup_text(result.study));
   if (in_detail) add_runs(result, report);
   report.json = study_json(result.study, report, json_of_study(result, gaps));
   return report;

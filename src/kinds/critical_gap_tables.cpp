@@ -9,25 +9,30 @@
 namespace launchsafe::kinds {
 
 using keys::fixed, keys::text;
-using report::Column, report::Quantities, report::Table, report::table_of, report::VerdictRow;
+using report::Column, report::Quantities, report::Table, report::table_of;
 using study::CaseAnswer, study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary,
     study::Study, study::StudyFile, study::Verdict;
 
 namespace {
 
 /// A case with its answer, and what a study in detail knows besides; null in others.
-struct JudgedCase {
-  AnsweredCase answered;
+struct JudgedCase : AnsweredCase {
   const study::CaseOutcome* detail;
+};
+
+/// One gap of it.
+struct JudgedGap {
+  AnsweredCase of;
+  const GapVerdict* gap;
 };
 
 /// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
 Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
-  Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch, others;
+  Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch;
   const study::StudyCase first = study.cases.empty() ? study::StudyCase{} : study.cases.front();
-  const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure(), first.peak_pressure},
-                                                    {quantity::crack_radius(), first.crack_radius},
-                                                    {quantity::flaw_size(), first.flaw_size}};
+  const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure, first.peak_pressure},
+                                                    {quantity::crack_radius, first.crack_radius},
+                                                    {quantity::flaw_size, first.flaw_size}};
   for (const auto& [column, value] : fixed_values) {
     const auto axis = std::ranges::find(study.study.axes, column.name, &study::Axis::name);
     if (axis == study.study.axes.end())
@@ -39,14 +44,15 @@ Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
   for (std::size_t i = 0; i < axes.size(); ++i)
     if (std::ranges::find(study::named_axes(), study.study.axes[i].name, &study::NamedAxis::name) ==
         study::named_axes().end())
-      others.push_back(axes[i]);
-  return keys::joined<std::vector<double>>({launch, others});
+      launch.push_back(axes[i]);
+  return launch;
 }
 
-Quantities<VerdictRow> judged_gap_quantities(const StudyFile& study) {
-  return keys::joined<VerdictRow>({{{quantity::gap(), &VerdictRow::width}},
-                                   of_part<VerdictRow>(launch_quantities(study), &VerdictRow::coordinates),
-                                   report::verdict_quantities(study.study)});
+Quantities<JudgedGap> judged_gap_quantities(const StudyFile& study) {
+  return keys::joined<JudgedGap>(
+      {{{quantity::gap, &JudgedGap::gap, &GapVerdict::gap}},
+       of_part<JudgedGap>(launch_quantities(study), &JudgedGap::of, &AnsweredCase::coordinates),
+       of_part<JudgedGap>(report::verdict_quantities(study.study), &JudgedGap::gap)});
 }
 
 /// "0.04 cm".
@@ -76,16 +82,16 @@ Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
 
 /// What a case is called, and where it lies: of few cases the name says it, of many the axes do.
 Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
-  Quantities<JudgedCase> place = of_part<JudgedCase>(answered_axes(study), &JudgedCase::answered);
+  Quantities<JudgedCase> place = of_part<JudgedCase>(answered_axes(study));
   if (!in_detail) {
-    place.emplace_back(for_programs(quantity::case_name()),
+    place.emplace_back(for_programs(quantity::case_name),
                        [keys = report::shown_axes(study)](const JudgedCase& row) {
-                         return place_text(keys, row.answered.coordinates());
+                         return place_text(keys, row.coordinates());
                        });
     return place;
   }
   for (auto& each : place) each = for_programs(each);
-  place.emplace(place.begin(), quantity::case_name(), &JudgedCase::answered, &AnsweredCase::label);
+  place.emplace(place.begin(), quantity::case_name, &AnsweredCase::label);
   return place;
 }
 
@@ -93,13 +99,12 @@ Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
 Quantities<AnsweredCase> run_quantities(const Study& study) {
   return keys::joined<AnsweredCase>(
       {outer_gap_quantities(study),
-       {{for_programs(quantity::status()), [](const AnsweredCase& row) { return status_of(*row.answer); }},
-        {for_programs(quantity::energy_drift()), &AnsweredCase::answer, &CaseAnswer::run,
+       {{for_programs(quantity::status), [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {for_programs(quantity::energy_drift), &AnsweredCase::answer, &CaseAnswer::run,
          &RunSummary::energy_drift},
-        {for_programs(quantity::steps()), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::steps},
-        {for_programs(quantity::particles()), &AnsweredCase::answer, &CaseAnswer::run,
-         &RunSummary::particles},
-        {for_programs(quantity::limiters()),
+        {for_programs(quantity::steps), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::particles), &AnsweredCase::answer, &CaseAnswer::run, &RunSummary::particles},
+        {for_programs(quantity::limiters),
          [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 
@@ -112,15 +117,14 @@ std::string verdict_ranges(const std::vector<GapVerdict>& verdicts) {
     if (const auto next = std::next(each); next != by_gap.end() && next->second == each->second) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
                         each->second == Verdict::indeterminate ? "INDET." : study::to_string(each->second),
-                        report::digits_of(each->first, quantity::gap().form));
+                        report::digits_of(each->first, quantity::gap.form));
   }
   return text;
 }
 
-Column largest_safe_gap() {
-  return for_programs(Column{"largest_safe_gap", "largest SAFE gap", keys::significant(6, keys::centimetre),
-                             "Largest computed gap that, with all smaller ones, is SAFE."});
-}
+const Column largest_safe_gap =
+    for_programs(Column{"largest_safe_gap", "largest SAFE gap", keys::significant(6, keys::centimetre),
+                        "Largest computed gap that, with all smaller ones, is SAFE."});
 
 /// `closes`: with what its gap does where it closes. A study in detail has that in a table of its own.
 Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail, bool closes) {
@@ -132,28 +136,23 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
        [](const JudgedCase& row) { return confirmation_text(*row.detail); }}};
   return keys::joined<JudgedCase>(
       {place_quantities(study, in_detail),
-       of_part<JudgedCase>(report::bounded_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer,
-                           &CaseAnswer::critical),
-       {{largest_safe_gap(), &JudgedCase::answered, &AnsweredCase::answer, &CaseAnswer::verdicts,
-         study::largest_safe_gap}},
+       of_part<JudgedCase>(report::bounded_gap_quantities(), &AnsweredCase::answer, &CaseAnswer::critical),
+       {{largest_safe_gap, &AnsweredCase::answer, &CaseAnswer::verdicts, study::largest_safe_gap}},
        in_detail ? confirmed
                  : Quantities<JudgedCase>{{for_people(Column{"verdicts", "verdicts up to [cm]", text(),
                                                              "Up to which gap a verdict holds."}),
-                                           &JudgedCase::answered, &AnsweredCase::answer,
-                                           &CaseAnswer::verdicts, verdict_ranges}},
-       closes && !in_detail
-           ? of_part<JudgedCase>(closing_gap_quantities(), &JudgedCase::answered, &AnsweredCase::answer)
-           : Quantities<JudgedCase>{},
+                                           &AnsweredCase::answer, &CaseAnswer::verdicts, verdict_ranges}},
+       closes && !in_detail ? of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer)
+                            : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
          [study](const JudgedCase& row) {
-           return assumed_shares(study, row.answered.input(), row.answered.answer->critical.value);
+           return assumed_shares(study, row.input(), row.answer->critical.value);
          }},
-        {quantity::recorded_uncertainty(),
-         [](const JudgedCase& row) { return row.answered.input().recorded_uncertainty(); }}},
-       in_detail ? Quantities<JudgedCase>{}
-                 : of_part<JudgedCase>(run_quantities(study), &JudgedCase::answered),
-       {{quantity::remark(), [](const JudgedCase& row) {
-           const CaseAnswer& answer = *row.answered.answer;
+        {quantity::recorded_uncertainty,
+         [](const JudgedCase& row) { return row.input().recorded_uncertainty(); }}},
+       in_detail ? Quantities<JudgedCase>{} : of_part<JudgedCase>(run_quantities(study)),
+       {{quantity::remark, [](const JudgedCase& row) {
+           const CaseAnswer& answer = *row.answer;
            return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
          }}}});
 }
@@ -203,37 +202,32 @@ Column difference_of(Column computed) {
 Quantities<ComparedRow> comparison_quantities(double early_time) {
   using namespace quantity;
   const Column early = temperature_early(early_time);
-  return {
-      {gap(), &GapVerdict::gap},
-      {used_for(), &GapVerdict::reference, report::used_for},
-      {temperature_max(), [](ComparedRow row) { return row->until_exit.temperature; }},
-      {published(temperature_max()), &GapVerdict::reference, &Reference::maximum_temperature},
-      {difference_of(temperature_max()), &GapVerdict::misfit},
-      {temperature_max_place(), [](ComparedRow row) { return row->until_exit.point; }},
-      {published_place(temperature_max()), &GapVerdict::reference, &Reference::point},
-      {{"temperature_early_used_for", "used for at " + report::milliseconds(early_time), text(),
-        "The same of the temperature at early_time."},
-       &GapVerdict::reference,
-       early_used_for},
-      {early, [](ComparedRow row) { return row->early.temperature; }},
-      {published(early), &GapVerdict::reference, &Reference::early_temperature},
-      {difference_of(early), &GapVerdict::early_misfit},
-      {temperature_early_place(), [](ComparedRow row) { return row->early.point; }},
-      {published_place(early), &GapVerdict::reference, &Reference::early_point},
-      {ignition_time(), [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
-      {published(ignition_time()), &GapVerdict::reference, &Reference::ignition_time}};
+  return {{gap, &GapVerdict::gap},
+          {used_for, &GapVerdict::reference, report::used_for},
+          {temperature_max, [](ComparedRow row) { return row->until_exit.temperature; }},
+          {published(temperature_max), &GapVerdict::reference, &Reference::maximum_temperature},
+          {difference_of(temperature_max), &GapVerdict::misfit},
+          {temperature_max_place, [](ComparedRow row) { return row->until_exit.point; }},
+          {published_place(temperature_max), &GapVerdict::reference, &Reference::point},
+          {"temperature_early_used_for", "used for at " + report::milliseconds(early_time), text(),
+           "The same of the temperature at early_time.", &GapVerdict::reference, early_used_for},
+          {early, [](ComparedRow row) { return row->early.temperature; }},
+          {published(early), &GapVerdict::reference, &Reference::early_temperature},
+          {difference_of(early), &GapVerdict::early_misfit},
+          {temperature_early_place, [](ComparedRow row) { return row->early.point; }},
+          {published_place(early), &GapVerdict::reference, &Reference::early_point},
+          {ignition_time, [](ComparedRow row) { return row->ignition ? row->ignition->time : not_a_number; }},
+          {published(ignition_time), &GapVerdict::reference, &Reference::ignition_time}};
 }
 
 }  // namespace
 
 Table verdict_table(const CriticalGapResult& result) {
-  std::vector<VerdictRow> rows;
-  for (const AnsweredCase& each : answered(result.study, result.answers)) {
-    for (const GapVerdict& row : each.answer->verdicts)
-      rows.push_back({&each.coordinates(), &row, row.heated});
-  }
-  Table table = table_of("Verdicts", judged_gap_quantities(result.study), rows);
-  table.notes = report::mesh_notes(result.study);
+  std::vector<JudgedGap> rows;
+  for (const AnsweredCase& each : answered(result.study, result.answers))
+    for (const GapVerdict& row : each.answer->verdicts) rows.push_back({each, &row});
+  Table table =
+      table_of("Verdicts", judged_gap_quantities(result.study), rows, report::mesh_notes(result.study));
   table.notes.push_back(report::station_note(result.study));
   return table;
 }
@@ -272,32 +266,30 @@ Table comparison_table(const CriticalGapResult& result) {
       rows.push_back(&row);
     }
   }
-  Table table =
-      table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows);
   report::Row facts{{"ignited", ignited}};
   if (!(worst <= calibration_slack))
     facts["not_met"] = std::isfinite(worst)
                            ? "computed - published: " + report::in_words(worst, fixed(1, keys::kelvin))
                            : std::string("one of them ignites");
-  table.notes = said("critical_gap.note.comparison", facts);
-  return table;
+  return table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows,
+                  said("critical_gap.note.comparison", facts));
 }
 
-std::vector<ResultTable> critical_gap_results() {
+std::vector<report::ReportTable> critical_gap_results() {
   StudyFile file;
   file.study.gaps = {0.0, 0.4e-3};
   std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true, false));
   for (const auto& columns :
        {keys::described(closing_gap_quantities()), keys::described(run_quantities(file.study))})
     cases.insert(cases.end(), columns.begin(), columns.end());
-  std::vector<ResultTable> tables{
-      {"verdicts", "verdicts.csv", keys::described(judged_gap_quantities(file))},
-      {"comparison", "", keys::described(comparison_quantities(file.study.early_time))},
-      {"cases", "critical_gaps.csv", std::move(cases)},
-      {"cited_limits", "", report::cited_limit_columns()},
-      {"surrogate", "", surrogate_columns()},
-      {"axis_effects", "", axis_effect_columns()}};
-  for (ResultTable& each : detail_results()) tables.push_back(std::move(each));
+  std::vector<report::ReportTable> tables{
+      {table_of({}, judged_gap_quantities(file), {}), "verdicts.csv", "verdicts"},
+      {table_of({}, comparison_quantities(file.study.early_time), {}), "", "comparison"},
+      {Table{.columns = std::move(cases)}, "critical_gaps.csv", "cases"},
+      {Table{.columns = report::cited_limit_columns()}, "", "cited_limits"},
+      {surrogate_table({}), "", "surrogate"},
+      {axis_effect_table({}), "", "axis_effects"}};
+  for (report::ReportTable& each : detail_results()) tables.push_back(std::move(each));
   return tables;
 }
 

@@ -14,7 +14,6 @@ std::string confirmation_text(const study::CaseOutcome& outcome);
 report::Table comparison_table(const CriticalGapResult& result);
 /// What the complete coupled runs came to that confirm critical gaps.
 report::Table coupled_run_table(const CriticalGapResult& result);
-std::vector<report::Column> axis_effect_columns();
 
 /// T max (of cases in detail) and the critical gap where the gap closes, and a picture of one case in detail;
 /// nothing where no gap does.
@@ -25,14 +24,14 @@ report::Quantities<study::CaseAnswer> closing_gap_quantities();
 /// In how many cases each bound ignites; nothing where no gap closes.
 std::vector<std::string> closing_answer(const CriticalGapResult& result);
 std::optional<report::Plot> closing_plot(const CriticalGapResult& result);
-std::vector<ResultTable> closing_results();
+std::vector<report::ReportTable> closing_results();
 
 /// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided.
 void add_details(const CriticalGapResult& result, report::Report& report);
 /// Likewise how its runs went, and what they took.
 void add_runs(const CriticalGapResult& result, report::Report& report);
 /// What the tables of details hold.
-std::vector<ResultTable> detail_results();
+std::vector<report::ReportTable> detail_results();
 /// What must be said where limiters acted in cases of a study in detail.
 std::string limiter_remark(const CriticalGapResult& result);
 
@@ -46,6 +45,5 @@ study::SurrogateRecord sweep_surrogate(const CriticalGapResult& result);
 
 /// A row for every output of the fit.
 report::Table surrogate_table(const study::SurrogateRecord& record);
-std::vector<report::Column> surrogate_columns();
 
 }  // namespace launchsafe::kinds

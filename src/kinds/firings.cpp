@@ -1,5 +1,4 @@
 #include "calibration_parts.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -177,9 +176,7 @@ std::vector<NextFiring> next_firings(const FiringResult& result, const Posterior
 /// The study's scene with the constants at the middle of their posterior.
 scene::Scene calibrated_scene(const FiringResult& result, const std::vector<ConstantRange>& ranges) {
   scene::Scene scene = result.study.scene.scene;
-  scene.surface.localisation = ranges[0].centre;
-  scene.surface.exchange_time = ranges[1].centre;
-  scene.charge().kinetics.ignition_temperature = ranges[2].centre;
+  put({ranges[0].centre, ranges[1].centre, ranges[2].centre}, scene.surface, scene.charge().kinetics);
   scene.accepted.clear();
   return scene;
 }
@@ -249,10 +246,10 @@ void calibrate_on_firings(FiringResult& result) {
   result.next = next_firings(result, firings.posterior, settings.next_gaps);
   const scene::Scene calibrated = calibrated_scene(result, result.constants);
   const study::CalibrationEvidence evidence = evidence_of(result, calibrated, firings, launches);
-  result.record = study::FiringRecord{
-      result.study.study.title,
-      run::model_version,
-      {calibrated, evidence, std::make_shared<const study::FiringEvidence>(std::move(firings))}};
+  result.record = study::CalibrationRecord{
+      .title = result.study.study.title,
+      .calibration = {calibrated, evidence,
+                      std::make_shared<const study::FiringEvidence>(std::move(firings))}};
 }
 
 }  // namespace

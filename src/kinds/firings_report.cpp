@@ -9,10 +9,8 @@ using report::Column, report::Quantities, report::Row;
 
 namespace {
 
-Column initial_temperature() {
-  return {"initial_temperature", "T before", keys::significant(4, keys::kelvin),
-          "Temperature of charge and air before."};
-}
+const Column initial_temperature{"initial_temperature", "T before", keys::significant(4, keys::kelvin),
+                                 "Temperature of charge and air before."};
 
 Column probability(const char* name, const char* heading, const char* meaning) {
   return {name, heading, keys::significant(3, keys::percent), meaning};
@@ -25,9 +23,9 @@ Quantities<FiringRow> row_quantities() {
   return {
       of_firing({"name", "firing", keys::text(), "What the rounds are called."}, &study::Firing::name),
       of_firing({"rounds", "rounds", keys::count(), "How many there were."}, &study::Firing::rounds),
-      of_firing(quantity::peak_pressure(), &study::Firing::pressure),
-      of_firing(initial_temperature(), &study::Firing::temperature),
-      of_firing(quantity::gap(), &study::Firing::gap),
+      of_firing(quantity::peak_pressure, &study::Firing::pressure),
+      of_firing(initial_temperature, &study::Firing::temperature),
+      of_firing(quantity::gap, &study::Firing::gap),
       of_firing({"gap_most", "gap at most", keys::significant(6, keys::centimetre),
                  "The largest that it can have been."},
                 &study::Firing::most_gap),
@@ -51,7 +49,7 @@ Quantities<ConstantRange> range_quantities() {
     return Column{name, heading, keys::significant(4), meaning};
   };
   return {
-      {{"key", "constant", keys::text(), "Key of the scene, SI; or the scatter between rounds."},
+      {"key", "constant", keys::text(), "Key of the scene, SI; or the scatter between rounds.",
        &ConstantRange::name},
       {column("prior_lowest", "before: 5 %", "5 % of the prior lie below."), &ConstantRange::prior_lowest},
       {column("prior_centre", "mean", "Geometric mean of the prior."), &ConstantRange::prior_centre},
@@ -60,22 +58,19 @@ Quantities<ConstantRange> range_quantities() {
       {column("centre", "mean", "Geometric mean of the posterior, which the record has as the constant."),
        &ConstantRange::centre},
       {column("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::highest},
-      {{"change_of_coarser", "coarser lattice", keys::significant(2, keys::percent),
-        "By how much the mean is higher on a lattice of half as many values a constant."},
+      {"change_of_coarser", "coarser lattice", keys::significant(2, keys::percent),
+       "By how much the mean is higher on a lattice of half as many values a constant.",
        &ConstantRange::change_of_coarser}};
 }
 
-Quantities<NextFiring> next_quantities() {
-  return {{quantity::peak_pressure(), &NextFiring::pressure},
-          {initial_temperature(), &NextFiring::temperature},
-          {quantity::gap(), &NextFiring::gap},
-          {probability("ignition_probability", "ignites",
-                       "Probability that the round ignites, after all firings."),
-           &NextFiring::ignition},
-          {{"information", "tells [bit]", keys::significant(2),
-            "What its outcome tells of the constants, on average."},
-           &NextFiring::information}};
-}
+const Quantities<NextFiring> next_quantities{
+    {quantity::peak_pressure, &NextFiring::pressure},
+    {initial_temperature, &NextFiring::temperature},
+    {quantity::gap, &NextFiring::gap},
+    {probability("ignition_probability", "ignites", "Probability that the round ignites, after all firings."),
+     &NextFiring::ignition},
+    {"information", "tells [bit]", keys::significant(2),
+     "What its outcome tells of the constants, on average.", &NextFiring::information}};
 
 int rounds_of(const FiringResult& result, bool ignited) {
   int rounds = 0;
@@ -96,9 +91,24 @@ Row facts_of(const FiringResult& result) {
     facts_of_row["ignited_rounds"] = row.ignited;
     facts_of_row["counted_rounds"] = row.rounds;
   }
-  if (!result.next.empty()) facts["next"] = report::json_of(next_quantities(), result.next.front());
+  if (!result.next.empty()) facts["next"] = report::json_of(next_quantities, result.next.front());
   if (result.record) facts["largest"] = report::centimetres(result.record->calibration.evidence.largest_gap);
   return facts;
+}
+
+std::vector<report::ReportTable> tables_of(const FiringResult& result) {
+  const Row facts = facts_of(result);
+  const auto table = [&](const char* title, const auto& quantities, const auto& rows, const char* notes) {
+    return report::table_of(title, quantities, rows, said(notes, facts));
+  };
+  return {{table("Firings, and the probability that such a round ignites", row_quantities(), result.rows,
+                 "calibration.note.firings"),
+           "firings.csv", "firings"},
+          {table("The constants before and after the firings", range_quantities(), result.constants,
+                 "calibration.note.posterior"),
+           "", "posterior"},
+          {table("What one more round would tell", next_quantities, result.next, "calibration.note.next"), "",
+           "next_firings"}};
 }
 
 }  // namespace
@@ -110,31 +120,15 @@ std::string answer(const FiringResult& result) {
 report::Report report_of(const FiringResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (result.record) report.files.push_back({"calibration.json", study::to_json_text(*result.record)});
-  const Row facts = facts_of(result);
-  const auto add = [&](const char* title, const auto& quantities, const auto& rows, const char* csv,
-                       const char* member, const char* notes) {
-    report::Table table = report::table_of(title, quantities, rows);
-    table.notes = said(notes, facts);
-    report.items.push_back(report::ReportTable{std::move(table), csv, member});
-  };
-  add("Firings, and the probability that such a round ignites", row_quantities(), result.rows, "firings.csv",
-      "firings", "calibration.note.firings");
-  add("The constants before and after the firings", range_quantities(), result.constants, "", "posterior",
-      "calibration.note.posterior");
-  add("What one more round would tell", next_quantities(), result.next, "", "next_firings",
-      "calibration.note.next");
-  report.items.push_back(report::Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(report::ReportTable{run_table(result.conditions), "", "runs", report::Shown::page});
-  report.items.push_back(report::Statement{report::timing_sentence(result.timing)});
+  for (report::ReportTable& table : tables_of(result)) report.add(std::move(table));
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.add({run_table(result.conditions), "", "runs", report::Shown::page});
+  report.say(report::timing_sentence(result.timing));
   report.json = study_json(result.study, report,
                            {{"failure", result.failure}, {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
-std::vector<ResultTable> firing_results() {
-  return {{"firings", "firings.csv", keys::described(row_quantities())},
-          {"posterior", "", keys::described(range_quantities())},
-          {"next_firings", "", keys::described(next_quantities())}};
-}
+std::vector<report::ReportTable> firing_results() { return tables_of({}); }
 
 }  // namespace launchsafe::kinds

@@ -8,44 +8,11 @@
 #include "launchsafe/kinds/stability.hpp"
 
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <cassert>
-#include <tuple>
-
-/// Of every kind, so that none can be missing.
-struct launchsafe::study::KindSettings {
-  std::tuple<kinds::CriticalGapSettings, kinds::CalibrationSettings, kinds::SensitivitySettings,
-             kinds::AccuracySettings, kinds::StabilitySettings, kinds::ComparisonSettings>
-      of_kinds;
-};
 
 namespace launchsafe::kinds {
-
-template <class Settings>
-const Settings& settings_of(const study::Study& study) {
-  static const study::KindSettings defaults;
-  return std::get<Settings>((study.settings ? *study.settings : defaults).of_kinds);
-}
-
-template <class Settings>
-Settings& settings_of(study::Study& study) {
-  if (!study.settings) study.settings = std::make_shared<study::KindSettings>();
-  if (study.settings.use_count() > 1) study.settings = std::make_shared<study::KindSettings>(*study.settings);
-  return std::get<Settings>(study.settings->of_kinds);
-}
-
-template const CriticalGapSettings& settings_of(const study::Study&);
-template CriticalGapSettings& settings_of(study::Study&);
-template const CalibrationSettings& settings_of(const study::Study&);
-template CalibrationSettings& settings_of(study::Study&);
-template const SensitivitySettings& settings_of(const study::Study&);
-template SensitivitySettings& settings_of(study::Study&);
-template const AccuracySettings& settings_of(const study::Study&);
-template AccuracySettings& settings_of(study::Study&);
-template const StabilitySettings& settings_of(const study::Study&);
-template StabilitySettings& settings_of(study::Study&);
-template const ComparisonSettings& settings_of(const study::Study&);
-template ComparisonSettings& settings_of(study::Study&);
 
 using study::CaseAnswer, study::StudyFile;
 
@@ -70,15 +37,13 @@ StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions&
   return kind_of(study.study).run(study, options);
 }
 
-bool FileName::fits(std::string_view name) const {
-  if (end.empty()) return name == begin;
-  return name.size() >= begin.size() + end.size() && name.starts_with(begin) && name.ends_with(end);
-}
-
 bool may_write(const Kind& kind, std::string_view name) {
   return name == "report.md" || name == "study.json" ||
-         std::ranges::any_of(kind.files, [name](const FileName& file) { return file.fits(name); }) ||
-         std::ranges::any_of(kind.results(), [name](const ResultTable& table) { return table.csv == name; });
+         std::ranges::any_of(
+             kind.files,
+             [&](const char* each) { return ::fnmatch(each, std::string(name).c_str(), 0) == 0; }) ||
+         std::ranges::any_of(kind.results(),
+                             [name](const report::ReportTable& table) { return table.csv == name; });
 }
 
 SweepCounts counts_of(const std::vector<CaseAnswer>& answers) {

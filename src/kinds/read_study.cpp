@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/read_study.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <regex>
 #include <set>
 #include <unordered_map>
 
@@ -27,9 +27,9 @@ Fault add_override(const study::Leaf& leaf, const std::string& table_name, Study
                    std::vector<study::Change>& changes) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const auto key = scene::describe_key(study.scene, leaf.name, place);
-  if (!key) return study::in_table(key.error(), table_name);
+  if (!key) return scene::within(table_name, key.error());
   const auto value = scene::read_value(*leaf.node, *key, study.file);
-  if (!value) return study::in_table(value.error(), table_name);
+  if (!value) return scene::within(table_name, value.error());
   if (auto note = scene::note_on_former_word(*leaf.node, *key, place))
     study.scene.notes.push_back(std::move(*note));
   study.overrides[leaf.name] = scene::format_value(*key, *value);
@@ -200,15 +200,8 @@ Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys&
 
 /// People do not number the tables of a study: "vary.0.range" is vary.range to them.
 InputError unnumbered(InputError error, const std::string& file) {
-  if (error.file != file) return error;
-  const std::size_t first = error.key.find('.');
-  const std::size_t second = first == std::string::npos ? first : error.key.find('.', first + 1);
-  if (second == std::string::npos) return error;
-  const std::string_view part = std::string_view(error.key).substr(first + 1, second - first - 1);
-  const bool number = !part.empty() && std::ranges::all_of(part, [](unsigned char character) {
-    return std::isdigit(character) != 0;
-  });
-  if (number) error.key.erase(first, second - first);
+  static const std::regex numbered(R"(^([^.]*)\.[0-9]+(\..*)$)");
+  if (error.file == file) error.key = std::regex_replace(error.key, numbered, "$1$2");
   return error;
 }
 

@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 namespace launchsafe::kinds {
 
 using study::Fault, study::Study, study::StudyFile;
@@ -20,56 +18,48 @@ using scene::Dimension;
 /// Whole numbers that a double holds exactly.
 constexpr double largest_seed = 9007199254740992.0;
 
-template <class Number>
-scene::Key<SensitivitySettings> sensitivity_number(std::string name, Dimension dimension,
-                                                   scene::Limits limits, std::string sentence,
-                                                   Number SensitivitySettings::*member) {
-  return scene::number_key<SensitivitySettings>(std::move(name), dimension, limits, scene::Standing::assumed,
-                                                std::move(sentence), member);
-}
+constexpr auto assumed = scene::Standing::assumed;
+using scene::number_key;
 
-std::vector<scene::Key<SensitivitySettings>> sensitivity_keys() {
-  return {
-      scene::word_key(
-          "method", scene::Standing::assumed,
-          "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
-          "runs and held against others.",
-          {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
-          &SensitivitySettings::method),
-      sensitivity_number("seed", Dimension::count, scene::between(0, largest_seed),
-                         "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
-      sensitivity_number("resamples", Dimension::count, scene::between(100, 1e6),
-                         "Resamples of the bootstrap.", &SensitivitySettings::resamples),
-      sensitivity_number("confidence", Dimension::number, scene::between(0.5, 0.999),
-                         "Confidence of the intervals.", &SensitivitySettings::confidence),
-      scene::word_key("design", scene::Standing::assumed,
-                      "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
-                      {{"scrambled-sobol", math::Design::scrambled_sobol},
-                       {"latin-hypercube", math::Design::latin_hypercube},
-                       {"monte-carlo", math::Design::monte_carlo}},
-                      &SensitivitySettings::design),
-      sensitivity_number(
-          "samples", Dimension::count, scene::between(2, 1e6),
-          "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
-          &SensitivitySettings::samples),
-      sensitivity_number("held_out", Dimension::count, scene::between(10, 1e6),
-                         "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
-                         &SensitivitySettings::held_out),
-      sensitivity_number("error_of_temperature", Dimension::temperature_difference, scene::above(0),
-                         "Of polynomial-chaos: runs are added where the fit is least sure until no "
-                         "prediction of T max has a larger error.",
-                         &SensitivitySettings::temperature_error),
-      sensitivity_number("error_of_critical_gap", Dimension::length, scene::above(0),
-                         "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
-      sensitivity_number("most_samples", Dimension::count, scene::between(2, 1e6),
-                         "With such an error: samples that are fitted at the most.",
-                         &SensitivitySettings::most_samples),
-      scene::flag_key("surrogate", scene::Standing::assumed,
-                      "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
-                      "polynomial-chaos always has one.",
-                      &SensitivitySettings::surrogate),
-  };
-}
+const std::vector<scene::Key<SensitivitySettings>> sensitivity_keys{
+    scene::word_key(
+        "method", assumed,
+        "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
+        "runs and held against others.",
+        {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
+        &SensitivitySettings::method),
+    number_key("seed", Dimension::count, scene::between(0, largest_seed), assumed,
+               "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
+    number_key("resamples", Dimension::count, scene::between(100, 1e6), assumed,
+               "Resamples of the bootstrap.", &SensitivitySettings::resamples),
+    number_key("confidence", Dimension::number, scene::between(0.5, 0.999), assumed,
+               "Confidence of the intervals.", &SensitivitySettings::confidence),
+    scene::word_key("design", assumed,
+                    "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
+                    {{"scrambled-sobol", math::Design::scrambled_sobol},
+                     {"latin-hypercube", math::Design::latin_hypercube},
+                     {"monte-carlo", math::Design::monte_carlo}},
+                    &SensitivitySettings::design),
+    number_key("samples", Dimension::count, scene::between(2, 1e6), assumed,
+               "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
+               &SensitivitySettings::samples),
+    number_key("held_out", Dimension::count, scene::between(10, 1e6), assumed,
+               "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
+               &SensitivitySettings::held_out),
+    number_key("error_of_temperature", Dimension::temperature_difference, scene::above(0), assumed,
+               "Of polynomial-chaos: runs are added where the fit is least sure until no "
+               "prediction of T max has a larger error.",
+               &SensitivitySettings::temperature_error),
+    number_key("error_of_critical_gap", Dimension::length, scene::above(0), assumed,
+               "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
+    number_key("most_samples", Dimension::count, scene::between(2, 1e6), assumed,
+               "With such an error: samples that are fitted at the most.",
+               &SensitivitySettings::most_samples),
+    scene::flag_key("surrogate", assumed,
+                    "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
+                    "polynomial-chaos always has one.",
+                    &SensitivitySettings::surrogate),
+};
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
 Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
@@ -186,7 +176,7 @@ Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
   }
   // Each draw is launched at that gap where it closes.
   if (is_closing(study)) {
-    auto own = scene::with_key(study.scene, "gap.thickness", gaps, place_of_key(study, "gaps"));
+    auto own = scene::with_keys(study.scene, {{"gap.thickness", gaps, place_of_key(study, "gaps")}});
     if (!own) return own.error();
     study.scene = std::move(*own);
   }
@@ -251,12 +241,12 @@ Kind sensitivity_kind() {
                  .keeps_answers = true,
                  .closing_gaps = study::ClosingGaps::compared},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
-                      own_keys(sensitivity_keys())}),
+                      own_keys(sensitivity_keys)}),
       .tables = {vary_table()},
       .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {{"histogram.svg"}, {"surrogate.json"}, {"ask.html"}, {"sensitivity_", ".svg"}},
+      .files = {"histogram.svg", "surrogate.json", "ask.html", "sensitivity_*.svg"},
       .results = sensitivity_results,
   };
 }

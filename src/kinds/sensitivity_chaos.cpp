@@ -1,4 +1,3 @@
-#include "launchsafe/run/model_version.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
@@ -28,8 +27,7 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
   const Study& study = result.study.study;
   const auto& own = settings_of<SensitivitySettings>(study);
   const int held_out = is_by_fit(study) ? own.held_out : own.samples;
-  SurrogateRecord record{.model_version = run::model_version,
-                         .scene = result.study.scene.scene,
+  SurrogateRecord record{.scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
                          .inputs = uncertain_inputs(study),
                          .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};

@@ -67,8 +67,6 @@ std::string samples_text(const SensitivityResult& result);
 report::Table quantile_table(const SensitivityResult& result);
 /// A row for every interval of an output with the number of its draws, and rows for those without a number.
 report::Table histogram_table(const SensitivityResult& result);
-std::vector<report::Column> quantile_columns();
-std::vector<report::Column> histogram_columns();
 /// The histograms as steps; without panels where no output has two different numbers.
 report::Plot histogram_plot(const SensitivityResult& result);
 

@@ -127,10 +127,9 @@ bool has_fit(const SensitivityResult& result) {
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin),
-         report::quantity::temperature_max().meaning},
+      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin), quantity::temperature_max.meaning},
         "T max"},
-       {report::quantity::critical_gap(), "the critical gap"},
+       {quantity::critical_gap, "the critical gap"},
        {{"margin", "margin", keys::significant(6, keys::kelvin), "Ignition temperature less T max."},
         "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
@@ -196,28 +195,25 @@ std::string answer(const SensitivityResult& result) {
 
 report::Report report_of(const SensitivityResult& result) {
   report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
-  report.items.push_back(
-      ReportTable{sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
-  report.items.push_back(ReportTable{output_table(result), "", "outputs",
-                                     has_fit(result) ? Shown::page_and_terminal : Shown::file});
+  report.add({sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
+  report.add({output_table(result), "", "outputs", has_fit(result) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
-    report.items.push_back(ReportTable{.table = sensitivity_table(result, output), .shown = Shown::page});
+    report.add({.table = sensitivity_table(result, output), .shown = Shown::page});
     // That of T max is the margin's, where the ignition temperature is one more input.
     if (output.reason.empty() && output.output != SensitivityOutput::maximum_temperature)
-      report.items.push_back(report::Picture{
-          "sensitivity_" + shown_output(output.output).column.name + ".svg", sensitivity_plot(result, output),
-          "sensitivity of " + shown_output(output.output).column.heading});
+      report.draw({"sensitivity_" + shown_output(output.output).column.name + ".svg",
+                   sensitivity_plot(result, output),
+                   "sensitivity of " + shown_output(output.output).column.heading});
   }
-  report.items.push_back(ReportTable{quantile_table(result), "quantiles.csv", "quantiles"});
+  report.add({quantile_table(result), "quantiles.csv", "quantiles"});
   if (report::Plot plot = histogram_plot(result); !plot.panels.empty())
-    report.items.push_back(report::Picture{"histogram.svg", std::move(plot),
-                                           "the draws, and how their interval settles with their number"});
-  report.items.push_back(ReportTable{histogram_table(result), "histogram.csv", "histogram", Shown::file});
-  report.items.push_back(Statement{"## What it rests on\n\n" + report::friction_remark(result.study)});
-  report.items.push_back(Statement{said_below("sensitivity.rests")});
-  report.items.push_back(Statement{"## Setup\n\n" + report::setup_text(result.study)});
-  report.items.push_back(
-      ReportTable{evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
+    report.draw(
+        {"histogram.svg", std::move(plot), "the draws, and how their interval settles with their number"});
+  report.add({histogram_table(result), "histogram.csv", "histogram", Shown::file});
+  report.say("## What it rests on\n\n" + report::friction_remark(result.study));
+  report.say(said_below("sensitivity.rests"));
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.add({evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
   if (has_fit(result) && !result.outputs.empty())
     report.files = surrogate_files(surrogate_record(result), result.study);
   Row method = method_facts(result);

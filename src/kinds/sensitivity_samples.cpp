@@ -206,14 +206,12 @@ struct QuantileRow {
   double temperature;  ///< K
 };
 
-report::Quantities<QuantileRow> quantile_quantities() {
-  return {
-      {{"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws."},
-       &QuantileRow::share},
-      {for_programs(quantity::critical_gap()), &QuantileRow::gap},
-      {quantity::critical_gap_reads_as(), &QuantileRow::gap_reads_as},
-      {quantity::temperature_max(), [](const QuantileRow& row) { return report::known(row.temperature); }}};
-}
+const report::Quantities<QuantileRow> quantile_quantities{
+    {"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws.",
+     &QuantileRow::share},
+    {for_programs(quantity::critical_gap), &QuantileRow::gap},
+    {quantity::critical_gap_reads_as, &QuantileRow::gap_reads_as},
+    {quantity::temperature_max, [](const QuantileRow& row) { return report::known(row.temperature); }}};
 
 /// An interval of a histogram, or what has no number; numbers are in the unit of the row.
 struct HistogramRow {
@@ -223,16 +221,14 @@ struct HistogramRow {
   std::int64_t draws;
 };
 
-report::Quantities<HistogramRow> histogram_quantities() {
-  using keys::significant, keys::text;
-  return {{quantity::output(), &HistogramRow::shown, &ShownOutput::column, &Column::name},
-          {quantity::unit(), &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
-          {{"from", "from", significant(6), "Begin of the interval."}, &HistogramRow::from},
-          {{"to", "to", significant(6), "End of the interval."}, &HistogramRow::to},
-          {{"reads_as", "without a number", text(), "What those have that have no number."},
-           &HistogramRow::reads_as},
-          {{"draws", "draws", keys::count(), "Draws of the interval."}, &HistogramRow::draws}};
-}
+using keys::significant, keys::text;
+const report::Quantities<HistogramRow> histogram_quantities{
+    {quantity::output, &HistogramRow::shown, &ShownOutput::column, &Column::name},
+    {quantity::unit, &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
+    {"from", "from", significant(6), "Begin of the interval.", &HistogramRow::from},
+    {"to", "to", significant(6), "End of the interval.", &HistogramRow::to},
+    {"reads_as", "without a number", text(), "What those have that have no number.", &HistogramRow::reads_as},
+    {"draws", "draws", keys::count(), "Draws of the interval.", &HistogramRow::draws}};
 
 }  // namespace
 
@@ -278,9 +274,6 @@ std::string samples_text(const SensitivityResult& result) {
   return said("sensitivity.samples", facts).front();
 }
 
-std::vector<Column> quantile_columns() { return keys::described(quantile_quantities()); }
-std::vector<Column> histogram_columns() { return keys::described(histogram_quantities()); }
-
 Table quantile_table(const SensitivityResult& result) {
   const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap);
   const OutputSensitivity* temperature = output_of(result, SensitivityOutput::maximum_temperature);
@@ -291,7 +284,7 @@ Table quantile_table(const SensitivityResult& result) {
     rows.push_back(
         {share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
   }
-  Table table = report::table_of("Quantiles over the draws from the inputs", quantile_quantities(), rows);
+  Table table = report::table_of("Quantiles over the draws from the inputs", quantile_quantities, rows);
   if (rows.empty()) return table;
   for (const OutputSensitivity* output : {gap, temperature})
     table.notes.push_back(sample_note(result, *output));
@@ -316,7 +309,7 @@ Table histogram_table(const SensitivityResult& result) {
     without_number(sample.none_ignites(), quantile_text(result, infinite));
     without_number(sample.missing, "not known");
   }
-  return report::table_of("Histogram of the draws", histogram_quantities(), rows);
+  return report::table_of("Histogram of the draws", histogram_quantities, rows);
 }
 
 Plot histogram_plot(const SensitivityResult& result) {

@@ -42,8 +42,8 @@ Quantities<IndexRow> interval_quantities(const std::string& name, const std::str
     };
   };
   return {{{name, heading, fixed(3), meaning}, of(&math::Estimate::value)},
-          {{name + "_lower", "from", fixed(3), "Lower end of its interval."}, of(&math::Estimate::lower)},
-          {{name + "_upper", "to", fixed(3), "Upper end of its interval."}, of(&math::Estimate::upper)}};
+          {name + "_lower", "from", fixed(3), "Lower end of its interval.", of(&math::Estimate::lower)},
+          {name + "_upper", "to", fixed(3), "Upper end of its interval.", of(&math::Estimate::upper)}};
 }
 
 Quantities<IndexRow> index_quantities() {
@@ -53,27 +53,24 @@ Quantities<IndexRow> index_quantities() {
     };
   };
   return keys::joined<IndexRow>(
-      {{{{"input", "input", text(), "What varies."}, &IndexRow::input, &ShownInput::name},
-        {quantity::distribution(), &IndexRow::input, &ShownInput::distribution}},
+      {{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
+        {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
        interval_quantities("first_order", "first", &math::InputIndices::first,
                            "Share of the variance by the input alone."),
        interval_quantities("total_order", "total", &math::InputIndices::total,
                            "Share of the variance with its interactions."),
-       {{{"used", "rows used", count(), "Rows of the design that the indices rest on."},
+       {{"used", "rows used", count(), "Rows of the design that the indices rest on.",
          of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used; })},
-        {{"of", "of", count(), "Rows of the design."},
+        {"of", "of", count(), "Rows of the design.",
          of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; })}}});
 }
 
 /// The same below each other for all outputs.
-Quantities<IndexRow> all_index_quantities() {
-  return keys::joined<IndexRow>(
-      {{{quantity::output(),
-         [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
-        {quantity::unit(), [](const IndexRow&) { return ""; }},
-        {quantity::reason(), &IndexRow::output, &OutputSensitivity::reason}},
-       index_quantities()});
-}
+const Quantities<IndexRow> all_index_quantities = keys::joined<IndexRow>(
+    {{{quantity::output, [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
+      {quantity::unit, [](const IndexRow&) { return ""; }},
+      {quantity::reason, &IndexRow::output, &OutputSensitivity::reason}},
+     index_quantities()});
 
 using OutputRow = const OutputSensitivity*;
 
@@ -82,51 +79,42 @@ Quantities<OutputRow> output_quantities() {
     return [member](OutputRow row) { return shown_output(row->output).value(row->*member); };
   };
   return keys::joined<OutputRow>(
-      {{{quantity::output(), [](OutputRow row) { return shown_output(row->output).column.name; }},
-        {quantity::unit(), [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
-        {{"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs."},
+      {{{quantity::output, [](OutputRow row) { return shown_output(row->output).column.name; }},
+        {quantity::unit, [](OutputRow row) { return shown_output(row->output).column.form.unit; }},
+        {"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs.",
          shown(&OutputSensitivity::mean)},
-        {{"standard_deviation", "standard deviation", significant(3), "Standard deviation over them."},
+        {"standard_deviation", "standard deviation", significant(3), "Standard deviation over them.",
          shown(&OutputSensitivity::deviation)},
-        {{"missing", "without a number", count(), "Evaluations without a number."},
+        {"missing", "without a number", count(), "Evaluations without a number.",
          &OutputSensitivity::missing},
-        {{"bounds", "bounds", count(), "Of these, critical gaps that are bounds."},
+        {"bounds", "bounds", count(), "Of these, critical gaps that are bounds.",
          &OutputSensitivity::bounds}},
        keys::of_part<OutputRow>(
            fit_quantities(),
            [](OutputRow row) {
              return FitRow{shown_output(row->output).column, row->fit ? &*row->fit : nullptr};
            }),
-       {{quantity::reason(), &OutputSensitivity::reason}}});
+       {{quantity::reason, &OutputSensitivity::reason}}});
 }
 
-/// One evaluation.
-struct EvaluationRow {
-  std::size_t place;
-  AnsweredCase of;
-};
-
-Quantities<EvaluationRow> evaluation_quantities(const study::Study& study,
-                                                const std::vector<OutputSensitivity>& outputs) {
-  Quantities<EvaluationRow> of_outputs;
+Quantities<AnsweredCase> evaluation_quantities(const study::Study& study,
+                                               const std::vector<OutputSensitivity>& outputs) {
+  Quantities<AnsweredCase> of_outputs;
   for (const OutputSensitivity& output : outputs)
     of_outputs.emplace_back(shown_output(output.output).column,
-                            [&output](const EvaluationRow& row) { return output.values[row.place]; });
-  return keys::joined<EvaluationRow>(
-      {{{{"number", "number", count(), "Number of the evaluation."},
-         [](const EvaluationRow& row) { return row.place + 1; }},
-        {{"evaluation", "evaluation", text(), "Its place in the design."},
-         &EvaluationRow::of,
-         &AnsweredCase::label}},
-       of_part<EvaluationRow>(answered_axes(study), &EvaluationRow::of),
+                            [&output](const AnsweredCase& row) { return output.values[row.index]; });
+  return keys::joined<AnsweredCase>(
+      {{{"number", "number", count(), "Number of the evaluation.",
+         [](const AnsweredCase& row) { return row.index + 1; }},
+        {"evaluation", "evaluation", text(), "Its place in the design.", &AnsweredCase::label}},
+       answered_axes(study),
        of_outputs,
-       {{for_programs(quantity::critical_gap_kind()), &EvaluationRow::of, &AnsweredCase::answer,
-         &study::CaseAnswer::critical, &study::CriticalGap::kind},
-        {quantity::critical_gap_reads_as(),
-         [](const EvaluationRow& row) { return report::reads_as(row.of.answer->critical); }},
-        {quantity::status(), [](const EvaluationRow& row) { return status_of(*row.of.answer); }},
-        {headed("failure", quantity::reason()), &EvaluationRow::of, &AnsweredCase::answer,
-         &study::CaseAnswer::failure}}});
+       {{for_programs(quantity::critical_gap_kind), &AnsweredCase::answer, &study::CaseAnswer::critical,
+         &study::CriticalGap::kind},
+        {quantity::critical_gap_reads_as,
+         [](const AnsweredCase& row) { return report::reads_as(row.answer->critical); }},
+        {quantity::status, [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {headed("failure", quantity::reason), &AnsweredCase::answer, &study::CaseAnswer::failure}}});
 }
 
 /// Whether the estimates of an input contradict each other: no true total order is below the first.
@@ -164,20 +152,16 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
 }  // namespace
 
 Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
-  Table table = table_of(
+  return table_of(
       "Sensitivity of " + shown_output(output.output).phrase + at_gap(result.study.study, output.output),
-      index_quantities(), index_rows(result, output));
-  table.notes = notes_of(result, output);
-  return table;
+      index_quantities(), index_rows(result, output), notes_of(result, output));
 }
 
 Table sensitivity_table(const SensitivityResult& result) {
   std::vector<IndexRow> rows;
   for (const OutputSensitivity& output : result.outputs)
     for (IndexRow& row : index_rows(result, output)) rows.push_back(std::move(row));
-  Table table = table_of("Sensitivity", all_index_quantities(), rows);
-  table.notes = {method_text(result)};
-  return table;
+  return table_of("Sensitivity", all_index_quantities, rows, {method_text(result)});
 }
 
 Table output_table(const SensitivityResult& result) {
@@ -187,21 +171,20 @@ Table output_table(const SensitivityResult& result) {
 }
 
 Table evaluation_table(const SensitivityResult& result) {
-  std::vector<EvaluationRow> rows;
-  for (const AnsweredCase& each : answered(result.study, result.answers)) rows.push_back({rows.size(), each});
-  return table_of("Evaluations", evaluation_quantities(result.study.study, result.outputs), rows);
+  return table_of("Evaluations", evaluation_quantities(result.study.study, result.outputs),
+                  answered(result.study, result.answers));
 }
 
-std::vector<ResultTable> sensitivity_results() {
+std::vector<report::ReportTable> sensitivity_results() {
   std::vector<OutputSensitivity> outputs(3);
   outputs[0].output = SensitivityOutput::maximum_temperature;
   outputs[1].output = SensitivityOutput::critical_gap;
   outputs[2].output = SensitivityOutput::margin;
-  return {{"indices", "sensitivity.csv", keys::described(all_index_quantities())},
-          {"outputs", "", keys::described(output_quantities())},
-          {"quantiles", "quantiles.csv", quantile_columns()},
-          {"histogram", "histogram.csv", histogram_columns()},
-          {"evaluations", "evaluations.csv", keys::described(evaluation_quantities({}, outputs))}};
+  return {{table_of({}, all_index_quantities, {}), "sensitivity.csv", "indices"},
+          {table_of({}, output_quantities(), {}), "", "outputs"},
+          {quantile_table({}), "quantiles.csv", "quantiles"},
+          {histogram_table({}), "histogram.csv", "histogram"},
+          {table_of({}, evaluation_quantities({}, outputs), {}), "evaluations.csv", "evaluations"}};
 }
 
 // Inputs below each other, the one with the largest total order at the top.

@@ -60,38 +60,26 @@ std::string numbers_of(const run::CombustionHistory& c) {
 /// Of a run through the ignition of one gap.
 Finding judge_burn(const StressCase& asked, const scene::Scene& scene, double gap,
                    const run::CaseResult& result) {
-  const std::string head = fmt::format("through ignition at {:.6g} cm: ", 100.0 * gap);
-  const run::MechanicsResult& mechanics = result.mechanics;
-  if (mechanics.status != run::RunStatus::completed) {
-    if (mechanics.reason.empty()) return {Outcome::wrong, head + "broke off without a reason"};
-    return {Outcome::caught, head + run::to_string(mechanics.status) + ", " + mechanics.reason};
-  }
   const auto& combustion = result.gaps.front().combustion;
-  if (!combustion) return {Outcome::degraded, head + "nothing ignited"};
-  const Sentences violations = violations_of({scene, mechanics, {gap}, &*combustion}, asked);
-  if (!violations.empty()) return {Outcome::wrong, head + joined_text(violations)};
+  if (!combustion) return {Outcome::degraded, "nothing ignited"};
+  const Sentences violations = violations_of({scene, result.mechanics, {gap}, &*combustion}, asked);
+  if (!violations.empty()) return {Outcome::wrong, joined_text(violations)};
   Sentences all = run::combustion_validity_warnings(scene, *combustion);
   const Outcome outcome = all.empty() ? Outcome::held : Outcome::degraded;
   all.push_back(numbers_of(*combustion));
-  return {outcome, head + joined_text(all)};
+  return {outcome, joined_text(all)};
 }
 
 /// Of a launch in which a gap closes.
 Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double gap,
                       const run::CaseResult& result) {
-  const std::string head = fmt::format("closing from {:.6g} cm: ", 100.0 * gap);
-  const run::MechanicsResult& mechanics = result.mechanics;
-  if (mechanics.status != run::RunStatus::completed) {
-    if (mechanics.reason.empty()) return {Outcome::wrong, head + "broke off without a reason"};
-    return {Outcome::caught, head + run::to_string(mechanics.status) + ", " + mechanics.reason};
-  }
   const run::GapResult& closed = result.gaps.front();
-  Sentences violations = violations_of({scene, mechanics, {gap}}, asked);
+  Sentences violations = violations_of({scene, result.mechanics, {gap}}, asked);
   if (!std::isfinite(closed.at_stations.temperature))
     violations.emplace_back("a temperature is not a number");
   if (closed.skin.energy_residual > most_made_in_air)
     violations.push_back(fmt::format("the air made or lost a share {:.2g}", closed.skin.energy_residual));
-  Sentences all = run::validity_warnings(scene, mechanics);
+  Sentences all = run::validity_warnings(scene, result.mechanics);
   const Outcome outcome = !all.empty()         ? Outcome::degraded
                           : violations.empty() ? Outcome::held
                                                : Outcome::wrong;
@@ -101,7 +89,21 @@ Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double
     all.back() +=
         fmt::format(", down to {:.3g} µm at up to {:.3g} MPa", 1e6 * closed.closing->smallest_opening,
                     1e-6 * closed.closing->largest_gas_pressure);
-  return {outcome, head + joined_text(all)};
+  return {outcome, joined_text(all)};
+}
+
+/// Of the launch of one gap alone.
+Finding judge_gap(const StressCase& asked, const study::StudyCase& input, double gap,
+                  const run::CaseResult& result) {
+  const run::MechanicsResult& mechanics = result.mechanics;
+  Finding finding{Outcome::caught, run::to_string(mechanics.status) + ", " + mechanics.reason};
+  if (mechanics.status == run::RunStatus::completed)
+    finding = (input.closing ? judge_closing : judge_burn)(asked, input.scene.scene, gap, result);
+  else if (mechanics.reason.empty())
+    finding = {Outcome::wrong, "broke off without a reason"};
+  finding.text = fmt::format("{} {:.6g} cm: {}", input.closing ? "closing from" : "through ignition at",
+                             100.0 * gap, finding.text);
+  return finding;
 }
 
 Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
@@ -145,8 +147,7 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
   run.violations = violations_of({scene, mechanics, asked.gaps}, asked);
   run.reserves = reserves_of(scene, mechanics, run.answer);
   for (std::size_t i = 1; i < begun; ++i)
-    run.findings.push_back((study.cases[index].closing ? judge_closing : judge_burn)(
-        asked, scene, scene.surface.gaps[i - 1], runs[i].result));
+    run.findings.push_back(judge_gap(asked, study.cases[index], scene.surface.gaps[i - 1], runs[i].result));
   return run;
 }
 

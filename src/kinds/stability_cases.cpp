@@ -10,7 +10,7 @@
 namespace launchsafe::kinds {
 
 using keys::words_key;
-using study::Change, study::Fault, study::in_table, study::StudyFile;
+using study::Change, study::Fault, study::StudyFile;
 
 namespace {
 
@@ -23,31 +23,28 @@ Sentences names_of_invariants() {
 }
 
 /// Of a [[group]], which its cases take over, and of a case.
-const std::vector<Key<StressCase>>& case_keys() {
-  static const std::vector<Key<StressCase>> keys{
-      scene::required(scene::text_key("name", Standing::input,
-                                      "Of the group, or of a case of it, unique in the group.", "load",
-                                      &StressCase::name)),
-      scene::text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
-                      "stability/thin_shell.toml", &StressCase::scene),
-      words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",
-                {"held", "degraded", "caught"}, &StressCase::expected),
-      words_key("invariants", Standing::input, "What must hold; all if absent.", names_of_invariants(),
-                &StressCase::invariants),
-      scene::text_key(
-          "refused", Standing::input,
-          "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
-          "at least 0", &StressCase::refused),
-      scene::number_key("caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
-                        "Steps within which a broken computation must be caught; 0: any number.",
-                        &StressCase::caught_within),
-      scene::number_key("numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
-                        Standing::input,
-                        "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
-                        &StressCase::numerical_uncertainty),
-  };
-  return keys;
-}
+const std::vector<Key<StressCase>> case_keys{
+    scene::required(scene::text_key("name", Standing::input,
+                                    "Of the group, or of a case of it, unique in the group.", "load",
+                                    &StressCase::name)),
+    scene::text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
+                    "stability/thin_shell.toml", &StressCase::scene),
+    words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",
+              {"held", "degraded", "caught"}, &StressCase::expected),
+    words_key("invariants", Standing::input, "What must hold; all if absent.", names_of_invariants(),
+              &StressCase::invariants),
+    scene::text_key(
+        "refused", Standing::input,
+        "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
+        "at least 0", &StressCase::refused),
+    scene::number_key("caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
+                      "Steps within which a broken computation must be caught; 0: any number.",
+                      &StressCase::caught_within),
+    scene::number_key("numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
+                      Standing::input,
+                      "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
+                      &StressCase::numerical_uncertainty),
+};
 
 /// One case while it is read.
 struct CaseReader {
@@ -84,9 +81,9 @@ Expected<Changed> with_keys(const SceneFile& start, const std::vector<OverrideTa
     for (const study::Leaf& leaf : study::leaves_as_written(*node->as_table())) {
       const scene::Place place = scene::place_of(*leaf.node, file);
       const auto key = scene::describe_key(start, leaf.name, place);
-      if (!key) return in_table(key.error(), name);
+      if (!key) return scene::within(name, key.error());
       const auto value = scene::read_value(*leaf.node, *key, file);
-      if (!value) return Changed{start, in_table(value.error(), name)};
+      if (!value) return Changed{start, scene::within(name, value.error())};
       std::erase_if(earlier, [&](const Change& change) {
         return change.key == leaf.name || std::ranges::count(key->overrides, change.key) > 0;
       });
@@ -175,8 +172,8 @@ Fault read_case(CaseReader reader) {
   StressCase& launch = reader.launch;
   launch.group = launch.name;
   const std::string& file = reader.study.file;
-  const auto read = scene::read_table(reader.table, case_keys(), {"set", "against"}, file, launch);
-  if (!read) return in_table(read.error(), "group.cases");
+  const auto read = scene::read_table(reader.table, case_keys, {"set", "against"}, file, launch);
+  if (!read) return scene::within("group.cases", read.error());
   const auto& others = settings_of<StabilitySettings>(reader.study.study).cases;
   if (std::ranges::count(others, launch.label(), &StressCase::label) > 0)
     return reader.fault("name", fmt::format("\"{}\" a second time in \"{}\"", launch.name, launch.group),
@@ -197,8 +194,8 @@ Fault read_case(CaseReader reader) {
 
 Fault read_group(const toml::table& group, const StudySource& source, StudyFile& study) {
   StressCase defaults;
-  const auto read = scene::read_table(group, case_keys(), {"set", "against", "cases"}, study.file, defaults);
-  if (!read) return in_table(read.error(), "group");
+  const auto read = scene::read_table(group, case_keys, {"set", "against", "cases"}, study.file, defaults);
+  if (!read) return scene::within("group", read.error());
   const toml::node* cases = group.get("cases");
   if (!cases || !cases->is_array_of_tables())
     return scene::error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
@@ -255,10 +252,10 @@ Kind stability_kind() {
                  .closing_gaps = study::ClosingGaps::launched,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
-      .tables = {study_table_of("group", case_keys())},
+      .tables = {study_table_of("group", case_keys)},
       .make_cases = make_stability_cases,
       .run = outcome_of<run_stability, stability_failures>,
-      .files = {{"outcomes.svg"}},
+      .files = {"outcomes.svg"},
       .results = stability_results,
   };
 }

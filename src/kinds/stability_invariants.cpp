@@ -1,6 +1,6 @@
 // What every stress case that completed must fulfil.
 #include "launchsafe/kinds/stability.hpp"
-#include "launchsafe/materials/product_gas.hpp"
+#include "launchsafe/materials/vlw.hpp"
 #include "launchsafe/run/case_result.hpp"
 
 #include <fmt/format.h>

@@ -44,16 +44,15 @@ struct GapRow {
   const GapVerdict* verdict() const { return gap ? &of->answer.verdicts[*gap] : nullptr; }
 };
 
-report::Quantities<StressCaseRow> stress_case_quantities() {
-  using keys::text;
-  return {{{"group", "group", text(), "Group of the case."}, &StressCaseRow::asked, &StressCase::group},
-          {quantity::case_name(), &StressCaseRow::asked, &StressCase::name},
-          {{"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed."}, outcome_text},
-          {{"expected", "expected", text(), "What the study expects."}, &StressCaseRow::asked, expected_text},
-          {{"as_expected", "as expected", text(), "Whether it came out so."}, &StressCaseRow::is_as_expected},
-          {{"invariants", "invariants", text(), "What must hold."}, &StressCaseRow::asked, invariants_text},
-          {{"finding", "finding", text(), "Why it came out so, and the numbers behind it."}, finding_text}};
-}
+using keys::text;
+const report::Quantities<StressCaseRow> stress_case_quantities{
+    {"group", "group", text(), "Group of the case.", &StressCaseRow::asked, &StressCase::group},
+    {quantity::case_name, &StressCaseRow::asked, &StressCase::name},
+    {"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed.", outcome_text},
+    {"expected", "expected", text(), "What the study expects.", &StressCaseRow::asked, expected_text},
+    {"as_expected", "as expected", text(), "Whether it came out so.", &StressCaseRow::is_as_expected},
+    {"invariants", "invariants", text(), "What must hold.", &StressCaseRow::asked, invariants_text},
+    {"finding", "finding", text(), "Why it came out so, and the numbers behind it.", finding_text}};
 
 /// What there is to say of a case and of one of its gaps, which may have none of the numbers.
 report::Quantities<GapRow> stability_quantities() {
@@ -68,27 +67,27 @@ report::Quantities<GapRow> stability_quantities() {
     };
   };
   return keys::joined<GapRow>(
-      {of_part<GapRow>(stress_case_quantities(), &GapRow::of),
-       {{quantity::status(), of_run([](const auto& row) { return run::to_string(row.answer.run.status); })},
-        {{"end_time", "until", fixed(4, keys::millisecond), "Instant that the run reached."},
+      {of_part<GapRow>(stress_case_quantities, &GapRow::of),
+       {{quantity::status, of_run([](const auto& row) { return run::to_string(row.answer.run.status); })},
+        {"end_time", "until", fixed(4, keys::millisecond), "Instant that the run reached.",
          of_run([](const auto& row) { return row.end_time; })},
-        {quantity::steps(), of_run([](const auto& row) { return row.answer.run.steps; })},
-        {quantity::particles(), of_run([](const auto& row) { return row.answer.run.particles; })},
-        {quantity::energy_drift(), of_run([](const auto& row) { return row.answer.run.energy_drift; })},
-        {quantity::gap(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.gap; }},
-        {quantity::temperature_max(), &GapRow::verdict,
+        {quantity::steps, of_run([](const auto& row) { return row.answer.run.steps; })},
+        {quantity::particles, of_run([](const auto& row) { return row.answer.run.particles; })},
+        {quantity::energy_drift, of_run([](const auto& row) { return row.answer.run.energy_drift; })},
+        {quantity::gap, &GapRow::verdict, [](const GapVerdict& gap) { return gap.gap; }},
+        {quantity::temperature_max, &GapRow::verdict,
          [](const GapVerdict& gap) { return report::known(gap.maximum.temperature); }},
-        {quantity::temperature_max_inert(),
+        {quantity::temperature_max_inert,
          [](const GapRow& row) { return row.gap ? row.verdict()->heated : study::not_a_number; }},
-        {{"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation."},
+        {"safe_computation", "safe computation", fixed(1, kelvin), "T max of the safe computation.",
          of_list([](const StressCaseRow& row) -> auto& { return row.heated_against; })},
-        {{"deviation", "against", fixed(1, kelvin), "How far the case is off it."},
+        {"deviation", "against", fixed(1, kelvin), "How far the case is off it.",
          of_list([](const StressCaseRow& row) -> auto& { return row.deviations; })},
-        {quantity::uncertainty(), &GapRow::verdict,
+        {quantity::uncertainty, &GapRow::verdict,
          [](const GapVerdict& gap) { return gap.uncertainty.total(); }},
-        {quantity::verdict(), &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.verdict; }},
-        {quantity::reason(), &GapRow::verdict, [](const GapVerdict& gap) { return reason_text(gap); }},
-        {quantity::limiters(),
+        {quantity::verdict, &GapRow::verdict, [](const GapVerdict& gap) { return gap.judgement.verdict; }},
+        {quantity::reason, &GapRow::verdict, [](const GapVerdict& gap) { return reason_text(gap); }},
+        {quantity::limiters,
          of_run([](const auto& row) { return run::to_string(row.answer.run.limiters); })}}});
 }
 
@@ -169,9 +168,9 @@ report::Table not_held_table(const StabilityResult& result) {
                        [](const StressCaseRow& row) { return !row.is(Outcome::held); });
   return report::table_of<StressCaseRow>(
       "Not held",
-      {{quantity::case_name(), [](const StressCaseRow& row) { return row.asked.label(); }},
-       {{"outcome", "outcome", keys::text(), "What became of it."}, outcome_text},
-       {{"why", "why", keys::text(), "Why."},
+      {{quantity::case_name, [](const StressCaseRow& row) { return row.asked.label(); }},
+       {"outcome", "outcome", keys::text(), "What became of it.", outcome_text},
+       {"why", "why", keys::text(), "Why.",
         [](const StressCaseRow& row) {  // without the numbers behind it
           const std::string text = finding_text(row);
           return text.substr(0, std::min(text.find(", "), text.find("; ")));
@@ -205,8 +204,8 @@ report::Report report_of(const StabilityResult& result) {
   return report;
 }
 
-std::vector<ResultTable> stability_results() {
-  return {{"cases", "stability.csv", keys::described(stability_quantities())}};
+std::vector<report::ReportTable> stability_results() {
+  return {{report::table_of({}, stability_quantities(), {}), "stability.csv", "cases"}};
 }
 
 }  // namespace launchsafe::kinds

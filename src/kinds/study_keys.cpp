@@ -64,52 +64,35 @@ Key<Reference> reference_number(std::string name, Dimension dimension, std::stri
                                       std::move(sentence), member);
 }
 
-const std::vector<Key<Reference>>& published_row_keys() {
-  static const std::vector<Key<Reference>> keys{
-      scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
-      reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
-                       &Reference::maximum_temperature),
-      scene::text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
-                      &Reference::point),
-      reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
-                       &Reference::early_temperature),
-      scene::text_key("early_point", Standing::paper,
-                      "Observation point of the highest temperature at early_time.", "G13",
-                      &Reference::early_point),
-      reference_number("spread", Dimension::temperature_difference,
-                       "Highest minus lowest published temperature of the bottom at the end of the launch.",
-                       &Reference::spread),
-      reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
-                       &Reference::early_spread),
-      reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
-                       &Reference::ignition_time),
-      reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
-                       &Reference::rise_begins),
-      reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
-      scene::flag_key("calibrated", Standing::input,
-                      "True where constants, and a load that is fitted, are fitted to it.",
-                      &Reference::calibrated),
-      scene::flag_key("selection", Standing::input,
-                      "True where its other numbers were seen when a form of the model was picked; they are "
-                      "held out if not.",
-                      &Reference::selection),
-  };
-  return keys;
-}
-
-Fault read_reference_tables(const toml::table& root, const std::string& file, StudyFile& study) {
-  const auto tables = study::tables_of(root, "reference", file);
-  if (!tables) return tables.error();
-  for (const toml::table* table : *tables) {
-    Reference reference;
-    auto read = scene::read_table(*table, published_row_keys(), {}, file, reference);
-    if (!read) return study::in_table(read.error(), "reference");
-    const std::size_t index = study.study.references.size();
-    for (auto& [key, place] : *read) study.places[fmt::format("reference.{}.{}", index, key)] = place;
-    study.study.references.push_back(std::move(reference));
-  }
-  return std::nullopt;
-}
+const std::vector<Key<Reference>> published_row_keys{
+    scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
+    reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
+                     &Reference::maximum_temperature),
+    scene::text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
+                    &Reference::point),
+    reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
+                     &Reference::early_temperature),
+    scene::text_key("early_point", Standing::paper,
+                    "Observation point of the highest temperature at early_time.", "G13",
+                    &Reference::early_point),
+    reference_number("spread", Dimension::temperature_difference,
+                     "Highest minus lowest published temperature of the bottom at the end of the launch.",
+                     &Reference::spread),
+    reference_number("early_spread", Dimension::temperature_difference, "The same at early_time.",
+                     &Reference::early_spread),
+    reference_number("ignition_time", Dimension::time, "When it ignited; absent where it did not.",
+                     &Reference::ignition_time),
+    reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
+                     &Reference::rise_begins),
+    reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
+    scene::flag_key("calibrated", Standing::input,
+                    "True where constants, and a load that is fitted, are fitted to it.",
+                    &Reference::calibrated),
+    scene::flag_key("selection", Standing::input,
+                    "True where its other numbers were seen when a form of the model was picked; they are "
+                    "held out if not.",
+                    &Reference::selection),
+};
 
 /// Reads the file of references that a study names, which several may share.
 Fault read_shared_references(const StudySource& source, StudyFile& study) {
@@ -130,7 +113,7 @@ Fault read_shared_references(const StudySource& source, StudyFile& study) {
                              "a key of another kind of file", fmt::format("only {}", tables));
     }
   }
-  return read_reference_tables(*table, file, study);
+  return study::read_rows(*table, table_name, published_row_keys, file, study, study.study.references);
 }
 
 Fault check_references(const StudyFile& study) {
@@ -262,7 +245,7 @@ std::string default_text(const scene::KeyDescription& key, const scene::Value& v
   return none ? std::string{} : scene::format_value(key, value);
 }
 
-StudyTable reference_table() { return study_table_of("reference", published_row_keys()); }
+StudyTable reference_table() { return study_table_of("reference", published_row_keys); }
 
 StudyTable cited_limit_table() { return study_table_of("cited_limit", study::cited_limit_keys()); }
 
@@ -298,7 +281,9 @@ Fault check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) 
 }
 
 Fault read_references(const StudySource& source, StudyFile& study) {
-  if (Fault fault = read_reference_tables(source.root, study.file, study)) return fault;
+  if (Fault fault = study::read_rows(source.root, "reference", published_row_keys, study.file, study,
+                                     study.study.references))
+    return fault;
   if (Fault fault = read_shared_references(source, study)) return fault;
   return check_references(study);
 }

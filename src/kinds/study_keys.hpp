@@ -29,14 +29,6 @@ study::Fault check_stated_uncertainties(const StudyKeys& keys, const study::Stud
 /// A file of published rows, and a published line.
 StudyKeys reference_keys();
 
-/// The key of a list that a study may state.
-template <class Settings>
-scene::Key<Settings> assumed_list(std::string name, scene::Dimension dimension, scene::Limits limits,
-                                  std::string sentence, std::vector<double> Settings::*member) {
-  return scene::list_key<Settings>(std::move(name), dimension, limits, scene::Standing::assumed,
-                                   std::move(sentence), member);
-}
-
 using keys::joined;
 
 /// The settings of a kind as keys of the study that holds them.

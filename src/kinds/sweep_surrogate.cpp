@@ -1,6 +1,5 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/run/model_version.hpp"
 
 #include <fmt/format.h>
 
@@ -15,7 +14,7 @@ namespace {
 double scale_of(const keys::Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
 
 Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_t input,
-               const study::InputRange& range) {
+               const math::Interval& range) {
   const report::ShownKey key = report::shown_axes(study.study)[input];
   const math::Distribution& distribution = record.inputs.distributions[input];
   return {{"name", key.name},
@@ -62,7 +61,7 @@ Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
 std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
   Row fit{{"gap_cm", report::shown_gap(record.gap)},
           {"largest_gap_cm", report::shown_gap(study.study.largest_gap)}};
-  const std::vector<study::InputRange> ranges = ranges_of(record);
+  const std::vector<math::Interval> ranges = ranges_of(record);
   for (std::size_t input = 0; input < record.keys.size(); ++input)
     fit["inputs"].push_back(input_json(record, study, input, ranges[input]));
   if (const auto& together = record.inputs.correlated)
@@ -122,7 +121,7 @@ Fault check_axis(const StudyFile& study, const Axis& axis) {
 SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t gap) {
   const std::vector<double>& gaps = result.study.study.gaps;
   SurrogateOutput output{
-      .name = quantity::temperature_max().name, .gap = gaps[gap], .inert = any_ignites(result.answers, gap)};
+      .name = quantity::temperature_max.name, .gap = gaps[gap], .inert = any_ignites(result.answers, gap)};
   if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", report::shown_gap(gaps[gap]));
   for (const study::CaseAnswer& answer : result.answers)
     output.values.push_back(temperature_of(answer, gap, output.inert));
@@ -130,7 +129,7 @@ SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t 
 }
 
 SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
-  SurrogateOutput output{.name = quantity::critical_gap().name};
+  SurrogateOutput output{.name = quantity::critical_gap.name};
   for (const study::CaseAnswer& answer : result.answers)
     output.values.push_back(answer.completed() ? answer.critical.value : study::not_a_number);
   if (const auto bounds = std::ranges::count_if(result.answers, is_bound))
@@ -138,17 +137,16 @@ SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
   return output;
 }
 
-report::Quantities<FitRow> surrogate_quantities() {
-  return keys::joined<FitRow>({{{quantity::output(), [](const FitRow& row) { return row.shown.name; }},
-                                {quantity::unit(), [](const FitRow& row) { return row.shown.form.unit; }}},
-                               fit_quantities(),
-                               {{quantity::reason(), [](const FitRow& row) { return row.fit->reason; }}}});
-}
+const report::Quantities<FitRow> surrogate_quantities =
+    keys::joined<FitRow>({{{quantity::output, [](const FitRow& row) { return row.shown.name; }},
+                           {quantity::unit, [](const FitRow& row) { return row.shown.form.unit; }}},
+                          fit_quantities(),
+                          {{quantity::reason, [](const FitRow& row) { return row.fit->reason; }}}});
 
 }  // namespace
 
 report::Column shown(const SurrogateOutput& output) {
-  if (output.name == quantity::critical_gap().name)
+  if (output.name == quantity::critical_gap.name)
     return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
   std::string heading = "T max at a gap of " + report::centimetres(output.gap);
   if (output.inert) heading += ", without reaction";
@@ -168,27 +166,27 @@ report::Quantities<FitRow> fit_quantities() {
       return is_fitted(row) ? shown_value(std::invoke(get, *row.fit), row.shown.form) : study::not_a_number;
     };
   };
-  return {{{"fitted", "fitted", count(), "Evaluations that were fitted."},
+  return {{"fitted", "fitted", count(), "Evaluations that were fitted.",
            of_fit([](const SurrogateOutput& output) { return output.fit.chaos.points; })},
-          {{"fit", "fit", text(), "What predicts: the one with the smaller leave-one-out error."},
+          {"fit", "fit", text(), "What predicts: the one with the smaller leave-one-out error.",
            [=](const FitRow& row) {
              if (!is_fitted(row)) return "";
              return row.fit->fit.by_process() ? "Gaussian process" : "polynomial";
            }},
-          {{"terms", "terms", count(), "Terms of the polynomial."},
+          {"terms", "terms", count(), "Terms of the polynomial.",
            of_fit([](const SurrogateOutput& output) { return output.fit.chaos.terms.size(); })},
-          {{"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the polynomial."},
+          {"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the polynomial.",
            error_of([](const SurrogateOutput& output) { return output.fit.chaos.leave_one_out; })},
-          {{"process_leave_one_out", "of the process", significant(2), "The same of the Gaussian process."},
+          {"process_leave_one_out", "of the process", significant(2), "The same of the Gaussian process.",
            error_of([](const SurrogateOutput& output) {
              const math::GaussianProcess& process = output.fit.process;
              return process.reason.empty() ? process.leave_one_out : study::not_a_number;
            })},
-          {{"held_out", "held out", count(), "Evaluations that were not fitted."},
+          {"held_out", "held out", count(), "Evaluations that were not fitted.",
            of_fit([](const SurrogateOutput& output) { return output.error.launches; })},
-          {{"held_out_error", "error there", significant(2), "Root mean square of the fit's error there."},
+          {"held_out_error", "error there", significant(2), "Root mean square of the fit's error there.",
            error_of([](const SurrogateOutput& output) { return output.error.root_mean_square; })},
-          {{"held_out_largest", "largest there", significant(2), "Largest error of the fit there."},
+          {"held_out_largest", "largest there", significant(2), "Largest error of the fit there.",
            error_of([](const SurrogateOutput& output) { return output.error.largest; })}};
 }
 
@@ -229,10 +227,7 @@ Fault check_sweep_surrogate(const StudyFile& study) {
 
 SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
   const StudyFile& study = result.study;
-  SurrogateRecord record{.model_version = run::model_version,
-                         .scene = study.scene.scene,
-                         .gap = study.study.gaps.back(),
-                         .drawn = false};
+  SurrogateRecord record{.scene = study.scene.scene, .gap = study.study.gaps.back(), .drawn = false};
   scene::clear_remarks(record.scene);
   std::vector<std::vector<double>> held_out;
   for (const Axis& axis : study.study.axes) {
@@ -257,14 +252,11 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
   return record;
 }
 
-std::vector<report::Column> surrogate_columns() { return keys::described(surrogate_quantities()); }
-
 report::Table surrogate_table(const SurrogateRecord& record) {
   std::vector<FitRow> rows;
   for (const SurrogateOutput& output : record.outputs) rows.push_back({shown(output), &output});
-  report::Table table = report::table_of("What the fit of these cases misses", surrogate_quantities(), rows);
-  table.notes = said("critical_gap.surrogate");
-  return table;
+  return report::table_of("What the fit of these cases misses", surrogate_quantities, rows,
+                          said("critical_gap.surrogate"));
 }
 
 }  // namespace launchsafe::kinds

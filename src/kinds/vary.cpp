@@ -11,7 +11,7 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault, study::in_table;
+using study::Fault;
 
 namespace {
 
@@ -68,17 +68,12 @@ std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
        keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
 }
 
-/// The entry that names the record of a calibration, by its path.
-struct VaryRecord {
-  std::string name;
-};
-
-std::vector<scene::Key<VaryRecord>> vary_record_keys() {
-  return {scene::text_key("calibration", scene::Standing::input,
-                          "Instead of the other keys: the calibration.json whose fitted constants vary "
-                          "together, by the covariance of its fit; of kind sensitivity.",
-                          "../reports/calibrate_table8/calibration.json", &VaryRecord::name)};
-}
+/// Of the entry that names the record of a calibration, by its path.
+const std::vector<scene::Key<VaryText>> vary_record_keys{
+    scene::text_key("calibration", scene::Standing::input,
+                    "Instead of the other keys: the calibration.json whose fitted constants vary "
+                    "together, by the covariance of its fit; of kind sensitivity.",
+                    "../reports/calibrate_table8/calibration.json", &VaryText::name)};
 
 /// One entry while it is read.
 struct VaryReader {
@@ -139,50 +134,43 @@ std::string range_text(double lower, double upper, Dimension dimension) {
                      scene::format_quantity(upper, dimension));
 }
 
-/// The range to write for a normal that needs one; empty where the limits leave none.
-std::string suggested_range(const VaryText& text) {
-  const double reach = deviations_within_limits * text.distribution.deviation;
-  const double lower = std::max(text.distribution.centre - reach, text.key.limits.lowest);
-  const double upper = std::min(text.distribution.centre + reach, text.key.limits.highest);
-  if (!(lower < upper) || !text.key.limits.contain(lower) || !text.key.limits.contain(upper)) return {};
-  return fmt::format("range = \"{}\"", range_text(lower, upper, text.key.dimension));
-}
-
-/// A normal without a range must in practice stay within the limits of its key.
+/// A normal without a range must in practice stay within the limits of its key. The range to write for one
+/// that does not is suggested, unless the limits leave none.
 Fault check_reach(const VaryReader& reader) {
-  const VaryText& text = reader.text;
-  if (text.distribution.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
-  const double reach = deviations_within_limits * text.distribution.deviation;
-  const double lower = text.distribution.centre - reach, upper = text.distribution.centre + reach;
-  if (text.key.limits.contain(lower) && text.key.limits.contain(upper)) return std::nullopt;
+  const KeyDescription& key = reader.text.key;
+  const Distribution& normal = reader.text.distribution;
+  if (normal.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
+  const double reach = deviations_within_limits * normal.deviation;
+  const double lower = normal.centre - reach, upper = normal.centre + reach;
+  const auto may_be = [&](double value) { return key.limits.contain(value); };
+  if (may_be(lower) && may_be(upper)) return std::nullopt;
+  const double from = std::max(lower, key.limits.lowest), to = std::min(upper, key.limits.highest);
   return reader.fault(
       "deviation",
       fmt::format("values of {} within {:g} deviations, outside the limits of {}",
-                  range_text(lower, upper, text.key.dimension), deviations_within_limits, text.key.name),
-      "a range that cuts the normal off: " + scene::allowed_text(text.key), suggested_range(text));
+                  range_text(lower, upper, key.dimension), deviations_within_limits, key.name),
+      "a range that cuts the normal off: " + scene::allowed_text(key),
+      from < to && may_be(from) && may_be(to)
+          ? fmt::format("range = \"{}\"", range_text(from, to, key.dimension))
+          : "");
 }
 
 /// Whether the distribution of an entry is whole and possible.
 Fault check_distribution(const VaryReader& reader) {
   if (Fault fault = check_given(reader)) return fault;
-  const VaryText& text = reader.text;
-  if (text.distribution.kind == Distribution::Kind::log_uniform && !(text.distribution.lower > 0.0)) {
-    return reader.fault(
-        "range",
-        fmt::format("{}, whose lower end has no logarithm",
-                    range_text(text.distribution.lower, text.distribution.upper, text.key.dimension)),
-        "a range above 0 for distribution \"log-uniform\"");
-  }
+  const Dimension dimension = reader.text.key.dimension;
+  const Distribution& of = reader.text.distribution;
+  const std::string range = range_text(of.lower, of.upper, dimension);
+  if (of.kind == Distribution::Kind::log_uniform && !(of.lower > 0.0))
+    return reader.fault("range", range + ", whose lower end has no logarithm",
+                        "a range above 0 for distribution \"log-uniform\"");
   if (Fault fault = check_reach(reader)) return fault;
-  if (math::is_valid(text.distribution)) return std::nullopt;
-  return reader.fault(
-      "range",
-      fmt::format(
-          "{}, where a normal of mean {} and deviation {} has no share",
-          range_text(text.distribution.lower, text.distribution.upper, text.key.dimension),
-          scene::format_quantity(text.distribution.centre, text.key.dimension),
-          scene::format_quantity(text.distribution.deviation, scene::difference_of(text.key.dimension))),
-      "a range near the mean");
+  if (math::is_valid(of)) return std::nullopt;
+  return reader.fault("range",
+                      fmt::format("{}, where a normal of mean {} and deviation {} has no share", range,
+                                  scene::format_quantity(of.centre, dimension),
+                                  scene::format_quantity(of.deviation, scene::difference_of(dimension))),
+                      "a range near the mean");
 }
 
 // --- entries ---
@@ -193,7 +181,7 @@ scene::Expected<KeyDescription> read_scene_key(VaryReader& reader, const Varied&
   const KeyDescription description = *scene::find_key(vary_keys({}), "key");
   if (!node) return reader.fault("key", "nothing; the key is missing", scene::allowed_text(description));
   const auto value = scene::read_value(*node, description, reader.study.file);
-  if (!value) return in_table(value.error(), table_name);
+  if (!value) return scene::within(table_name, value.error());
   const std::string& name = std::get<std::string>(*value);
   const Place place = scene::place_of(*node, reader.study.file);
   reader.places["key"] = place;
@@ -236,7 +224,7 @@ Fault read_entry(VaryReader& reader, const Varied& admitted) {
   if (!key) return key.error();
   reader.text.key = *key;
   auto read = scene::read_table(reader.table, vary_keys(*key), {}, reader.study.file, reader.text);
-  if (!read) return in_table(read.error(), table_name);
+  if (!read) return scene::within(table_name, read.error());
   reader.places = std::move(*read);
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
   if (Fault fault = check_free(reader.study, key->name, reader.place_of("key"), "vary.key")) return fault;
@@ -268,7 +256,7 @@ Fault check_variants(const VaryReader& reader, const Varied& admitted) {
                            "vary.variants", "variants in a study of kind " + reader.study.study.kind.name,
                            "a key of the scene; variants are compared by kind comparison");
   auto read = scene::read_described(reader.table, {}, {variants_key}, reader.study.file);
-  if (!read) return in_table(read.error(), table_name);
+  if (!read) return scene::within(table_name, read.error());
   return std::nullopt;
 }
 
@@ -294,13 +282,12 @@ Fault check_place_of_record(const VaryReader& reader) {
 
 /// The record, with a covariance.
 scene::Expected<study::CalibrationRecord> read_covariance(VaryReader& reader,
-                                                          const std::filesystem::path& folder,
-                                                          const std::string& name) {
+                                                          const std::filesystem::path& folder) {
+  const std::string& name = reader.text.name;
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
-  const auto text = scene::read_text_file(folder / name);
-  if (!text)
-    return reader.fault("calibration", fmt::format("\"{}\", which cannot be read", name),
-                        wanted + ", by its path from the study file's folder", text.error().suggestion);
+  const auto text =
+      study::read_named_file(reader.study, folder, reader.study_key("calibration"), name, wanted);
+  if (!text) return text.error();
   auto record = study::parse_calibration_record(*text, (folder / name).string());
   if (!record) return record;
   reader.study.records.push_back(store::sha256(*text));
@@ -312,15 +299,14 @@ scene::Expected<study::CalibrationRecord> read_covariance(VaryReader& reader,
 }
 
 Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
-  VaryRecord named;
-  auto read = scene::read_table(reader.table, vary_record_keys(), {}, reader.study.file, named);
-  if (!read) return study::in_table(read.error(), "vary");
+  auto read = scene::read_table(reader.table, vary_record_keys, {}, reader.study.file, reader.text);
+  if (!read) return scene::within("vary", read.error());
   reader.places = std::move(*read);
   const Place place = reader.place_of("calibration");
   const std::string study_key = reader.study_key("calibration");
   reader.study.places[study_key] = place;
   if (Fault fault = check_place_of_record(reader)) return fault;
-  const auto record = read_covariance(reader, folder, named.name);
+  const auto record = read_covariance(reader, folder);
   if (!record) return record.error();
   constexpr std::size_t count = study::fitted_keys.size();
   auto factor = math::covariance_factor(record->covariance, count);
@@ -362,7 +348,7 @@ std::vector<scene::Key<VariantText>> variant_keys() {
 StudyTable vary_table() {
   StudyTable table = study_table_of(table_name, vary_keys({}));
   for (const StudyTable& more :
-       {study_table_of(table_name, vary_record_keys()), study_table_of("vary.variants", variant_keys())})
+       {study_table_of(table_name, vary_record_keys), study_table_of("vary.variants", variant_keys())})
     table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
   for (scene::DocumentedKey& key : table.keys) key.default_text.clear();  // an entry has what its form needs
   return table;
@@ -396,7 +382,7 @@ scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& 
       return scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
                              "all variants in one [[vary]]");
     auto found = study::tables_of(table, variants_key, study.file);
-    if (!found) return in_table(found.error(), table_name);
+    if (!found) return scene::within(table_name, found.error());
     variants = std::move(*found);
   }
   if (!variants.empty()) return variants;

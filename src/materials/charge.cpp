@@ -76,12 +76,6 @@ std::vector<Key<ViscoScramParameters>> crack_keys() {
   };
 }
 
-std::vector<Key<Charge>> density_keys() {
-  return {plausibly(number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
-                               "Density before launch.", &Charge::density),
-                    between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3")};
-}
-
 /// The equation of state of that kind. One that the charge does not have becomes its own where a key of it is
 /// set.
 template <class Eos>
@@ -208,8 +202,12 @@ std::vector<Key<KineticsParameters>> kinetics_keys() {
 std::vector<Key<Charge>> Charge::parameters() {
   return keys::joined(
       {keys_of_part("charge.", &Charge::strength, crack_keys()),
-       keys_of_part<Charge>("charge.", std::identity{}, density_keys()), keys_of_eos(Charge{}.eos),
-       keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
+       keys::keys_of_part<Charge>(
+           "charge.", std::identity{},
+           {plausibly(number_key("density", Dimension::density, between(500, 25e3), Standing::paper,
+                                 "Density before launch.", &Charge::density),
+                      between(1e3, 2.3e3), "pressed and cast explosives have 1.5 to 2 g/cm3")}),
+       keys_of_eos(Charge{}.eos), keys_of_part<Charge>("charge.", std::identity{}, heat_keys()),
        keys_of_part("kinetics.", &Charge::kinetics, in_role({ActsOn::chemistry}, kinetics_keys()))});
 }
 

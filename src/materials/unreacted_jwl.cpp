@@ -13,28 +13,23 @@ namespace {
 void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 1.0) / eos.omega; }
 
 std::vector<Key<JwlParameters>> constants_keys() {
+  const auto constant = [](const char* name, Dimension dimension, keys::Limits limits, const char* sentence,
+                           double JwlParameters::*member, keys::Limits plausible, const char* because) {
+    return plausibly(then(number_key(name, dimension, limits, Standing::paper, sentence, member), balance),
+                     plausible, because);
+  };
   return {
-      plausibly(then(number_key("jwl.a", Dimension::pressure, above_to(0, 1e17), Standing::paper,
-                                "A of the unreacted JWL.", &JwlParameters::a),
-                     balance),
-                between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
-      plausibly(then(number_key("jwl.b", Dimension::pressure, between(-1e12, 1e12), Standing::paper,
-                                "B of the unreacted JWL.", &JwlParameters::b),
-                     balance),
-                between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
-      plausibly(then(number_key("jwl.r1", Dimension::number, above_to(0, 100), Standing::paper,
-                                "R1 of the unreacted JWL.", &JwlParameters::r1),
-                     balance),
-                between(6, 20), "unreacted explosives are fitted with 10 to 14"),
-      plausibly(then(number_key("jwl.r2", Dimension::number, above_to(0, 100), Standing::paper,
-                                "R2 of the unreacted JWL.", &JwlParameters::r2),
-                     balance),
-                between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
-      plausibly(then(number_key("jwl.omega", Dimension::number, above_to(0, 10), Standing::paper,
-                                "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.",
-                                &JwlParameters::omega),
-                     balance),
-                between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
+      constant("jwl.a", Dimension::pressure, above_to(0, 1e17), "A of the unreacted JWL.", &JwlParameters::a,
+               between(1e12, 1e16), "unreacted explosives are fitted with 17 to 950 TPa"),
+      constant("jwl.b", Dimension::pressure, between(-1e12, 1e12), "B of the unreacted JWL.",
+               &JwlParameters::b, between(-5e10, 0), "unreacted explosives are fitted with -4 to -7 GPa"),
+      constant("jwl.r1", Dimension::number, above_to(0, 100), "R1 of the unreacted JWL.", &JwlParameters::r1,
+               between(6, 20), "unreacted explosives are fitted with 10 to 14"),
+      constant("jwl.r2", Dimension::number, above_to(0, 100), "R2 of the unreacted JWL.", &JwlParameters::r2,
+               between(0.5, 3), "unreacted explosives are fitted with a tenth of R1"),
+      constant("jwl.omega", Dimension::number, above_to(0, 10),
+               "w of the unreacted JWL; its initial energy follows from p(V = 1) = 0.", &JwlParameters::omega,
+               between(0.3, 1.5), "it is the Grueneisen coefficient of an organic solid"),
   };
 }
 

@@ -1,3 +1,4 @@
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 
 #include <Eigen/Dense>
@@ -5,8 +6,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <numeric>
 #include <utility>
 
 namespace launchsafe::math {
@@ -40,15 +39,18 @@ Rows coordinates_of(const std::vector<ChaosBasis>& inputs, const std::vector<dou
   return coordinates;
 }
 
+/// Of two places by their coordinates.
+double correlation(const double* a, const double* b, const std::vector<double>& lengths) {
+  double product = 1.0;
+  for (std::size_t k = 0; k < lengths.size(); ++k) product *= matern(std::abs(a[k] - b[k]) / lengths[k]);
+  return product;
+}
+
 Matrix correlations(const Rows& at, const std::vector<double>& lengths) {
   Matrix matrix = Matrix::Identity(at.rows(), at.rows());
   for (Eigen::Index i = 0; i < at.rows(); ++i)
-    for (Eigen::Index j = 0; j < i; ++j) {
-      double product = 1.0;
-      for (Eigen::Index k = 0; k < at.cols(); ++k)
-        product *= matern(std::abs(at(i, k) - at(j, k)) / lengths[static_cast<std::size_t>(k)]);
-      matrix(i, j) = matrix(j, i) = product;
-    }
+    for (Eigen::Index j = 0; j < i; ++j)
+      matrix(i, j) = matrix(j, i) = correlation(&at(i, 0), &at(j, 0), lengths);
   return matrix;
 }
 
@@ -58,7 +60,7 @@ struct Kriging {
   Matrix inverse, trend, line;  ///< of all, and of the line's functions: coefficients from values
   Matrix line_inverse, contrast;
   Vector contrasted;
-  double freedom = 0, variance = 0, likelihood = -std::numeric_limits<double>::infinity();
+  double freedom = 0, variance = 0, likelihood = -infinity;
 };
 
 Kriging kriging_of(const GaussianProcess& process, const Rows& at, const Vector& values) {
@@ -176,7 +178,7 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   }
   const Rows at = coordinates_of(inputs, rows.points);
   const Vector of = Eigen::Map<const Vector>(rows.values.data(), at.rows());
-  double greatest = -std::numeric_limits<double>::infinity();
+  double greatest = -infinity;
   for (const double length : {1.0, 5.0}) {
     GaussianProcess start = best;
     start.lengths.assign(inputs.size(), length);
@@ -194,8 +196,7 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   }
   const FittedProcess fitted(best, rows.points, rows.values);
   const std::vector<double>& errors = fitted.left_out_errors();
-  best.leave_one_out = std::sqrt(std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
-                                 static_cast<double>(errors.size()));
+  best.leave_one_out = std::sqrt(sum_of_squares(errors) / static_cast<double>(errors.size()));
   return best;
 }
 
@@ -215,7 +216,7 @@ FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>&
   coordinates_.assign(at.data(), at.data() + at.size());
   if (of.contrast.size() == 0) {  // no process: points that all lie in a plane
     const auto functions = static_cast<std::size_t>(at.rows() + of.trend.cols());
-    form_.offset = std::numeric_limits<double>::quiet_NaN();
+    form_.offset = not_a_number;
     form_.weights.assign(functions, form_.offset);
     form_.matrix.assign(functions * functions, form_.offset);
     return;
@@ -241,12 +242,8 @@ std::vector<double> FittedProcess::functions_at(const std::vector<double>& point
   std::vector<double> line{1.0};
   for (std::size_t i = 0; i < inputs; ++i) line.push_back(coordinate(process_.inputs[i], point[i]));
   std::vector<double> functions;
-  for (std::size_t row = 0; row < coordinates_.size(); row += inputs) {
-    double product = 1.0;
-    for (std::size_t i = 0; i < inputs; ++i)
-      product *= matern(std::abs(line[i + 1] - coordinates_[row + i]) / process_.lengths[i]);
-    functions.push_back(product);
-  }
+  for (std::size_t row = 0; row < coordinates_.size(); row += inputs)
+    functions.push_back(correlation(&line[1], &coordinates_[row], process_.lengths));
   functions.insert(functions.end(), line.begin(), line.end());
   return functions;
 }

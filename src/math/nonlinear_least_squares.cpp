@@ -51,11 +51,7 @@ class Problem {
  private:
   std::optional<std::vector<std::vector<double>>> at(const std::vector<std::vector<double>>& points) {
     auto found = residuals_(points);
-    if (!found) return std::nullopt;
-    for (const std::vector<double>& values : *found)
-      if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
-        return std::nullopt;
-    return found;
+    return found && std::ranges::all_of(*found, all_finite) ? found : std::nullopt;
   }
 
   const ResidualsAtPoints& residuals_;
@@ -67,12 +63,6 @@ class Problem {
 /// what is published of a launch determines its numbers to half a per cent at best.
 constexpr double settled = 1e-4;
 constexpr double largest_condition = 1e6;
-
-NonlinearFit failed(FitFailure failure) {
-  NonlinearFit fit;
-  fit.failure = failure;
-  return fit;
-}
 
 /// Jacobian, condition and covariance where the search ended.
 void describe_minimum(NonlinearFit& fit, const MatrixXd& jacobian) {
@@ -88,28 +78,26 @@ void describe_minimum(NonlinearFit& fit, const MatrixXd& jacobian) {
 
 }  // namespace
 
-double NonlinearFit::sum_of_squares() const {
-  return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
-}
+double NonlinearFit::sum_of_squares() const { return math::sum_of_squares(residuals); }
 
 NonlinearFit fit_nonlinear(const ResidualsAtPoints& residuals, const std::vector<double>& start,
                            double step) {
   using namespace Eigen::LevenbergMarquardtSpace;
   Problem problem(residuals, step);
   VectorXd point = vector_of(start), values;
-  if (problem(point, values) < 0) return failed(FitFailure::not_computable);
-  if (values.size() < point.size()) return failed(FitFailure::too_few_residuals);
+  if (problem(point, values) < 0) return NonlinearFit{FitFailure::not_computable};
+  if (values.size() < point.size()) return NonlinearFit{FitFailure::too_few_residuals};
   Eigen::LevenbergMarquardt<Problem> search(problem);
   search.parameters.ftol = search.parameters.xtol = settled;
   search.parameters.maxfev = 100;
   const Status status = search.minimize(point);
-  if (status == UserAsked) return failed(FitFailure::not_computable);
-  if (status == TooManyFunctionEvaluation) return failed(FitFailure::does_not_settle);
+  if (status == UserAsked) return NonlinearFit{FitFailure::not_computable};
+  if (status == TooManyFunctionEvaluation) return NonlinearFit{FitFailure::does_not_settle};
   NonlinearFit fit;
   fit.unknowns = listed(point);
   MatrixXd jacobian;
   if (problem(point, values) < 0 || problem.df(point, jacobian) < 0)
-    return failed(FitFailure::not_computable);
+    return NonlinearFit{FitFailure::not_computable};
   fit.residuals = listed(values);
   describe_minimum(fit, jacobian);
   return fit;
@@ -124,10 +112,8 @@ std::optional<AddedUnknown> add_unknown(const NonlinearFit& fit, const std::vect
   }
   const auto linear = least_squares(rows, wanted), without = least_squares(fit.jacobian, wanted);
   if (!linear || !without) return std::nullopt;
-  const auto squares = [](const std::vector<double>& values) {
-    return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
-  };
-  return AddedUnknown{linear->coefficients.back(), squares(without->residuals) - squares(linear->residuals)};
+  return AddedUnknown{linear->coefficients.back(),
+                      sum_of_squares(without->residuals) - sum_of_squares(linear->residuals)};
 }
 
 }  // namespace launchsafe::math

@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -72,13 +71,13 @@ double product(const std::vector<int>& degrees, const std::vector<double>& of_in
 }
 
 /// All products whose degrees add up to no more than `degree`, the constant first, low degrees before high.
-std::vector<std::vector<int>> candidates_of(std::size_t inputs, int degree) {
-  std::vector<std::vector<int>> all;
+std::vector<ChaosTerm> candidates_of(std::size_t inputs, int degree) {
+  std::vector<ChaosTerm> all;
   std::vector<int> degrees(inputs, 0);
   const std::function<void(std::size_t, int)> add = [&](std::size_t input, int left) {
     if (input + 1 == inputs) {
       degrees[input] = left;
-      all.push_back(degrees);
+      all.push_back({degrees});
       return;
     }
     for (int own = left; own >= 0; --own) {
@@ -90,21 +89,21 @@ std::vector<std::vector<int>> candidates_of(std::size_t inputs, int degree) {
   return all;
 }
 
-Matrix matrix_of(const std::vector<ChaosBasis>& inputs, const std::vector<std::vector<int>>& candidates,
-                 int degree, const std::vector<double>& points) {
+Matrix matrix_of(const std::vector<ChaosBasis>& inputs, const std::vector<ChaosTerm>& terms, int degree,
+                 const std::vector<double>& points) {
   const std::size_t rows = points.size() / inputs.size();
-  Matrix matrix(index(rows), index(candidates.size()));
+  Matrix matrix(index(rows), index(terms.size()));
   for (std::size_t row = 0; row < rows; ++row) {
     const auto of_inputs = polynomials_at(inputs, degree, &points[row * inputs.size()]);
-    for (std::size_t column = 0; column < candidates.size(); ++column)
-      matrix(index(row), index(column)) = product(candidates[column], of_inputs);
+    for (std::size_t column = 0; column < terms.size(); ++column)
+      matrix(index(row), index(column)) = product(terms[column].degrees, of_inputs);
   }
   return matrix;
 }
 
 struct Fit {
   Vector coefficients;
-  double leave_one_out = std::numeric_limits<double>::infinity();
+  double leave_one_out = infinity;
 };
 
 /// Least squares with the leave-one-out error, whose square counts N/(N - P) (1 + tr(C^-1)/N) times, C the
@@ -195,12 +194,6 @@ Shares shares_of(const std::vector<ChaosTerm>& terms, const Vector& coefficients
   return shares;
 }
 
-std::vector<std::vector<int>> degrees_of(const PolynomialChaos& chaos) {
-  std::vector<std::vector<int>> degrees;
-  for (const ChaosTerm& term : chaos.terms) degrees.push_back(term.degrees);
-  return degrees;
-}
-
 Vector coefficients_of(const PolynomialChaos& chaos) {
   Vector coefficients(index(chaos.terms.size()));
   for (std::size_t i = 0; i < chaos.terms.size(); ++i) coefficients(index(i)) = chaos.terms[i].coefficient;
@@ -265,7 +258,7 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
     return chaos;
   }
   const Vector values_there = vector_of(rows.values);
-  chaos.leave_one_out = std::numeric_limits<double>::infinity();
+  chaos.leave_one_out = infinity;
   for (int degree = 1; degree <= highest_tried_degree; ++degree) {
     const auto candidates = candidates_of(inputs.size(), degree);
     if (candidates.size() > most_candidates_a_point * chaos.points) break;
@@ -275,7 +268,7 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
     chaos.degree = degree;
     chaos.terms.clear();
     for (std::size_t i = 0; i < found.picked.size(); ++i)
-      chaos.terms.push_back({candidates[found.picked[i]], found.fit.coefficients(index(i))});
+      chaos.terms.push_back({candidates[found.picked[i]].degrees, found.fit.coefficients(index(i))});
   }
   if (chaos.terms.empty()) chaos.reason = "no polynomial can be fitted to the evaluations";
   return chaos;
@@ -283,7 +276,7 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
 
 FittedChaos::FittedChaos(PolynomialChaos chaos, const std::vector<double>& points)
     : chaos_(std::move(chaos)) {
-  const Matrix terms = matrix_of(chaos_.inputs, degrees_of(chaos_), chaos_.degree, points);
+  const Matrix terms = matrix_of(chaos_.inputs, chaos_.terms, chaos_.degree, points);
   const Matrix inverse =
       (terms.transpose() * terms).ldlt().solve(Matrix::Identity(terms.cols(), terms.cols()));
   form_.matrix.assign(inverse.data(), inverse.data() + inverse.size());
@@ -314,7 +307,7 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
     indices.reason = "the output does not vary";
     return indices;
   }
-  const Matrix matrix = matrix_of(chaos.inputs, degrees_of(chaos), chaos.degree, rows.points);
+  const Matrix matrix = matrix_of(chaos.inputs, chaos.terms, chaos.degree, rows.points);
   const Vector fitted_values = vector_of(rows.values);
   const Shares own = shares_of(chaos.terms, coefficients_of(chaos), begins);
   std::vector<std::vector<double>> first(own.first.size()), total(own.first.size());

@@ -43,33 +43,28 @@ double standard_normal_quantile(double u) {
   return u < 0.5 ? lower_normal_quantile(u) : -lower_normal_quantile(1.0 - u);
 }
 
-/// The ends of a normal in deviations from its centre.
-struct StandardEnds {
-  double lower, upper;
-};
-
 double standardised(const Distribution& distribution, double x) {
   return (x - distribution.centre) / distribution.deviation;
 }
 
-StandardEnds standard_ends(const Distribution& distribution) {
+/// The ends of a normal in deviations from its centre.
+std::pair<double, double> standard_ends(const Distribution& distribution) {
   return {standardised(distribution, distribution.lower), standardised(distribution, distribution.upper)};
 }
 
 double normal_quantile(const Distribution& distribution, double u) {
-  const StandardEnds ends = standard_ends(distribution);
-  const double inside = normal_between(ends.lower, ends.upper);
-  const double below = normal_below(ends.lower) + u * inside;
-  const double above = normal_above(ends.upper) + (1.0 - u) * inside;
+  const auto [begin, end] = standard_ends(distribution);
+  const double inside = normal_between(begin, end);
+  const double below = normal_below(begin) + u * inside;
+  const double above = normal_above(end) + (1.0 - u) * inside;
   // The smaller probability is the one that is known to its last digits.
   const double z = below < above ? lower_normal_quantile(below) : -lower_normal_quantile(above);
   return distribution.centre + distribution.deviation * z;
 }
 
 double normal_mean(const Distribution& distribution) {
-  const StandardEnds ends = standard_ends(distribution);
-  const double shift =
-      (normal_density(ends.lower) - normal_density(ends.upper)) / normal_between(ends.lower, ends.upper);
+  const auto [begin, end] = standard_ends(distribution);
+  const double shift = (normal_density(begin) - normal_density(end)) / normal_between(begin, end);
   return distribution.centre + distribution.deviation * shift;
 }
 
@@ -135,7 +130,7 @@ Distribution Distribution::normal(double centre, double deviation, double lower,
 }
 
 Distribution Distribution::log_normal(double median, double deviation) {
-  return {Kind::log_normal, 0.0, std::numeric_limits<double>::infinity(), median, deviation};
+  return {Kind::log_normal, 0.0, infinity, median, deviation};
 }
 
 bool is_valid(const Distribution& distribution) {
@@ -145,8 +140,8 @@ bool is_valid(const Distribution& distribution) {
   if (kind == Distribution::Kind::log_uniform) return lower > 0.0 && std::isfinite(upper / lower);
   if (!std::isfinite(centre) || !std::isfinite(deviation) || !(deviation > 0.0)) return false;
   if (kind == Distribution::Kind::log_normal) return centre > 0.0;
-  const StandardEnds ends = standard_ends(distribution);
-  return normal_between(ends.lower, ends.upper) >= 1e-280;
+  const auto [begin, end] = standard_ends(distribution);
+  return normal_between(begin, end) >= 1e-280;
 }
 
 double quantile(const Distribution& distribution, double u) {
@@ -154,22 +149,20 @@ double quantile(const Distribution& distribution, double u) {
   const double lower = distribution.lower, upper = distribution.upper;
   if (u <= 0.0) return lower;
   if (u >= 1.0) return upper;
-  double value = 0.0;
-  switch (distribution.kind) {
-    case Distribution::Kind::uniform:
-      value = (1.0 - u) * lower + u * upper;
-      break;
-    case Distribution::Kind::log_uniform:
-      value = lower * std::exp(u * log_ratio(distribution, upper));
-      break;
-    case Distribution::Kind::normal:
-      value = normal_quantile(distribution, u);
-      break;
-    case Distribution::Kind::log_normal:
-      value = distribution.centre * std::exp(distribution.deviation * standard_normal_quantile(u));
-      break;
-  }
-  return std::clamp(value, lower, upper);
+  const auto inside = [&] {
+    switch (distribution.kind) {
+      case Distribution::Kind::uniform:
+        return (1.0 - u) * lower + u * upper;
+      case Distribution::Kind::log_uniform:
+        return lower * std::exp(u * log_ratio(distribution, upper));
+      case Distribution::Kind::log_normal:
+        return distribution.centre * std::exp(distribution.deviation * standard_normal_quantile(u));
+      case Distribution::Kind::normal:
+        break;
+    }
+    return normal_quantile(distribution, u);
+  };
+  return std::clamp(inside(), lower, upper);
 }
 
 double cumulative(const Distribution& distribution, double x) {
@@ -187,8 +180,8 @@ double cumulative(const Distribution& distribution, double x) {
     case Distribution::Kind::normal:
       break;
   }
-  const StandardEnds ends = standard_ends(distribution);
-  return normal_between(ends.lower, standardised(distribution, x)) / normal_between(ends.lower, ends.upper);
+  const auto [begin, end] = standard_ends(distribution);
+  return normal_between(begin, standardised(distribution, x)) / normal_between(begin, end);
 }
 
 double mean_of(const Distribution& distribution) {
@@ -239,17 +232,9 @@ std::vector<double> unit_points(Design design, std::size_t points, std::size_t d
   assert(points < (std::uint64_t{1} << 32));
   std::vector<double> values(points * dimensions);
   if (values.empty()) return values;
-  switch (design) {
-    case Design::monte_carlo:
-      fill_monte_carlo(values, dimensions, seed);
-      break;
-    case Design::latin_hypercube:
-      fill_latin_hypercube(values, dimensions, seed);
-      break;
-    case Design::scrambled_sobol:
-      fill_scrambled_sobol(values, dimensions, seed);
-      break;
-  }
+  if (design == Design::monte_carlo) fill_monte_carlo(values, dimensions, seed);
+  if (design == Design::latin_hypercube) fill_latin_hypercube(values, dimensions, seed);
+  if (design == Design::scrambled_sobol) fill_scrambled_sobol(values, dimensions, seed);
   return values;
 }
 

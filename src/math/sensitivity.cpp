@@ -14,8 +14,6 @@
 
 namespace launchsafe::math {
 namespace {
-
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// The outputs of those rows that are all finite.
@@ -215,7 +213,7 @@ SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& output
   result.rows_left_out = outputs.size() / blocks - result.rows_used;
   result.inputs.assign(inputs, {no_estimate, no_estimate});
 
-  const std::size_t needed = std::max<std::size_t>(options.minimum_rows, 2);
+  constexpr std::size_t needed = 16;
   const auto [least, greatest] = std::minmax_element(sample.begin(), sample.end());
   if (result.rows_used < needed) {
     result.reason = too_few_rows(result.rows_used, result.rows_left_out, needed);

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 
 namespace launchsafe::math {
@@ -20,14 +19,8 @@ namespace {
 
 using Eigen::Index, Eigen::MatrixXd, Eigen::VectorXd;
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
 double student_quantile(double level, int degrees_of_freedom) {
   return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.5 * (1.0 + level));
-}
-
-bool all_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 bool is_fittable(const std::vector<std::vector<double>>& rows, const std::vector<double>& y) {
@@ -44,7 +37,30 @@ double explained_share(const std::vector<double>& y, double residual_sum) {
   return total > 0.0 ? 1.0 - residual_sum / total : 1.0;
 }
 
+/// The order p > 0 of the power law through three values, whose (r31^p - 1)/(r21^p - 1) grows with p; NaN
+/// where there is none up to 50.
+double bracketed_order(const std::array<double, 3>& values, double r21, double r31) {
+  const double wanted = (values[2] - values[0]) / (values[1] - values[0]);
+  const auto excess = [&](double p) {
+    return std::expm1(p * std::log(r31)) / std::expm1(p * std::log(r21)) - wanted;
+  };
+  constexpr double lowest = 1e-6, highest = 50.0;
+  if (!(excess(lowest) < 0.0 && excess(highest) > 0.0)) return not_a_number;
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, lowest, highest, boost::math::tools::eps_tolerance<double>(46), iterations);
+  return 0.5 * (left + right);
+}
+
 }  // namespace
+
+bool all_finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+double sum_of_squares(const std::vector<double>& values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
+}
 
 Moments moments_of(const std::vector<double>& values) {
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -137,25 +153,6 @@ Interval clopper_pearson(std::size_t count, std::size_t trials, double level) {
           count == trials ? 1.0 : boost::math::ibetac_inv(k + 1.0, rest, tail)};
 }
 
-namespace {
-
-/// The order p > 0 of the power law through three values, whose (r31^p - 1)/(r21^p - 1) grows with p; NaN
-/// where there is none up to 50.
-double bracketed_order(const std::array<double, 3>& values, double r21, double r31) {
-  const double wanted = (values[2] - values[0]) / (values[1] - values[0]);
-  const auto excess = [&](double p) {
-    return std::expm1(p * std::log(r31)) / std::expm1(p * std::log(r21)) - wanted;
-  };
-  constexpr double lowest = 1e-6, highest = 50.0;
-  if (!(excess(lowest) < 0.0 && excess(highest) > 0.0)) return not_a_number;
-  std::uintmax_t iterations = 100;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, lowest, highest, boost::math::tools::eps_tolerance<double>(46), iterations);
-  return 0.5 * (left + right);
-}
-
-}  // namespace
-
 std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& values,
                                                 const std::array<double, 3>& cell_sizes) {
   const double fine_difference = values[1] - values[0], coarse_difference = values[2] - values[1];
@@ -178,13 +175,7 @@ std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& val
   if (!(order > 1e-6)) return std::nullopt;
 
   const double growth = std::pow(r21, order);
-  GridConvergence result;
-  result.order = order;
-  result.extrapolated = (growth * values[0] - values[1]) / (growth - 1.0);
-  result.fine_error = std::abs(fine_difference / values[0]);
-  result.fine_index = 1.25 * result.fine_error / (growth - 1.0);
-  result.oscillating = ratio < 0.0;
-  return result;
+  return GridConvergence{order, (growth * values[0] - values[1]) / (growth - 1.0), ratio < 0.0};
 }
 
 }  // namespace launchsafe::math

@@ -1,4 +1,4 @@
-#include "launchsafe/mpm/burning.hpp"
+#include "launchsafe/mpm/body.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,5 @@
 // The row of a charge that burns, in a file of its own: beside it, in one file, compilers make the row that
 // does not burn slower by a tenth.
-#include "burning_row.hpp"
-
 #include "total_lagrangian_row.hpp"
 
 namespace launchsafe::mpm {

@@ -28,15 +28,12 @@ Thermal thermal_of(const AnyBody& any) {
       any);
 }
 
-Eigen::Index particles_of(const Lattice& lattice) {
-  return static_cast<Eigen::Index>(lattice.columns()) * lattice.rows();
-}
-
-/// Calls f(number, slot) for every particle of a body whose first particle has the number `first`.
+/// Calls f(number, slot) for every particle of a body; `next`: number of its first one, then of the next
+/// body's.
 template <class F>
-void for_each_particle(const Lattice& lattice, Eigen::Index first, F&& f) {
+void for_each_particle(const Lattice& lattice, Eigen::Index& next, F&& f) {
   for (int j = 0; j < lattice.rows(); ++j)
-    for (int i = 0; i < lattice.columns(); ++i) f(first++, lattice.slot(i, j));
+    for (int i = 0; i < lattice.columns(); ++i) f(next++, lattice.slot(i, j));
 }
 
 /// Solves a symmetric positive definite system by conjugate gradients, preconditioned with its diagonal. A
@@ -61,7 +58,7 @@ class Network {
     for (const AnyBody& body : bodies) {
       const Lattice& lattice = particle_fields_of(body).lattice;
       parts_.push_back({lattice, first, thermal_of(body).conductivity});
-      first += particles_of(lattice);
+      first += static_cast<Eigen::Index>(lattice.columns()) * lattice.rows();
     }
     for (const Part& part : parts_) link_inside(part);
     for (const Part& a : parts_)
@@ -163,12 +160,13 @@ Conduction::Conduction(const Simulation& simulation) {
   conductance_ = network.take();
   capacity_.resize(conductance_.rows());
   const scene::Extent extent = scene::extent_of(scene);
-  Eigen::Index first = 0;
+  Eigen::Index next = 0;
   for (const AnyBody& body : simulation.bodies()) {
     const Thermal thermal = thermal_of(body);
     const ParticleFields& p = particle_fields_of(body);
     const Lattice& lattice = p.lattice;
-    for_each_particle(lattice, first, [&](Eigen::Index number, std::size_t slot) {
+    const Eigen::Index first = next;
+    for_each_particle(lattice, next, [&](Eigen::Index number, std::size_t slot) {
       capacity_[number] = p.mass[slot] * thermal.specific_heat;
     });
     const bool at_base =
@@ -179,7 +177,6 @@ Conduction::Conduction(const Simulation& simulation) {
       base_.push_back({first + static_cast<Eigen::Index>(j + 1) * lattice.columns() - 1, area,
                        thermal.conductivity * area / (0.5 * lattice.length_x(lattice.columns() - 1))});
     }
-    first += particles_of(lattice);
   }
 }
 
@@ -192,12 +189,11 @@ void Conduction::heat_base(double flux) { flux_ = flux; }
 
 void Conduction::advance(Simulation& simulation, double dt) {
   Eigen::VectorXd temperature(capacity_.size());
-  Eigen::Index first = 0;
+  Eigen::Index next = 0;
   std::as_const(simulation).for_each_body([&](const ParticleFields& p) {
-    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+    for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
       temperature[number] = p.temperature[slot];
     });
-    first += particles_of(p.lattice);
   });
   // (C + dt K) change = -dt K T + dt q: solved for the change, so that heat is conserved to round-off.
   Eigen::VectorXd gain = -dt * (conductance_ * temperature);
@@ -221,28 +217,26 @@ void Conduction::advance(Simulation& simulation, double dt) {
   }
   change.array() += (entered - capacity_.dot(change)) / capacity_.sum();
 
-  first = 0;
+  next = 0;
   const auto apply = [&]<class Law>(Body<Law>& body) {
     ParticleFields& p = body.particles;
-    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+    for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
       p.temperature[slot] += change[number];
       auto state = body.at(slot);
       body.law.set_temperature(state, p.temperature[slot]);
       for (std::size_t f = 0; f < state.size(); ++f) body.state[f][slot] = state[f];
     });
-    first += particles_of(p.lattice);
   };
   for (AnyBody& body : simulation.bodies()) std::visit(apply, body);
 }
 
 double Conduction::heat(const Simulation& simulation) const {
   double total = 0.0;
-  Eigen::Index first = 0;
+  Eigen::Index next = 0;
   simulation.for_each_body([&](const ParticleFields& p) {
-    for_each_particle(p.lattice, first, [&](Eigen::Index number, std::size_t slot) {
+    for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
       total += capacity_[number] * p.temperature[slot];
     });
-    first += particles_of(p.lattice);
   });
   return total;
 }

@@ -87,16 +87,6 @@ void Contact::push(const Row& row, double normal, double slide) {
   }
 }
 
-/// The same for the velocity summed from the particles, also where the nodes are held along r.
-void Contact::exchange_impulse(const Row& row, double normal, double slide) {
-  const Velocity j = impulse(row, normal, slide);
-  for (std::size_t s = row.begin; s < row.end; ++s) {
-    const Share& each = shares_[s];
-    exchanged_velocity_.x(each.point) += each.give_x * j.x;
-    exchanged_velocity_.r(each.point) += each.free_r * j.r;
-  }
-}
-
 void Contact::read_nodes(const std::vector<Nodes>& nodes) {
   for (const Member& m : members_) {
     const Nodes& n = nodes[m.nodes];
@@ -116,8 +106,13 @@ void Contact::exchange_momentum() {
   for (const Row& row : rows_) {
     if (!row.bonded) continue;
     const Velocity v = relative(row, exchanged_velocity_);
-    exchange_impulse(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.free_normal_inertia,
-                     -(v.r * row.normal_x - v.x * row.normal_r) * row.free_slide_inertia);
+    const Velocity j = impulse(row, -(v.x * row.normal_x + v.r * row.normal_r) * row.free_normal_inertia,
+                               -(v.r * row.normal_x - v.x * row.normal_r) * row.free_slide_inertia);
+    // Also where the nodes are held along r.
+    for (std::size_t s = row.begin; s < row.end; ++s) {
+      exchanged_velocity_.x(shares_[s].point) += shares_[s].give_x * j.x;
+      exchanged_velocity_.r(shares_[s].point) += shares_[s].free_r * j.r;
+    }
   }
 }
 
@@ -411,20 +406,9 @@ std::vector<FaceState> Contact::state_of(std::size_t face) const {
     const Row& row = rows_[f.first_row + i];
     const double per_impulse =
         row.area > 0.0 && last_dt_ > 0.0 ? 1.0 / (row.area * last_dt_ * damping_factor_) : 0.0;
-    FaceState state;
-    state.place = f.own.rest[i];
-    state.area = row.area;
-    state.gap = row.gap;
-    state.pressure = row.normal * per_impulse;
-    state.shear = direction * row.slide * per_impulse;
-    state.sliding_speed = direction * row.sliding;
-    state.friction_heat = row.friction_heat;
-    state.slid = row.slid;
-    state.slip = direction * row.slip;
-    state.largest_gap = row.largest_gap;
-    state.overlap = row.overlap;
-    state.bonded = row.bonded;
-    states.push_back(state);
+    states.push_back({f.own.rest[i], row.area, row.gap, row.normal * per_impulse,
+                      direction * row.slide * per_impulse, row.friction_heat, row.slid, direction * row.slip,
+                      row.largest_gap, row.overlap, row.bonded});
   }
   return states;
 }

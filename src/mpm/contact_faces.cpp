@@ -2,6 +2,7 @@
 #include "launchsafe/mpm/contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,18 +14,8 @@ namespace {
 constexpr double least_mobility = 1e-9;
 
 Side opposite(Side side) {
-  switch (side) {
-    case Side::x_begin:
-      return Side::x_end;
-    case Side::x_end:
-      return Side::x_begin;
-    case Side::r_begin:
-      return Side::r_end;
-    case Side::r_end:
-      return Side::r_begin;
-    default:
-      return Side::none;
-  }
+  constexpr std::array all{Side::none, Side::x_end, Side::x_begin, Side::r_end, Side::r_begin};
+  return all[static_cast<std::size_t>(side)];
 }
 
 bool runs_along_x(Side side) { return side == Side::r_begin || side == Side::r_end; }

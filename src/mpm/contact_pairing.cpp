@@ -1,4 +1,4 @@
-#include "launchsafe/mpm/contact_pairing.hpp"
+#include "launchsafe/mpm/contact.hpp"
 
 #include <algorithm>
 #include <array>

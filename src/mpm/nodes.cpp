@@ -13,10 +13,7 @@ namespace launchsafe::mpm {
 namespace {
 
 int line_index(const std::vector<double>& lines, double place) {
-  const auto after = std::lower_bound(lines.begin(), lines.end(), place);
-  auto nearest = after == lines.end() ? after - 1 : after;
-  if (nearest != lines.begin() && std::abs(*(nearest - 1) - place) < std::abs(*nearest - place)) --nearest;
-  return static_cast<int>(nearest - lines.begin());
+  return static_cast<int>(scene::nearest_line(lines, place));
 }
 
 /// The bodies at one place in sets that hold each other. Without faces that part, all do.

@@ -1,6 +1,5 @@
 #include "launchsafe/mpm/total_lagrangian.hpp"
 
-#include "burning_row.hpp"
 #include "launchsafe/mpm/material_step.hpp"
 #include "launchsafe/scene/chamber.hpp"
 #include "total_lagrangian_row.hpp"
@@ -78,7 +77,9 @@ TotalLagrangian::TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>
     }
   }
   contact_ = std::make_unique<Contact>(scene, lines_, nodes_, ties_);
-  find_chamber_load();
+  // On faces at rest: steel turns and stretches too little to matter.
+  for (const scene::ChamberFace& face : scene::chamber_of(scene).faces)
+    face.across_x() ? load_across(face) : load_along(face);
   share_work();
   reset_grid();
 }
@@ -140,12 +141,6 @@ void TotalLagrangian::share_work() {
     node_rows_.emplace_back();
     for (const auto& [b, j] : share) node_rows_.back().push_back({b, j, j + 1});
   }
-}
-
-/// On faces at rest: steel turns and stretches too little to matter.
-void TotalLagrangian::find_chamber_load() {
-  for (const scene::ChamberFace& face : scene::chamber_of(scene_).faces)
-    face.across_x() ? load_across(face) : load_along(face);
 }
 
 void TotalLagrangian::load_across(const scene::ChamberFace& face) {

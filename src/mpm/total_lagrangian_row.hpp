@@ -215,6 +215,10 @@ template <bool burns, class Law>
   }
 }
 
+/// `advance_row` of a body with `ParticleFields::burning`.
+void advance_burning_row(Body<materials::Charge>& body, Nodes& nodes, const RowStep& step,
+                         ParticleTotals& totals);
+
 /// Gives the particles' momentum to empty nodes.
 inline void momentum_to_nodes(const ParticleFields& p, Nodes& nodes, const std::vector<RowWeights>& rows) {
   for (NodeSums* sums : {&nodes.inside, &nodes.outside}) {

@@ -38,18 +38,15 @@ struct Transfer {
   bool axisymmetric = true;
 };
 
-/// Volume after a volumetric strain increment: V exp(tr) to second order.
-Pack strained(Pack volume, Pack volumetric) {
-  return volume * (1.0 + 0.5 * volumetric) / (1.0 - 0.5 * volumetric);
-}
-
 Deformation deformation_of(const GridToParticle& g, double dt, Pack rest_volume, Pack volume) {
   const Pack volumetric = (g.rate_rr + g.rate_xx + g.rate_tt) * dt;
   const Pack third = volumetric * (1.0 / 3.0);
+  // V exp(tr) to second order.
+  const Pack volume_after = volume * (1.0 + 0.5 * volumetric) / (1.0 - 0.5 * volumetric);
   return {{{g.rate_rr * dt - third, g.rate_xx * dt - third, (g.vr_by_x + g.vx_by_r) * (0.5 * dt)},
            math::rotation_of((g.vr_by_x - g.vx_by_r) * (0.5 * dt)),
            volume,
-           strained(volume, volumetric)},
+           volume_after},
           rest_volume};
 }
 
@@ -120,8 +117,8 @@ UpdatedLagrangian::UpdatedLagrangian(const scene::Scene& scene, std::vector<AnyB
     const scene::Body& body = scene.bodies[static_cast<std::size_t>(p.body)];
     const int last = lattice.columns() - 1;
     for (int j = 0; body.x_end >= base && j < lattice.rows(); ++j)
-      faces_.push_back({&p, lattice.slot(last, j), half_x(p), half_r(p),
-                        radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j)});
+      faces_.push_back(
+          {&p, lattice.slot(last, j), radial_measure(axisymmetric_, lattice.r_of(j)) * lattice.length_r(j)});
     if (body.x_end != bottom || scene::is_charge(scene, body) != has_charge) continue;
     for (int j = 0; j < lattice.rows(); ++j)
       anchors_.push_back({&p, lattice.slot(last, j), lattice.x_of(last)});
@@ -171,10 +168,10 @@ void UpdatedLagrangian::locate_load() {
   load_shares_.clear();
   for (const LoadedFace& face : faces_) {
     const ParticleFields& p = *face.body;
-    const StencilContext context{grid_, grid_.origin_x, face.half_x, face.half_r, axisymmetric_};
+    const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p), axisymmetric_};
     const Stencil stencil = stencil_of(context, Pack(p.x[face.slot]), Pack(p.r[face.slot]));
     if (stencil.inside.lanes[0] == 0) continue;
-    const double coordinate = (p.x[face.slot] + face.half_x - grid_.origin_x) / grid_.dx;
+    const double coordinate = (p.x[face.slot] + half_x(p) - grid_.origin_x) / grid_.dx;
     const double cell = std::floor(coordinate), share = coordinate - cell;
     const auto nodes_x = static_cast<std::size_t>(grid_.nodes_x);
     const auto row = static_cast<std::size_t>(stencil.first[0]) / nodes_x;
@@ -277,6 +274,32 @@ StepTotals UpdatedLagrangian::step(const StepInput& input) {
   totals.particles.centred_kinetic *= scene_.numerics.inertial_scaling;
   totals.particles.pic_loss *= scene_.numerics.inertial_scaling;
   return totals;
+}
+
+Grid make_grid(const scene::Scene& scene) {
+  const scene::Mesh mesh = scene::fit_mesh(scene);
+  const scene::Extent extent = scene::extent_of(scene);
+  Grid grid;
+  grid.dx = mesh.dx;
+  grid.dr = mesh.dr;
+  const int cells_before = static_cast<int>(std::ceil((mesh.x_anchor - extent.x_begin) / mesh.dx - 1e-9));
+  const int cells_after = static_cast<int>(std::ceil((extent.x_end - mesh.x_anchor) / mesh.dx - 1e-9));
+  grid.origin_x = mesh.x_anchor - (cells_before + Grid::axial_padding) * mesh.dx;
+  grid.nodes_x = cells_before + cells_after + 2 * Grid::axial_padding + 1;
+  const int cells_r = static_cast<int>(std::lround(mesh.radius / mesh.dr));
+  const int room = scene.barrel == scene::Barrel::none ? cells_r / 2 + 4 : 4;
+  const int barrel_row = cells_r + Grid::radial_padding;
+  grid.nodes_r = cells_r + 1 + Grid::radial_padding + room;
+  const std::size_t whole_packs = (grid.nodes() + math::pack_width - 1) / math::pack_width * math::pack_width;
+  for (auto* field :
+       {&grid.mass, &grid.momentum_x, &grid.momentum_r, &grid.force_x, &grid.force_r, &grid.velocity_x,
+        &grid.velocity_r, &grid.velocity_increment_x, &grid.velocity_increment_r, &grid.radially_free})
+    field->assign(whole_packs, 0.0);
+  for (int j = Grid::radial_padding + 1; j < grid.nodes_r; ++j)
+    if (scene.barrel == scene::Barrel::none || j < barrel_row)
+      std::fill_n(grid.radially_free.begin() + static_cast<std::ptrdiff_t>(grid.index(0, j)), grid.nodes_x,
+                  1.0);
+  return grid;
 }
 
 }  // namespace launchsafe::mpm

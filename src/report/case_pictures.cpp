@@ -60,6 +60,18 @@ void add_shown(const DrawnCase& drawn, const std::vector<run::Snapshot>& snapsho
   }
 }
 
+/// A sample of the trace.
+struct PressureRow {
+  double time, chamber, bottom;  ///< s, Pa
+};
+
+const Quantities<PressureRow> pressure_quantities{
+    {drawn_time(), &PressureRow::time},
+    {"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base.",
+     &PressureRow::chamber},
+    {"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom.",
+     &PressureRow::bottom}};
+
 }  // namespace
 
 std::string shortened(const std::string& text, std::size_t longest) {
@@ -93,16 +105,12 @@ Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity) 
   return plot;
 }
 
-Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity) {
-  return time_plot(drawn, std::move(title), quantity.label());
-}
-
 Plot load_plot(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  Plot plot = time_plot(drawn, {}, quantity::pressure());
+  Plot plot = time_plot(drawn, {}, quantity::pressure.label());
   plot.named_in_place = true;
-  plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure()),
-                 time_series("charge's bottom", trace.time, trace.bottom_pressure, quantity::pressure())};
+  plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure),
+                 time_series("charge's bottom", trace.time, trace.bottom_pressure, quantity::pressure)};
   return plot;
 }
 
@@ -113,24 +121,6 @@ Series time_series(const char* label, const std::vector<double>& time, const std
           .y = shown_values(values, quantity),
           .style = Style::line};
 }
-
-namespace {
-
-/// A sample of the trace.
-struct PressureRow {
-  double time, chamber, bottom;  ///< s, Pa
-};
-
-Quantities<PressureRow> pressure_quantities() {
-  return {
-      {drawn_time(), &PressureRow::time},
-      {{"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base."},
-       &PressureRow::chamber},
-      {{"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom."},
-       &PressureRow::bottom}};
-}
-
-}  // namespace
 
 std::string lacks_pressure(const DrawnCase& drawn) {
   return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
@@ -152,7 +142,7 @@ std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
   std::vector<PressureRow> rows;
   for (std::size_t i = 0; i < trace.samples(); ++i)
     rows.push_back({trace.time[i], trace.chamber_pressure[i], trace.bottom_pressure[i]});
-  return {{"pressure.csv", table_of({}, pressure_quantities(), rows)}};
+  return {{"pressure.csv", table_of({}, pressure_quantities, rows)}};
 }
 
 std::string lacks_energy(const DrawnCase& drawn) {
@@ -209,10 +199,6 @@ std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn) {
 
 bool is_of_time(const ShownSnapshot& snapshot, double time) {
   return std::abs(snapshot.time() - time) <= 1e-6 * std::abs(time);
-}
-
-store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits) {
-  return std::visit([&](const auto& plot) { return to_svg(plot, "gnuplot", limits); }, picture.plot);
 }
 
 }  // namespace launchsafe::report

@@ -6,12 +6,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace launchsafe::report::detail {
 namespace {
 
 const trace::BottomTrace& trace_of(const DrawnCase& drawn) { return drawn.result.mechanics.trace; }
+
+/// Samples before the ignition, all without one.
+std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
+  if (!skin.ignition) return skin.time.size();
+  return static_cast<std::size_t>(std::ranges::lower_bound(skin.time, skin.ignition->time) -
+                                  skin.time.begin());
+}
+
+/// A value for every station that tiles the bottom, against `x`: the first, the middle and the last station
+/// and the one of index `marked` by name, all others thin and grey.
+std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
+                                   const std::function<double(std::size_t, std::size_t)>& value,
+                                   std::size_t marked) {
+  constexpr int grey = 7;
+  const std::vector<std::size_t> rings = rings_of(trace);
+  std::vector<Series> background, named;
+  for (const std::size_t ring : rings) {
+    const trace::Station& station = trace.stations[ring];
+    Series series{.x = x, .style = Style::line, .colour = grey};
+    for (std::size_t sample = 0; sample < x.size(); ++sample) series.y.push_back(value(sample, ring));
+    const bool is_named =
+        ring == rings.front() || ring == rings.back() || ring == rings[rings.size() / 2] || ring == marked;
+    if (!is_named) {
+      background.push_back(std::move(series));
+      continue;
+    }
+    series.label =
+        fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
+    series.colour = static_cast<int>(named.size());
+    named.push_back(std::move(series));
+  }
+  if (!background.empty()) background.front().label = "stations between";
+  background.insert(background.end(), named.begin(), named.end());
+  return background;
+}
 
 /// The gaps of a case that hold what a kind of pictures needs.
 std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
@@ -27,7 +63,7 @@ std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& ga
   const surface::Ignition& ignition = *gap.skin.ignition;
   return {{shown_value(ignition.time, drawn_time().form),
            fmt::format("ignition at {}, {}", trace_of(drawn).stations[ignition.station].name,
-                       in_words(ignition.time, quantity::ignition_time().form))}};
+                       in_words(ignition.time, quantity::ignition_time.form))}};
 }
 
 std::string gap_title(const char* what, const run::GapResult& gap) {
@@ -49,9 +85,8 @@ CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plo
 
 // --- profiles ---
 
-Column distance_from_axis() {
-  return {"r", "distance from the axis, r", keys::significant(4, millimetre), "Distance from the axis."};
-}
+const Column distance_from_axis{"r", "distance from the axis, r", keys::significant(4, millimetre),
+                                "Distance from the axis."};
 
 std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_t station,
                                     std::size_t stations) {
@@ -65,8 +100,8 @@ std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_
 Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   const trace::BottomTrace& trace = trace_of(drawn);
   Plot plot = titled_plot(drawn, {});
-  plot.x = {.label = distance_from_axis().label(), .minimum = 0.0};
-  plot.y.label = quantity::skin_temperature().label();
+  plot.x = {.label = distance_from_axis.label(), .minimum = 0.0};
+  plot.y.label = quantity::skin_temperature.label();
   plot.named_in_place = true;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
@@ -75,9 +110,9 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
     const double last = skin.time[samples - 1];
     Series& series = plot.series.emplace_back(Series{.label = centimetres(gap->gap)});
     if (skin.ignition && time.value_or(last) >= last)
-      series.label += ", igniting at " + in_words(skin.ignition->time, quantity::time_in_titles());
+      series.label += ", igniting at " + in_words(skin.ignition->time, quantity::time_in_titles);
     for (const std::size_t ring : rings_of(trace))
-      series.add(shown_value(trace.stations[ring].r, distance_from_axis().form),
+      series.add(shown_value(trace.stations[ring].r, distance_from_axis.form),
                  trace::interpolate(skin.time, temperatures_of(skin, ring, trace.stations.size()),
                                     std::min(time.value_or(last), last)));
   }
@@ -88,7 +123,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   }
   plot.title =
       fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
-                  time ? "at " + in_words(*time, quantity::time_in_titles()) : "at the end");
+                  time ? "at " + in_words(*time, quantity::time_in_titles) : "at the end");
   return plot;
 }
 
@@ -107,11 +142,11 @@ bool has_closed(const DrawnCase&, const run::GapResult& gap) {
 /// Air temperatures until ignition, one line for gaps that have the same.
 Plot air_plot(const DrawnCase& drawn) {
   constexpr double same = 0.05;  // K
-  Plot plot = time_plot(drawn, {}, headed("air temperature", quantity::skin_temperature()));
+  Plot plot = time_plot(drawn, {}, headed("air temperature", quantity::skin_temperature).label());
   plot.named_in_place = true;
   double highest = 0.0;
   for (const run::GapResult* gap : gaps_with(has_air, drawn)) {
-    Series line = time_series("", gap->skin.time, gap->skin.air_temperature, quantity::skin_temperature());
+    Series line = time_series("", gap->skin.time, gap->skin.air_temperature, quantity::skin_temperature);
     line.label = centimetres(gap->gap);
     line.x.resize(samples_before_ignition(gap->skin));
     line.y.resize(line.x.size());
@@ -139,18 +174,18 @@ Plot air_plot(const DrawnCase& drawn) {
 void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass());
+  const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass);
   const auto until_end =
       in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond));
   Plot mass = gap_plot(drawn, gap, "", burnt.label());
   mass.title = fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
                            in_words(history.burnt_mass.back(), keys::significant(2, gram)), until_end);
   mass.series = {time_series("", history.time, history.burnt_mass, burnt)};
-  Plot pressure = gap_plot(drawn, gap, "", quantity::pressure().label());
+  Plot pressure = gap_plot(drawn, gap, "", quantity::pressure.label());
   pressure.title =
       fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
                   in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal)));
-  pressure.series = {time_series("", history.time, history.pressure, quantity::pressure())};
+  pressure.series = {time_series("", history.time, history.pressure, quantity::pressure)};
   Plot degree =
       gap_plot(drawn, gap, "The skin burns from station to station", "reaction degree of the skin [1]");
   const std::size_t stations = trace_of(drawn).stations.size();
@@ -171,65 +206,11 @@ bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
              gap.combustion->samples() * trace_of(drawn).stations.size();
 }
 
-}  // namespace
-
-bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
-  return gap.skin.time.size() > 1 && !rings_of(trace_of(drawn)).empty() &&
-         gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
-}
-
-std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
-  if (!skin.ignition) return skin.time.size();
-  return static_cast<std::size_t>(std::ranges::lower_bound(skin.time, skin.ignition->time) -
-                                  skin.time.begin());
-}
-
-std::string gap_in_name(double gap) {
-  const Form form = quantity::gap().form;
-  return digits_of(gap, form) + form.unit;
-}
-
-std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
-  std::vector<std::size_t> rings;
-  for (std::size_t i = 0; i < trace.stations.size(); ++i)
-    if (!trace.stations[i].observation) rings.push_back(i);
-  std::ranges::stable_sort(rings, {}, [&](std::size_t ring) { return trace.stations[ring].r; });
-  return rings;
-}
-
-std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
-                                   const std::function<double(std::size_t, std::size_t)>& value,
-                                   std::size_t marked) {
-  constexpr int grey = 7;
-  const std::vector<std::size_t> rings = rings_of(trace);
-  std::vector<Series> background, named;
-  for (const std::size_t ring : rings) {
-    const trace::Station& station = trace.stations[ring];
-    Series series{.x = x, .style = Style::line, .colour = grey};
-    for (std::size_t sample = 0; sample < x.size(); ++sample) series.y.push_back(value(sample, ring));
-    const bool is_named =
-        ring == rings.front() || ring == rings.back() || ring == rings[rings.size() / 2] || ring == marked;
-    if (!is_named) {
-      background.push_back(std::move(series));
-      continue;
-    }
-    series.label =
-        fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
-    series.colour = static_cast<int>(named.size());
-    named.push_back(std::move(series));
-  }
-  if (!background.empty()) background.front().label = "stations between";
-  background.insert(background.end(), named.begin(), named.end());
-  return background;
-}
-
-namespace {
-
 std::string history_title(const DrawnCase& drawn, const run::GapResult& gap) {
   const auto& stations = trace_of(drawn).stations;
   if (const auto& ignition = gap.skin.ignition)
     return fmt::format("Gap {}: {} ignites at {}", centimetres(gap.gap), stations[ignition->station].name,
-                       in_words(ignition->time, quantity::ignition_time().form));
+                       in_words(ignition->time, quantity::ignition_time.form));
   const surface::Maximum& hottest = gap.at_stations;
   const double margin = drawn.scene.charge().kinetics.ignition_temperature - hottest.temperature;
   return fmt::format("Gap {}: {} reaches {}, {} K {} ignition", centimetres(gap.gap),
@@ -249,7 +230,7 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
     // What burns is far hotter than all before: it would set the axis.
     std::vector<double> times = shown_values(skin.time, drawn_time());
     times.resize(samples_before_ignition(skin));
-    Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature().label());
+    Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature.label());
     for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
     skins.series = station_series(
         trace_of(drawn), times,
@@ -284,7 +265,7 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
         {drawn_time(), [&skin](std::size_t sample) { return skin.time[sample]; }}};
     for (std::size_t i = 0; i < stations.size(); ++i)
       quantities.emplace_back(
-          named(stations[i].name, headed(stations[i].name, always(quantity::skin_temperature()))),
+          named(stations[i].name, headed(stations[i].name, always(quantity::skin_temperature))),
           [&skin, i, count = stations.size()](std::size_t sample) {
             return skin.temperature[sample * count + i];
           });
@@ -308,7 +289,7 @@ std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
 /// Of gaps that close, against time: what they are at, and what their air has.
 std::vector<CasePicture> closing_pictures(const DrawnCase& drawn) {
   const Column opening{"opening", "mean opening", significant(4, micrometre), "Mean opening of the gap."};
-  const Column temperature = headed("mean air temperature", quantity::skin_temperature());
+  const Column temperature = headed("mean air temperature", quantity::skin_temperature);
   std::vector<CasePicture> pictures;
   for (const run::GapResult* gap : gaps_with(has_closed, drawn)) {
     const run::ClosingHistory& closing = *gap->closing;
@@ -323,7 +304,7 @@ std::vector<CasePicture> closing_pictures(const DrawnCase& drawn) {
     };
     Plot plot = titled_plot(drawn, gap_title("The closing gap and its air", *gap));
     plot.panels = {panel("Opening", opening, closing.opening),
-                   panel("Pressure of the air", quantity::pressure(), closing.gas_pressure),
+                   panel("Pressure of the air", quantity::pressure, closing.gas_pressure),
                    panel("Temperature of the air", temperature, gap->skin.air_temperature)};
     plot.panels[0].y.scale = plot.panels[1].y.scale = Scale::logarithmic;
     pictures.push_back(picture_of_gap("air", *gap, std::move(plot)));
@@ -354,6 +335,24 @@ std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn) {
 }
 
 }  // namespace
+
+bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
+  return gap.skin.time.size() > 1 && !rings_of(trace_of(drawn)).empty() &&
+         gap.skin.temperature.size() == gap.skin.time.size() * trace_of(drawn).stations.size();
+}
+
+std::string gap_in_name(double gap) {
+  const Form form = quantity::gap.form;
+  return digits_of(gap, form) + form.unit;
+}
+
+std::vector<std::size_t> rings_of(const trace::BottomTrace& trace) {
+  std::vector<std::size_t> rings;
+  for (std::size_t i = 0; i < trace.stations.size(); ++i)
+    if (!trace.stations[i].observation) rings.push_back(i);
+  std::ranges::stable_sort(rings, {}, [&](std::size_t ring) { return trace.stations[ring].r; });
+  return rings;
+}
 
 const PictureKind histories_kind{"histories", "skin temperature of the stations against time, for each gap",
                                  lacks_skins, history_pictures, history_tables};

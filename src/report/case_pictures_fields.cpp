@@ -52,6 +52,14 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
+void add_values(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot,
+                const ScaleGroup& group, std::vector<double>& values) {
+  for (std::size_t i = 0; i < shot.x.size(); ++i) {
+    const double value = value_of(drawn, field, shot, i);
+    if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
+  }
+}
+
 /// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others.
 std::pair<double, double> common_range(std::vector<double> values) {
   if (values.empty()) return {0.0, 0.0};
@@ -67,15 +75,8 @@ ColourScale scale_of(const DrawnCase& drawn, const Field& field, const ScaleGrou
   ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.meaning,
                                 field.shown.name.empty() ? "1" : field.shown.name)};
   std::vector<double> values;
-  for (const ShownSnapshot& each : shown_snapshots(drawn)) {
-    if (each.gap.has_value() != burning) continue;
-    const run::Snapshot& shot = *each.snapshot;
-    for (std::size_t i = 0; i < shot.x.size(); ++i) {
-      const double value = value_of(drawn, field, shot, i);
-      if (!std::isfinite(value) || is_charge(drawn, shot.body[i]) != group.charges) continue;
-      values.push_back(value);
-    }
-  }
+  for (const ShownSnapshot& each : shown_snapshots(drawn))
+    if (each.gap.has_value() == burning) add_values(drawn, field, *each.snapshot, group, values);
   std::tie(scale.minimum, scale.maximum) = common_range(std::move(values));
   return scale;
 }
@@ -232,7 +233,7 @@ void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapR
   plot.scales = {scale};
   plot.title =
       fmt::format("Gap {} at {}: the skin has up to {}, all behind it at most {}", centimetres(gap.gap),
-                  in_words(shot.time, quantity::time_in_titles()),
+                  in_words(shot.time, quantity::time_in_titles),
                   in_words(scale.maximum, keys::fixed(0, kelvin)), in_words(bulk, keys::fixed(0, kelvin)));
   plot.subtitle += fmt::format("; the skin, {} deep, is drawn {} times as deep",
                                in_words(thickness, keys::significant(2, millimetre)),
@@ -243,10 +244,7 @@ void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapR
 std::string range_in(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   const ScaleGroup group = scale_groups(drawn, field).front();
   std::vector<double> values;
-  for (std::size_t i = 0; i < shot.x.size(); ++i) {
-    const double value = value_of(drawn, field, shot, i);
-    if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
-  }
+  add_values(drawn, field, shot, group, values);
   const auto [low, high] = common_range(std::move(values));
   const auto number = [](double value) { return significant(value, std::abs(value) < 100.0 ? 2 : 4); };
   return fmt::format("{} to {}{} in 98 % of the {}", number(low), number(high),
@@ -258,7 +256,7 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
   plot.title = fmt::format("{} at {}", field.title.empty() ? field.meaning : field.title,
-                           in_words(shot.time, quantity::time_in_titles()));
+                           in_words(shot.time, quantity::time_in_titles));
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
   if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
@@ -356,13 +354,13 @@ struct ParticleRow {
 
 Quantities<ParticleRow> particle_quantities() {
   Quantities<ParticleRow> quantities{
-      {{"body", "body", keys::text(), "Body of the particle."},
+      {"body", "body", keys::text(), "Body of the particle.",
        [](const ParticleRow& row) {
          return row.drawn->scene.bodies[static_cast<std::size_t>(row.shot->body[row.particle])].name;
        }},
-      {{"x", "x", keys::significant(6, millimetre), "Of the particle at present."},
+      {"x", "x", keys::significant(6, millimetre), "Of the particle at present.",
        [](const ParticleRow& row) { return row.shot->x[row.particle]; }},
-      {{"r", "r", keys::significant(6, millimetre), "Likewise."},
+      {"r", "r", keys::significant(6, millimetre), "Likewise.",
        [](const ParticleRow& row) { return row.shot->r[row.particle]; }}};
   for (const Field& field : run::snapshot_fields()) {
     const std::string name(field.name), meaning(field.meaning);

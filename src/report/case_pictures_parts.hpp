@@ -4,7 +4,6 @@
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,7 +20,6 @@ std::string shortened(const std::string& text, std::size_t longest);
 Plot titled_plot(const DrawnCase& drawn, std::string title);
 /// Likewise, of a quantity against time.
 Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity);
-Plot time_plot(const DrawnCase& drawn, std::string title, const Column& quantity);
 /// Pressures of chamber and charge's bottom against time.
 Plot load_plot(const DrawnCase& drawn);
 /// Values of a quantity against times, all in SI.
@@ -33,15 +31,8 @@ std::vector<double> shown_values(const std::vector<double>& values, const Column
 /// The axis of time.
 Column drawn_time();
 
-/// A value for every station that tiles the bottom, against `x`: the first, the middle and the last station
-/// and the one of index `marked` by name, all others thin and grey.
-std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
-                                   const std::function<double(std::size_t, std::size_t)>& value,
-                                   std::size_t marked);
 /// Whether the skin of a gap was computed at all of them.
 bool has_skin(const DrawnCase& drawn, const run::GapResult& gap);
-/// Samples before the ignition, all without one.
-std::size_t samples_before_ignition(const surface::SkinHistory& skin);
 /// Indices of these stations, from the axis to the wall.
 std::vector<std::size_t> rings_of(const trace::BottomTrace& trace);
 

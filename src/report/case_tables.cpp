@@ -63,28 +63,20 @@ double largest_degree(const BurningRow& row) {
 
 // --- the energy of the air ---
 
-std::string kilojoules_per_area(double energy) { return in_words(energy, quantity::skin_took().form); }
+std::string kilojoules_per_area(double energy) { return in_words(energy, quantity::skin_took.form); }
 
-/// "a gap of 0.04 cm (496 MPa, 30 µm, 1 mm)".
-std::string place_of_gap(const AuditedGap& gap) {
-  const std::string place = "a gap of " + centimetres(gap.gap);
-  return gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label);
-}
-
-Quantities<NamedRun> run_quantities() {
-  using run::MechanicsResult;
-  return {
-      {quantity::case_name(), &NamedRun::name},
-      {headed("status", quantity::status()),
-       [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
-      {quantity::energy_drift(), &NamedRun::mechanics, run::largest_energy_drift},
-      {quantity::steps(), &NamedRun::mechanics, &MechanicsResult::steps},
-      {quantity::particles(), &NamedRun::mechanics, &MechanicsResult::particles},
-      {quantity::updates_per_second(), &NamedRun::mechanics, &MechanicsResult::update_rate},
-      {quantity::limiters(), [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
-      {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
-       &NamedRun::stored}};
-}
+using run::MechanicsResult;
+const Quantities<NamedRun> run_quantities{
+    {quantity::case_name, &NamedRun::name},
+    {headed("status", quantity::status),
+     [](const NamedRun& run) { return run.failure.empty() ? "completed" : run.failure; }},
+    {quantity::energy_drift, &NamedRun::mechanics, run::largest_energy_drift},
+    {quantity::steps, &NamedRun::mechanics, &MechanicsResult::steps},
+    {quantity::particles, &NamedRun::mechanics, &MechanicsResult::particles},
+    {quantity::updates_per_second, &NamedRun::mechanics, &MechanicsResult::update_rate},
+    {quantity::limiters, [](const NamedRun& run) { return limiters_text(run.mechanics->limiters); }},
+    {for_programs(Column{"stored_case", "stored case", text(), "File in the folder that holds the run."}),
+     &NamedRun::stored}};
 
 Quantities<FaceRow> face_quantities() {
   using keys::significant;
@@ -94,23 +86,20 @@ Quantities<FaceRow> face_quantities() {
   const auto at_node = [](auto member) {
     return [member](const FaceRow& row) { return std::invoke(member, *row.faces).at(row.node); };
   };
-  return {{{"body", "body", text(), "Body that slides on the charge."},
-           &FaceRow::faces,
+  return {{"body", "body", text(), "Body that slides on the charge.", &FaceRow::faces,
            &run::InterfaceResult::body},
-          {{"face", "face", text(), "Direction of the face."},
+          {"face", "face", text(), "Direction of the face.",
            [](const FaceRow& row) { return row.faces->along_x ? "along x" : "along r"; }},
-          {{"friction_work", "friction work", significant(4, joule), "Work of friction on the whole face."},
-           &FaceRow::faces,
-           &run::InterfaceResult::friction_work},
-          {{"largest_heat", "largest heat", significant(3, kilojoule_per_area),
-            "Largest heat of friction on the face."},
-           at_node(&run::InterfaceResult::friction_heat)},
-          {{"at", "at", significant(4, centimetre), "Where that is."}, at_node(&run::InterfaceResult::place)},
-          {{"slid", "slid up to", significant(3, millimetre), "Longest way slid."},
+          {"friction_work", "friction work", significant(4, joule), "Work of friction on the whole face.",
+           &FaceRow::faces, &run::InterfaceResult::friction_work},
+          {"largest_heat", "largest heat", significant(3, kilojoule_per_area),
+           "Largest heat of friction on the face.", at_node(&run::InterfaceResult::friction_heat)},
+          {"at", "at", significant(4, centimetre), "Where that is.", at_node(&run::InterfaceResult::place)},
+          {"slid", "slid up to", significant(3, millimetre), "Longest way slid.",
            largest(&run::InterfaceResult::slid)},
-          {{"open", "open up to", significant(3, millimetre), "Widest opening."},
+          {"open", "open up to", significant(3, millimetre), "Widest opening.",
            largest(&run::InterfaceResult::largest_gap)},
-          {{"bonded", "bonded nodes", fixed(0, percent), "Nodes whose bond holds at the end."},
+          {"bonded", "bonded nodes", fixed(0, percent), "Nodes whose bond holds at the end.",
            [](const FaceRow& row) {
              const auto& bonded = row.faces->bonded;
              return std::accumulate(bonded.begin(), bonded.end(), 0.0) / static_cast<double>(bonded.size());
@@ -119,37 +108,33 @@ Quantities<FaceRow> face_quantities() {
 
 using BurntGap = const run::GapResult*;
 
-Quantities<BurntGap> combustion_quantities() {
-  using keys::significant, run::CombustionHistory;
-  return keys::joined<BurntGap>(
-      {{{quantity::gap(), &run::GapResult::gap}},
-       of_part<BurntGap>(
-           Quantities<CombustionHistory>{
-               {{"skin_flame_speed", "flame in the skin", significant(3, metre_per_second),
-                 "Speed of the flame through the skin."},
-                &CombustionHistory::skin_flame_speed},
-               {{"bulk_flame_speed", "behind it", significant(3, metre_per_second),
-                 "Speed of the flame through the charge behind the skin."},
-                &CombustionHistory::bulk_flame_speed},
-               {quantity::skin_burnt_time(), &CombustionHistory::complete_time},
-               {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
-               {quantity::gas_volume(), last_of(&CombustionHistory::gas_volume)},
-               {quantity::gas_temperature(), last_of(&CombustionHistory::gas_temperature)},
-               {quantity::bottom_pressure_max(),
-                [](const CombustionHistory& c) { return largest_in(c.pressure); }},
-               {quantity::heat_released(), last_of(&CombustionHistory::released)},
-               {{"heat_kept_back", "kept back", significant(3, kilojoule),
-                 "Heat of reaction of what burnt that was not released."},
-                last_of(&CombustionHistory::kept_back)},
-               {{"heat_brought", "brought", significant(3, kilojoule),
-                 "Heat above the initial temperature that what burnt had before."},
-                last_of(&CombustionHistory::brought)},
-               {quantity::combustion_residual(), &CombustionHistory::energy_residual},
-               {quantity::energy_drift(), &CombustionHistory::energy_drift},
-               {{"combustion_end", "ended by", text(), "What ended the run."}, end_of},
-               {quantity::wall_time(), &CombustionHistory::wall_time}},
-           &run::GapResult::combustion)});
-}
+using run::CombustionHistory;
+const Quantities<BurntGap> combustion_quantities = keys::joined<BurntGap>(
+    {{{quantity::gap, &run::GapResult::gap}},
+     of_part<BurntGap>(
+         Quantities<CombustionHistory>{
+             {"skin_flame_speed", "flame in the skin", keys::significant(3, metre_per_second),
+              "Speed of the flame through the skin.", &CombustionHistory::skin_flame_speed},
+             {"bulk_flame_speed", "behind it", keys::significant(3, metre_per_second),
+              "Speed of the flame through the charge behind the skin.", &CombustionHistory::bulk_flame_speed},
+             {quantity::skin_burnt_time, &CombustionHistory::complete_time},
+             {quantity::burnt_mass, last_of(&CombustionHistory::burnt_mass)},
+             {quantity::gas_volume, last_of(&CombustionHistory::gas_volume)},
+             {quantity::gas_temperature, last_of(&CombustionHistory::gas_temperature)},
+             {quantity::bottom_pressure_max,
+              [](const CombustionHistory& c) { return largest_in(c.pressure); }},
+             {quantity::heat_released, last_of(&CombustionHistory::released)},
+             {"heat_kept_back", "kept back", keys::significant(3, kilojoule),
+              "Heat of reaction of what burnt that was not released.",
+              last_of(&CombustionHistory::kept_back)},
+             {"heat_brought", "brought", keys::significant(3, kilojoule),
+              "Heat above the initial temperature that what burnt had before.",
+              last_of(&CombustionHistory::brought)},
+             {quantity::combustion_residual, &CombustionHistory::energy_residual},
+             {quantity::energy_drift, &CombustionHistory::energy_drift},
+             {"combustion_end", "ended by", text(), "What ended the run.", end_of},
+             {quantity::wall_time, &CombustionHistory::wall_time}},
+         &run::GapResult::combustion)});
 
 Quantities<const run::GapResult*> closing_quantities() {
   using keys::significant, run::ClosingHistory, surface::FilmEnergy;
@@ -159,28 +144,28 @@ Quantities<const run::GapResult*> closing_quantities() {
         [part](const ClosingHistory& closing) { return closing.energy.*part; });
   };
   return keys::joined<const run::GapResult*>(
-      {{{quantity::gap(), &run::GapResult::gap}},
+      {{{quantity::gap, &run::GapResult::gap}},
        of_part<const run::GapResult*>(
            Quantities<ClosingHistory>{
-               {{"contact_time", "contact", significant(4, millisecond), "When the faces first met."},
+               {"contact_time", "contact", significant(4, millisecond), "When the faces first met.",
                 &ClosingHistory::contact_time},
-               {{"approach_speed", "approach", significant(3, metre_per_second),
-                 "Largest speed at which the faces came together until then."},
+               {"approach_speed", "approach", significant(3, metre_per_second),
+                "Largest speed at which the faces came together until then.",
                 &ClosingHistory::approach_speed},
-               {{"contacts", "contacts", significant(6), "How often the faces met."},
+               {"contacts", "contacts", significant(6), "How often the faces met.",
                 &ClosingHistory::contacts},
-               {{"smallest_opening", "smallest opening", significant(3, micrometre), "Anywhere."},
+               {"smallest_opening", "smallest opening", significant(3, micrometre), "Anywhere.",
                 &ClosingHistory::smallest_opening},
-               {{"air_pressure_max", "p air", significant(4, megapascal),
-                 "Highest pressure of the air at the opening that a step ends with; floors under 1 um make "
-                 "it a "
-                 "matter of the step."},
+               {"air_pressure_max", "p air", significant(4, megapascal),
+                "Highest pressure of the air at the opening that a step ends with; floors under 1 um make "
+                "it a "
+                "matter of the step.",
                 &ClosingHistory::largest_gas_pressure},
-               {{"air_temperature_max", "T air", significant(4, kelvin),
-                 "Highest temperature of the air, mean over its mass at one place."},
+               {"air_temperature_max", "T air", significant(4, kelvin),
+                "Highest temperature of the air, mean over its mass at one place.",
                 &ClosingHistory::largest_gas_temperature},
-               {{"work_on_air", "work on air", significant(4, kilojoule_per_area),
-                 "Work of the faces on the air beyond the surrounding pressure, mean over the bottom."},
+               {"work_on_air", "work on air", significant(4, kilojoule_per_area),
+                "Work of the faces on the air beyond the surrounding pressure, mean over the bottom.",
                 &ClosingHistory::work_on_gas},
                heat("heat_to_base", "to base", "Heat that the base gained, mean over the bottom.",
                     &FilmEnergy::base),
@@ -191,55 +176,55 @@ Quantities<const run::GapResult*> closing_quantities() {
            &run::GapResult::closing)});
 }
 
-Quantities<BurningRow> burning_quantities() {
-  using run::CombustionHistory;
-  return {{quantity::time(3), at_sample(&CombustionHistory::time)},
-          {{"reaction_degree_max", "largest reaction degree", fixed(3), "Of any station."}, largest_degree},
-          {{"burnt_depth", "largest depth", fixed(4, millimetre), "Depth to which the charge has burnt."},
-           at_sample(&CombustionHistory::burnt_depth)},
-          {quantity::burnt_mass(), at_sample(&CombustionHistory::burnt_mass)},
-          {quantity::gas_volume(), at_sample(&CombustionHistory::gas_volume)},
-          {quantity::gas_temperature(), at_sample(&CombustionHistory::gas_temperature)},
-          {{"bottom_pressure", "p bottom", fixed(1, megapascal), "Mean pressure of the charge's bottom."},
-           at_sample(&CombustionHistory::pressure)},
-          {quantity::heat_released(), at_sample(&CombustionHistory::released)}};
-}
+using run::CombustionHistory;
+const Quantities<BurningRow> burning_quantities{
+    {quantity::time(3), at_sample(&CombustionHistory::time)},
+    {"reaction_degree_max", "largest reaction degree", fixed(3), "Of any station.", largest_degree},
+    {"burnt_depth", "largest depth", fixed(4, millimetre), "Depth to which the charge has burnt.",
+     at_sample(&CombustionHistory::burnt_depth)},
+    {quantity::burnt_mass, at_sample(&CombustionHistory::burnt_mass)},
+    {quantity::gas_volume, at_sample(&CombustionHistory::gas_volume)},
+    {quantity::gas_temperature, at_sample(&CombustionHistory::gas_temperature)},
+    {"bottom_pressure", "p bottom", fixed(1, megapascal), "Mean pressure of the charge's bottom.",
+     at_sample(&CombustionHistory::pressure)},
+    {quantity::heat_released, at_sample(&CombustionHistory::released)}};
 
 Quantities<AuditedGap> air_quantities(bool labelled) {
   Quantities<AuditedGap> quantities;
-  if (labelled) quantities.emplace_back(quantity::case_name(), &AuditedGap::label);
+  if (labelled) quantities.emplace_back(quantity::case_name, &AuditedGap::label);
   return keys::joined<AuditedGap>(
       {quantities,
-       {{quantity::gap(), &AuditedGap::gap},
-        {quantity::skin_took(), &AuditedGap::air, &surface::AirEnergy::taken},
-        {quantity::compression_supplies(), &AuditedGap::air, &surface::AirEnergy::supplied},
-        {quantity::taken_over_supplied(), &AuditedGap::air, &surface::AirEnergy::ratio},
-        {{"adiabat_stores", "stored on the adiabat", keys::significant(3, kilojoule_per_area),
-          "Heat that the air stores under adiabatic compression to the highest pressure."},
-         &AuditedGap::air,
+       {{quantity::gap, &AuditedGap::gap},
+        {quantity::skin_took, &AuditedGap::air, &surface::AirEnergy::taken},
+        {quantity::compression_supplies, &AuditedGap::air, &surface::AirEnergy::supplied},
+        {quantity::taken_over_supplied, &AuditedGap::air, &surface::AirEnergy::ratio},
+        {"adiabat_stores", "stored on the adiabat", keys::significant(3, kilojoule_per_area),
+         "Heat that the air stores under adiabatic compression to the highest pressure.", &AuditedGap::air,
          &surface::AirEnergy::stored},
-        {{"isothermal_work", "isothermal work", keys::significant(3, kilojoule_per_area),
-          "Work of isothermal compression to the highest pressure."},
-         &AuditedGap::air,
+        {"isothermal_work", "isothermal work", keys::significant(3, kilojoule_per_area),
+         "Work of isothermal compression to the highest pressure.", &AuditedGap::air,
          &surface::AirEnergy::isothermal}}});
+}
+
+std::string numbers_text(const materials::KineticsParameters& kinetics) {
+  return fmt::format("E/R {:.6g} K, {:.4g} 1/s, {:.5g} MJ/kg", kinetics.activation_temperature,
+                     kinetics.frequency, 1e-6 * kinetics.heat_of_reaction);
 }
 
 }  // namespace
 
 Quantities<run::CombustionHistory> burnt_state_quantities() {
   using run::CombustionHistory;
-  return {
-      {quantity::skin_burnt_time(), &CombustionHistory::complete_time},
-      {quantity::burnt_mass(), last_of(&CombustionHistory::burnt_mass)},
-      {quantity::heat_released(), last_of(&CombustionHistory::released)},
-      {quantity::bottom_pressure_max(), [](const CombustionHistory& c) { return largest_in(c.pressure); }},
-      {quantity::combustion_residual(), &CombustionHistory::energy_residual}};
+  return {{quantity::skin_burnt_time, &CombustionHistory::complete_time},
+          {quantity::burnt_mass, last_of(&CombustionHistory::burnt_mass)},
+          {quantity::heat_released, last_of(&CombustionHistory::released)},
+          {quantity::bottom_pressure_max, [](const CombustionHistory& c) { return largest_in(c.pressure); }},
+          {quantity::combustion_residual, &CombustionHistory::energy_residual}};
 }
 
-std::vector<Column> run_columns() { return keys::described(run_quantities()); }
 std::vector<Column> air_energy_columns() { return keys::described(air_quantities(true)); }
 
-Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run_quantities(), runs); }
+Table run_table(const std::vector<NamedRun>& runs) { return table_of("Runs", run_quantities, runs); }
 
 Table interface_table(const run::MechanicsResult& mechanics) {
   std::vector<FaceRow> rows;
@@ -248,16 +233,14 @@ Table interface_table(const run::MechanicsResult& mechanics) {
     if (hottest != faces.friction_heat.end())
       rows.push_back({&faces, static_cast<std::size_t>(hottest - faces.friction_heat.begin())});
   }
-  Table table = table_of("Faces that slide on the charge", face_quantities(), rows);
-  table.notes = noted("faces");
-  return table;
+  return table_of("Faces that slide on the charge", face_quantities(), rows, noted("faces"));
 }
 
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
   std::vector<BurntGap> burnt;
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion) burnt.push_back(&gap);
-  Table table = table_of("After ignition, with two-way coupling", combustion_quantities(), burnt);
+  Table table = table_of("After ignition, with two-way coupling", combustion_quantities, burnt);
   if (table.rows.empty()) return table;
   table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
@@ -277,7 +260,7 @@ Table combustion_history_table(const run::CombustionHistory& c, double gap, std:
   const std::size_t stride = rows == 0 ? 0 : std::max<std::size_t>(1, (c.time.size() + rows - 1) / rows);
   for (std::size_t i = 0; stride > 0 && i < c.time.size(); ++i)
     if (i % stride == 0 || i + 1 == c.time.size()) samples.push_back({&c, i});
-  return table_of("History of the combustion at " + centimetres(gap), burning_quantities(), samples);
+  return table_of("History of the combustion at " + centimetres(gap), burning_quantities, samples);
 }
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
@@ -288,7 +271,8 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
     const double ratio = gap.air.ratio();
     if (!std::isfinite(ratio) || ratio <= most) continue;
     most = ratio;
-    facts["worst"] = {{"place", place_of_gap(gap)},
+    const std::string place = "a gap of " + centimetres(gap.gap);
+    facts["worst"] = {{"place", gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label)},
                       {"ratio", ratio},
                       {"taken", kilojoules_per_area(gap.air.taken)},
                       {"supplied", kilojoules_per_area(gap.air.supplied)}};
@@ -299,20 +283,10 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
   if (gaps.empty()) return {};
   const bool labelled = std::ranges::any_of(gaps, [](const AuditedGap& gap) { return !gap.label.empty(); });
-  Table table = table_of("The energy of the air", air_quantities(labelled), gaps);
-  table.notes = noted("air_energy");
+  Table table = table_of("The energy of the air", air_quantities(labelled), gaps, noted("air_energy"));
   table.notes.push_back(air_energy_statement(model, gaps, closing));
   return table;
 }
-
-namespace {
-
-std::string numbers_text(const materials::KineticsParameters& kinetics) {
-  return fmt::format("E/R {:.6g} K, {:.4g} 1/s, {:.5g} MJ/kg", kinetics.activation_temperature,
-                     kinetics.frequency, 1e-6 * kinetics.heat_of_reaction);
-}
-
-}  // namespace
 
 std::string runaway_text(const materials::KineticsParameters& kinetics, double specific_heat) {
   const auto milliseconds = [&](double from) {

@@ -137,11 +137,6 @@ std::string panel_range(const CellPanel& panel, double page_height) {
       exact(panel.x_end), exact(panel.r_begin), exact(panel.r_end));
 }
 
-std::string panel_marks(const CellPanel& panel) {
-  return fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
-                     exact(round_distance(70 / panel.scale)), radius_marks(panel));
-}
-
 constexpr std::string_view filled_boxes = "with boxxyerror fillstyle solid 1.0 noborder linecolor";
 
 /// The colours of values: viridis without its darkest part, so that black lines show everywhere. Its
@@ -222,6 +217,8 @@ constexpr std::string_view without_axes =
 constexpr std::string_view with_axes =
     "set border 3 linewidth 1 linecolor rgb '#444444'\nset xlabel \"x [mm]\"\nset ylabel \"r [mm]\"\n";
 
+}  // namespace
+
 std::string unfit(const CellPlot& plot) {
   if (plot.cells.empty()) return "it has no cells";
   const bool are_cells = std::ranges::all_of(plot.cells, [](const FieldCell& cell) {
@@ -235,8 +232,6 @@ std::string unfit(const CellPlot& plot) {
   return have_ranges && !plot.scales.empty() ? "" : "its colours have no range";
 }
 
-}  // namespace
-
 std::string to_gnuplot(const CellPlot& plot) {
   const CellPanel whole = whole_section(plot);
   std::optional<CellPanel> enlarged;
@@ -249,7 +244,9 @@ std::string to_gnuplot(const CellPlot& plot) {
       if (name != "whole") text += "unset colorbox\n";
       text += scale_cells(plot, i, panel, name);
     }
-    return text + "unset colorbox\n" + std::string(with_axes) + panel_marks(panel);
+    return text + "unset colorbox\n" + std::string(with_axes) +
+           fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
+                       exact(round_distance(70 / panel.scale)), radius_marks(panel));
   };
   std::string text =
       page_commands(cell_page_width, height) +
@@ -264,11 +261,6 @@ std::string to_gnuplot(const CellPlot& plot) {
     text += axis_line(*enlarged) + outline_commands(plot, *enlarged, "part");
   }
   return text + "unset multiplot\n";
-}
-
-store::Result<std::string> to_svg(const CellPlot& plot, const std::string& program,
-                                  const DrawingLimits& limits) {
-  return drawn(plot, unfit(plot), program, limits);
 }
 
 }  // namespace launchsafe::report

@@ -41,12 +41,6 @@ Row findings_of(const Row& told) {
   return findings;
 }
 
-/// The heading of a page in Markdown; empty where it has none.
-std::string heading_of(const path& file) {
-  const auto page = store::read_file(file);
-  return page && page->starts_with("# ") ? page->substr(2, page->find('\n') - 2) : std::string{};
-}
-
 /// What a folder holds, as the index names it; null where that is neither a page nor a picture.
 Row entry_of(const path& folder, const std::string& place) {
   const std::vector<std::string> names = names_in(folder);
@@ -63,7 +57,9 @@ Row entry_of(const path& folder, const std::string& place) {
       entry["findings"] = findings_of(told);
     }
   if (entry["title"] == "" && entry.contains("pages"))
-    entry["title"] = heading_of(folder / text_of(entry["pages"][0], "name"));
+    if (const auto page = store::read_file(folder / text_of(entry["pages"][0], "name"));
+        page && page->starts_with("# "))
+      entry["title"] = page->substr(2, page->find('\n') - 2);
   if (entry["title"] == "") entry["title"] = place;
   return entry;
 }

@@ -1,10 +1,11 @@
 #include "launchsafe/report/safety_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <optional>
 #include <regex>
 #include <sstream>
@@ -13,29 +14,20 @@
 namespace launchsafe::report {
 namespace {
 
-scene::InputError fault_of(const char* key, std::string found, const char* allowed) {
-  scene::InputError fault;
-  fault.key = key;
-  fault.found = std::move(found);
-  fault.allowed = allowed;
-  return fault;
-}
-
 /// What a condition may be of, and in which unit; a distance is kept in cm.
 struct Measure {
   const char *word, *unit;
   GapCriterion::Condition one;
 };
-constexpr Measure measures[] = {
-    {"T max", "K", {&JudgedGap::temperature, nullptr, 1.0, true}},
-    {"probability", "", {&JudgedGap::probability, nullptr, 1.0, true}},
-    {"margin", "K", {&JudgedGap::margin}},
-    {"margin", "uncertainty", {&JudgedGap::margin, &JudgedGap::uncertainty}},
-    {"margin", "uncertainties", {&JudgedGap::margin, &JudgedGap::uncertainty}},
-    {"distance", "cm", {&JudgedGap::distance}},
-    {"distance", "mm", {&JudgedGap::distance, nullptr, 0.1}},
-    {"distance", "uncertainty", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}},
-    {"distance", "uncertainties", {&JudgedGap::distance, &JudgedGap::distance_uncertainty}}};
+constexpr Measure measures[] = {{"T max", "K", {"temperature_max_K", nullptr, 1.0, true}},
+                                {"probability", "", {"probability", nullptr, 1.0, true}},
+                                {"margin", "K", {"margin_K"}},
+                                {"margin", "uncertainty", {"margin_K", "uncertainty_K"}},
+                                {"margin", "uncertainties", {"margin_K", "uncertainty_K"}},
+                                {"distance", "cm", {"distance_cm"}},
+                                {"distance", "mm", {"distance_cm", nullptr, 0.1}},
+                                {"distance", "uncertainty", {"distance_cm", "distance_uncertainty_cm"}},
+                                {"distance", "uncertainties", {"distance_cm", "distance_uncertainty_cm"}}};
 
 /// "margin >= 2 uncertainty", or without blanks. One uncertainty is part of SAFE already.
 std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
@@ -56,18 +48,17 @@ std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
 
 /// Words with one blank between them.
 std::string on_one_line(const std::string& text) {
-  std::istringstream stream(text);
-  std::string line;
-  for (std::string word; stream >> word;) line += (line.empty() ? "" : " ") + word;
-  return line;
+  std::istringstream words(text);
+  using Word = std::istream_iterator<std::string>;
+  return fmt::format("{}", fmt::join(Word(words), Word(), " "));
 }
 
 }  // namespace
 
-bool GapCriterion::met_by(const JudgedGap& row) const {
-  return row.safe && std::ranges::all_of(conditions, [&](const Condition& each) {
-           const double unit = each.unit != nullptr ? row.*each.unit : 1.0;
-           const double value = row.*each.of, limit = each.limit * unit;
+bool GapCriterion::met_by(const Row& verdict) const {
+  return text_of(verdict, "verdict") == "SAFE" && std::ranges::all_of(conditions, [&](const Condition& each) {
+           const double unit = each.unit != nullptr ? number_of(verdict, each.unit) : 1.0;
+           const double value = number_of(verdict, each.of), limit = each.limit * unit;
            return each.at_most ? value <= limit : value >= limit;  // false for NaN
          });
 }
@@ -80,26 +71,26 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
     const std::size_t end = all.find(between, begin);
     const auto condition = condition_of(all.substr(begin, end - begin));
     if (!condition)
-      return fault_of("--criterion", fmt::format("\"{}\"", text),
-                      "\"margin >= N uncertainty\", \"margin >= N K\", \"T max <= N K\", \"distance >= N "
-                      "uncertainty\", \"distance >= N cm\" or \"probability <= N\" below 1, several with "
-                      "\"and\" between them");
+      return scene::error_at(
+          {}, "--criterion", fmt::format("\"{}\"", text),
+          "\"margin >= N uncertainty\", \"margin >= N K\", \"T max <= N K\", \"distance >= N "
+          "uncertainty\", \"distance >= N cm\" or \"probability <= N\" below 1, several with "
+          "\"and\" between them");
     criterion.conditions.push_back(*condition);
     begin = end + between.size();
   }
   if (!criterion.source.empty()) return criterion;
-  return fault_of("--criterion-source", "none",
-                  "who asks for the criterion, such as \"works standard 12, section 3\"");
+  return scene::error_at({}, "--criterion-source", "none",
+                         "who asks for the criterion, such as \"works standard 12, section 3\"");
 }
 
-std::size_t largest_gap_under(const GapCriterion& criterion, const std::vector<JudgedGap>& rows) {
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t row) { return rows[row].gap; });
-  std::size_t largest = rows.size();
-  for (const std::size_t each : order) {
-    if (!criterion.met_by(rows[each])) break;
-    largest = each;
+std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts) {
+  const auto gap = [](const Row& verdict) { return number_of(verdict, "gap_cm"); };
+  std::ranges::stable_sort(verdicts, {}, gap);
+  std::optional<double> largest;
+  for (const Row& each : verdicts) {
+    if (!criterion.met_by(each)) break;
+    largest = gap(each);
   }
   return largest;
 }

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 
 namespace launchsafe::report {
 
@@ -50,8 +51,15 @@ std::string page_commands(double width, double height) {
       width, height);
 }
 
-store::Result<std::string> drawn(const std::string& program, const std::string& commands,
-                                 const std::string& title, const DrawingLimits& limits) {
+store::Result<std::string> to_svg(const Drawing& drawing, const DrawingLimits& limits,
+                                  const std::string& program) {
+  const auto [title, why, commands] = std::visit(
+      [](const auto& plot) {
+        const std::string unfitness = unfit(plot);
+        return std::tuple{plot.title, unfitness, unfitness.empty() ? to_gnuplot(plot) : ""};
+      },
+      drawing);
+  if (!why.empty()) return store::Error{store::Error::Kind::failed, "cannot draw '" + title + "': " + why};
   // --default-settings: the user's own start-up file must not change a report.
   auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
   if (!run) return run.error();

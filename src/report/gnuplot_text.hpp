@@ -21,16 +21,9 @@ std::string coordinate(double value, Scale scale);
 /// What begins the commands of a picture of this size in pixels.
 std::string page_commands(double width, double height);
 
-/// The picture that gnuplot makes of commands. Errors: missing, failed; `title` is named in both.
-store::Result<std::string> drawn(const std::string& program, const std::string& commands,
-                                 const std::string& title, const DrawingLimits& limits);
-/// That of a plot, unless there is a reason why it cannot be drawn.
-template <class AnyPlot>
-store::Result<std::string> drawn(const AnyPlot& plot, const std::string& unfit, const std::string& program,
-                                 const DrawingLimits& limits) {
-  if (unfit.empty()) return drawn(program, to_gnuplot(plot), plot.title, limits);
-  return store::Error{store::Error::Kind::failed, "cannot draw '" + plot.title + "': " + unfit};
-}
+/// Why a plot cannot be drawn; empty where it can.
+std::string unfit(const Plot& plot);
+std::string unfit(const CellPlot& plot);
 
 /// Data and settings, and the parts of the plot command in the order in which they are drawn.
 struct Commands {

@@ -37,21 +37,20 @@ std::string with_alternative(std::string svg, const std::string& title, const st
   return svg.insert(end, " role=\"img\"");
 }
 
-store::Result<std::string> drawn(const Drawing& drawing, const DrawingLimits& limits) {
-  if (const auto* plot = std::get_if<Plot>(&drawing)) return to_svg(*plot, "gnuplot", limits);
-  if (const auto* cells = std::get_if<CellPlot>(&drawing)) return to_svg(*cells, "gnuplot", limits);
-  return std::get<std::string>(drawing);
-}
-
 /// The class of a verdict's cell: the verdict, unless the row says otherwise.
 Row look_of(const Row& row) { return found_in(row, row.contains("look") ? "look" : "verdict"); }
 
 /// The sections with their blocks, as programs read them and templates of pages do.
-class Sections {
- public:
-  Sections(const std::vector<PageText>& order, const PageFacts& all,
-           const std::map<std::string, std::string>& texts, const DrawingLimits& limits)
-      : all_(all), texts_(texts), limits_(limits) {
+struct Sections {
+  const PageFacts& all;
+  const std::map<std::string, std::string>& texts;
+  const DrawingLimits& limits;
+  Row sections = Row::array();
+  std::vector<TextFile> figures = {};
+  std::vector<std::string> remarks = {};
+  std::set<std::string> studies = {};  ///< labels of those that something comes from
+
+  void add_all(const std::vector<PageText>& order) {
     for (const PageText& text : order)
       if (text.look == "section")
         sections.push_back({{"id", text.id.substr(text.id.find('.') + 1)},
@@ -59,30 +58,25 @@ class Sections {
                             {"heading", words(text.id)},
                             {"blocks", Row::array()}});
       else if (text.look == "table")
-        add_table(text, selected(text, all_.facts));
+        add_table(text, selected(text, all.facts));
       else if (!text.look.empty())
-        for (const Row* each : selected(text, all_.facts)) add(text, *each);
+        for (const Row* each : selected(text, all.facts)) add(text, *each);
   }
-
-  Row sections = Row::array();
-  std::vector<TextFile> figures;
-  std::vector<std::string> remarks;
 
   std::string words(const std::string& id, const Row& facts = {}) const {
-    const auto found = texts_.find(id);
-    return found == texts_.end() ? std::string{} : fill(found->second, facts);
+    const auto found = texts.find(id);
+    return found == texts.end() ? std::string{} : fill(found->second, facts);
   }
   std::string made_of() const {
-    return words("made_of", {{"studies", fmt::format("{}", fmt::join(studies_, ", "))}});
+    return words("made_of", {{"studies", fmt::format("{}", fmt::join(studies, ", "))}});
   }
 
- private:
   std::string fill(const std::string& text, const Row& facts) const {
-    return filled(text, {&all_.facts, &facts});
+    return filled(text, {&all.facts, &facts});
   }
   /// The text of that name, or the word itself.
   std::string word(const std::string& id, const std::string& otherwise) const {
-    return texts_.contains(id) ? words(id) : otherwise;
+    return texts.contains(id) ? words(id) : otherwise;
   }
 
   /// A block with where it comes from, for people one text.
@@ -93,7 +87,7 @@ class Sections {
     if (parts[0].empty())
       parts.assign(3, "");  // of a study that is not there
     else
-      studies_.insert(parts[0]);
+      studies.insert(parts[0]);
     block["kind"] = kind;
     block[kind] = true;
     const std::size_t dot = text.id.find('.');
@@ -153,15 +147,17 @@ class Sections {
   void add_figure(const PageText& text, const Row& facts) {
     const std::string file = text_of(facts, "file"), caption = words(text.id, facts),
                       alternative = words("alternative." + text.id.substr(text.id.find('.') + 1), facts);
-    const Drawing& drawing = all_.drawings.at(file);
     std::string svg;
-    if (remarks.empty() || std::holds_alternative<std::string>(drawing)) {
-      auto made = drawn(drawing, limits_);
+    if (const auto& drawing = all.drawings.at(file); std::holds_alternative<std::string>(drawing))
+      svg = std::get<std::string>(drawing);
+    else if (remarks.empty()) {
+      auto made = to_svg(std::get<Drawing>(drawing), limits);
       if (made)
-        svg = with_alternative(std::move(*made), caption, alternative);
+        svg = std::move(*made);
       else
         remarks.push_back("no figure: " + made.error().message);
     }
+    if (!svg.empty()) svg = with_alternative(std::move(svg), caption, alternative);
     put(text, "figure", facts,
         {{"file", svg.empty() ? Row() : Row(file)},
          {"caption", caption},
@@ -169,11 +165,6 @@ class Sections {
          {"missing", svg.empty() ? words("no_figure") : ""}});
     if (!svg.empty()) figures.push_back({file, std::move(svg)});
   }
-
-  const PageFacts& all_;
-  const std::map<std::string, std::string>& texts_;
-  const DrawingLimits& limits_;
-  std::set<std::string> studies_;  ///< labels of those that something comes from
 };
 
 /// What only pages need: where a list begins and ends, and the pictures themselves.
@@ -195,7 +186,8 @@ void prepare(Row& blocks, const std::vector<TextFile>& figures) {
 store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
                                           const PageTemplates& templates, const Row& head,
                                           const DrawingLimits& limits) {
-  Sections made(order, all, templates.texts, limits);
+  Sections made{all, templates.texts, limits};
+  made.add_all(order);
   Row page{{"format", head["format"]},
            {"language", made.words("language")},
            {"report", made.words("report")},

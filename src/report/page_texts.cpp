@@ -74,6 +74,13 @@ std::string with_error(double value, double error) {
   return report::fixed(value, decimals) + " ± " + report::fixed(rounded_up(error, decimals), decimals);
 }
 
+/// A text, a number as its shortest text, or "true"; empty for anything else.
+std::string fact_text(const Row& fact) {
+  if (fact.is_string()) return fact.get<std::string>();
+  if (fact.is_number_float()) return exact(fact.get<double>());
+  return fact.is_number() || fact == true ? fact.dump() : std::string{};
+}
+
 /// Facts by name, those that were pushed last first; behind bars in forms: "margin_K|down 1", where the
 /// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger, "is 1"
 /// where a number or a word is that one, "measured error_K" tells a number with that error, and "counted
@@ -219,12 +226,6 @@ std::string text_of(const Row& row, const std::string& key) {
 double number_of(const Row& row, const std::string& key) {
   const auto found = row.find(key);
   return found != row.end() && found->is_number() ? found->get<double>() : std::nan("");
-}
-
-std::string fact_text(const Row& fact) {
-  if (fact.is_string()) return fact.get<std::string>();
-  if (fact.is_number_float()) return exact(fact.get<double>());
-  return fact.is_number() || fact == true ? fact.dump() : std::string{};
 }
 
 const Row& found_in(const Row& facts, const std::string& name) {

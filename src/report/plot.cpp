@@ -185,35 +185,32 @@ int whole_height(const Plot& plot) {
 }
 
 /// Where a value stands between the lowest and the highest of an axis that its data make.
-class Places {
- public:
-  explicit Places(const PlotAxis& axis) : axis_(axis) {}
+struct Places {
+  const PlotAxis& axis;
+  double least = HUGE_VAL, most = -HUGE_VAL;
+
   void add(double value) {
-    if (!drawable(value, axis_.scale)) return;
-    low_ = std::min(low_, value);
-    high_ = std::max(high_, value);
+    if (!drawable(value, axis.scale)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
   }
   double of(double value) const { return (scaled(value) - low()) / span(); }
   double at(double place) const {
     const double value = low() + place * span();
-    return axis_.scale == Scale::linear ? value : std::pow(10.0, value);
+    return axis.scale == Scale::linear ? value : std::pow(10.0, value);
   }
 
- private:
-  double scaled(double value) const { return axis_.scale == Scale::linear ? value : std::log10(value); }
-  double low() const { return scaled(axis_.minimum.value_or(low_)); }
+  double scaled(double value) const { return axis.scale == Scale::linear ? value : std::log10(value); }
+  double low() const { return scaled(axis.minimum.value_or(least)); }
   double span() const {
-    const double span = scaled(axis_.maximum.value_or(high_)) - low();
+    const double span = scaled(axis.maximum.value_or(most)) - low();
     return span > 0 ? span : 1.0;
   }
-
-  const PlotAxis& axis_;
-  double low_ = HUGE_VAL, high_ = -HUGE_VAL;
 };
 
 Places places_along(const Plot& plot, const PlotAxis& axis, std::vector<double> Series::*values,
                     const std::vector<Line>& lines) {
-  Places places(axis);
+  Places places{axis};
   for (const Series& series : plot.series)
     for (const double value : series.*values) places.add(value);
   for (const Line& line : lines) places.add(line.at);
@@ -323,27 +320,6 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   return tics.empty() ? text : text + fmt::format("unset m{0}tics\nset {0}tics ({1})\n", name, tics);
 }
 
-/// Why a plot cannot be drawn; empty where it can.
-std::string unfit(const Plot& plot) {
-  for (const Plot& panel : plot.panels)
-    if (std::string why = unfit(panel); !why.empty()) return panel.title + ": " + why;
-  if (!plot.panels.empty()) return {};
-  for (const PlotAxis* axis : {&plot.x, &plot.y}) {
-    const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
-                      drawable(axis->maximum.value_or(1.0), axis->scale);
-    if (!fits) return "a limit has no place on its axis: " + axis->label;
-  }
-  for (const Series& series : plot.series) {
-    const std::size_t points = series.x.size();
-    if (series.y.size() != points) return "a series has as many x as y: " + series.label;
-    if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
-      return "a series has a bar for every point: " + series.label;
-  }
-  const bool has_points =
-      std::ranges::any_of(plot.series, [](const Series& series) { return !series.x.empty(); });
-  return has_points ? "" : "it has no points";
-}
-
 /// `width`: letters beside the plot, for names at the ends of lines.
 std::string drawing_commands(const Plot& plot, std::size_t width) {
   std::string text = frame_commands(plot, width);
@@ -395,13 +371,29 @@ std::string panel_commands(const Plot& plot) {
 
 }  // namespace
 
+std::string unfit(const Plot& plot) {
+  for (const Plot& panel : plot.panels)
+    if (std::string why = unfit(panel); !why.empty()) return panel.title + ": " + why;
+  if (!plot.panels.empty()) return {};
+  for (const PlotAxis* axis : {&plot.x, &plot.y}) {
+    const bool fits = drawable(axis->minimum.value_or(1.0), axis->scale) &&
+                      drawable(axis->maximum.value_or(1.0), axis->scale);
+    if (!fits) return "a limit has no place on its axis: " + axis->label;
+  }
+  for (const Series& series : plot.series) {
+    const std::size_t points = series.x.size();
+    if (series.y.size() != points) return "a series has as many x as y: " + series.label;
+    if (has_bars(series) && (series.lower.size() != points || series.upper.size() != points))
+      return "a series has a bar for every point: " + series.label;
+  }
+  const bool has_points =
+      std::ranges::any_of(plot.series, [](const Series& series) { return !series.x.empty(); });
+  return has_points ? "" : "it has no points";
+}
+
 std::string to_gnuplot(const Plot& plot) {
   if (!plot.panels.empty()) return panel_commands(plot);
   return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot, longest_end_name(plot));
-}
-
-store::Result<std::string> to_svg(const Plot& plot, const std::string& program, const DrawingLimits& limits) {
-  return drawn(plot, unfit(plot), program, limits);
 }
 
 }  // namespace launchsafe::report

@@ -24,8 +24,6 @@ std::vector<const Item*> items_of(const Report& report) {
   return items;
 }
 
-const std::string& rest_of(const ReportTable& table) { return table.rest.empty() ? table.csv : table.rest; }
-
 /// The first rows of a table; what was cut off is in `file`, and a note says so.
 Table first_rows(Table table, std::size_t most, const std::string& file) {
   if (table.rows.size() <= most) return table;
@@ -43,7 +41,7 @@ std::string block_of(const Statement& statement, const std::vector<std::string>&
 std::string block_of(const ReportTable& item, const std::vector<std::string>&) {
   const bool on_page = item.shown == Shown::page_and_terminal || item.shown == Shown::page;
   if (!on_page || item.table.rows.empty()) return {};
-  return to_markdown(first_rows(item.table, item.most_rows, rest_of(item)));
+  return to_markdown(first_rows(item.table, item.most_rows, item.csv));
 }
 
 std::string block_of(const Picture& picture, const std::vector<std::string>& missing) {
@@ -59,7 +57,7 @@ std::string printed(const ReportTable& item, const std::filesystem::path& folder
   Table beginning = item.table;
   beginning.rows.resize(most_printed_rows);
   return to_text(beginning, width) + fmt::format("\nThese are {} of {} rows; all are in {}\n\n",
-                                                 most_printed_rows, rows, (folder / rest_of(item)).string());
+                                                 most_printed_rows, rows, (folder / item.csv).string());
 }
 
 /// Draws the pictures, until gnuplot is missing, fails or takes too long at one, which is a remark. The names
@@ -68,7 +66,7 @@ std::vector<std::string> draw(const Report& report, const DrawingLimits& limits,
   std::vector<std::string> missing;
   for (const Picture* picture : items_of<Picture>(report)) {
     if (missing.empty()) {
-      auto svg = to_svg(picture->plot, "gnuplot", limits);
+      auto svg = to_svg(picture->plot, limits);
       if (svg) {
         rendered.files.push_back({picture->file, std::move(*svg)});
         continue;
@@ -95,6 +93,50 @@ void add_acceptances(const study::AcceptancesOfStudy& all, nlohmann::ordered_jso
   head["extrapolated"] = all.extrapolated;
 }
 
+/// Shares of the uncertainty that the study neither states nor has a record of, by the keys that state them.
+nlohmann::ordered_json assumed_json(const study::Study& study) {
+  auto assumed = nlohmann::ordered_json::object();
+  if (!std::isfinite(study.input_uncertainty)) assumed["input_uncertainty"] = true;
+  if (study.accuracy.empty() && !std::isfinite(study.numerical_uncertainty))
+    assumed["numerical_uncertainty"] = true;
+  if (!study.model_form && !std::isfinite(study.model_form_uncertainty))
+    assumed["model_form_uncertainty"] = true;
+  return assumed;
+}
+
+/// What verdicts rest on that were calibrated on firings.
+nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
+  int rounds[2] = {0, 0};
+  for (const study::Firing& each : evidence.firings) rounds[each.ignited ? 1 : 0] += each.rounds;
+  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
+}
+
+store::SqlValue sql_value(const Cell& cell) {
+  return std::visit(
+      [](const auto& value) -> store::SqlValue {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
+          return store::to_sql(value);
+        return value;
+      },
+      cell);
+}
+
+/// Adds the rows of a table, and its columns where the table before has others.
+void add_rows(store::PlainTable& all, const Table& table) {
+  std::vector<std::size_t> places;
+  for (const Column& column : table.columns) {
+    const auto found = std::ranges::find(all.columns, column.name);
+    places.push_back(static_cast<std::size_t>(found - all.columns.begin()));
+    if (found == all.columns.end()) all.columns.push_back(column.name);
+  }
+  for (const auto& cells : table.rows) {
+    store::SqlRow& row = all.rows.emplace_back();
+    row.resize(all.columns.size());
+    for (std::size_t i = 0; i < places.size(); ++i) row[places[i]] = sql_value(cells[i]);
+  }
+  for (store::SqlRow& row : all.rows) row.resize(all.columns.size());
+}
+
 }  // namespace
 
 std::string to_markdown(const Report& report, const std::vector<std::string>& missing) {
@@ -118,28 +160,6 @@ std::string to_text(const Report& report, const std::filesystem::path& folder, s
   for (const ReportTable* table : items_of<ReportTable>(report)) text += printed(*table, folder, width);
   return text + report.answer + "\n";
 }
-
-namespace {
-
-/// Shares of the uncertainty that the study neither states nor has a record of, by the keys that state them.
-nlohmann::ordered_json assumed_json(const study::Study& study) {
-  auto assumed = nlohmann::ordered_json::object();
-  if (!std::isfinite(study.input_uncertainty)) assumed["input_uncertainty"] = true;
-  if (study.accuracy.empty() && !std::isfinite(study.numerical_uncertainty))
-    assumed["numerical_uncertainty"] = true;
-  if (!study.model_form && !std::isfinite(study.model_form_uncertainty))
-    assumed["model_form_uncertainty"] = true;
-  return assumed;
-}
-
-/// What verdicts rest on that were calibrated on firings.
-nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
-  int rounds[2] = {0, 0};
-  for (const study::Firing& each : evidence.firings) rounds[each.ignited ? 1 : 0] += each.rounds;
-  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
-}
-
-}  // namespace
 
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members) {
@@ -174,36 +194,6 @@ std::string study_json(const study::StudyFile& study, const Report& report,
   }
   return text + "\n}\n";
 }
-
-namespace {
-
-store::SqlValue sql_value(const Cell& cell) {
-  return std::visit(
-      [](const auto& value) -> store::SqlValue {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-          return store::to_sql(value);
-        return value;
-      },
-      cell);
-}
-
-/// Adds the rows of a table, and its columns where the table before has others.
-void add_rows(store::PlainTable& all, const Table& table) {
-  std::vector<std::size_t> places;
-  for (const Column& column : table.columns) {
-    const auto found = std::ranges::find(all.columns, column.name);
-    places.push_back(static_cast<std::size_t>(found - all.columns.begin()));
-    if (found == all.columns.end()) all.columns.push_back(column.name);
-  }
-  for (const auto& cells : table.rows) {
-    store::SqlRow& row = all.rows.emplace_back();
-    row.resize(all.columns.size());
-    for (std::size_t i = 0; i < places.size(); ++i) row[places[i]] = sql_value(cells[i]);
-  }
-  for (store::SqlRow& row : all.rows) row.resize(all.columns.size());
-}
-
-}  // namespace
 
 std::vector<store::PlainTable> plain_tables(const Report& report) {
   std::vector<store::PlainTable> tables;

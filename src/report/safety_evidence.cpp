@@ -5,7 +5,6 @@
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "safety_facts.hpp"
 
 #include <fmt/format.h>
@@ -124,7 +123,7 @@ store::MaybeError check_verdicts(const StudyEvidence& study) {
                    fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
                    "every gap in every case");
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (!verdicts[i].contains(quantity::reason_code().key()) || !study.study.contains("extrapolated"))
+    if (!verdicts[i].contains(quantity::reason_code.key()) || !study.study.contains("extrapolated"))
       return refused(study, results,
                      "an earlier program wrote these verdicts, without what they rest on as columns",
                      "a study that this program made");
@@ -185,15 +184,13 @@ bool is_of_shell(const std::string& key) {
 /// A launch whose gap closes stands beside one whose air is a reservoir, where there is one. The accuracy of
 /// such launches, or what they depend on, says nothing of the reservoir.
 void tell_closing(std::vector<StudyEvidence>& studies) {
-  for (StudyEvidence& study : studies)
-    if (closes(study) && (study.tells == Tells::accuracy || study.tells == Tells::sensitivity))
-      study.tells = Tells::nothing;
-  const auto is_reservoir = [](const StudyEvidence& study) {
-    return study.tells == Tells::launch && !closes(study);
-  };
-  if (std::ranges::none_of(studies, is_reservoir)) return;
-  for (StudyEvidence& study : studies)
-    if (study.tells == Tells::launch && closes(study)) study.tells = Tells::closing;
+  const bool beside_reservoir = std::ranges::any_of(
+      studies, [](const StudyEvidence& each) { return each.tells == Tells::launch && !closes(each); });
+  for (StudyEvidence& study : studies) {
+    if (!closes(study)) continue;
+    if (study.tells == Tells::accuracy || study.tells == Tells::sensitivity) study.tells = Tells::nothing;
+    if (study.tells == Tells::launch && beside_reservoir) study.tells = Tells::closing;
+  }
 }
 
 /// One study of a kind, and all of one shell.
@@ -231,18 +228,16 @@ double bound_of(const CaseEvidence& judged) {
   return number_of(*judged.critical, "critical_gap_at_least_cm");
 }
 
-/// cm; 0 for what ignites without a gap.
-double bracket_of(const CaseEvidence& judged) {
-  const double width = number_of(*judged.critical, "critical_gap_upper_cm") -
-                       number_of(*judged.critical, "critical_gap_lower_cm");
-  return std::isfinite(width) ? width : 0.0;
-}
-
+/// But for round-off and the widths of their brackets, which what ignites without a gap has not.
 bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
-  constexpr double round_off = 1e-6;  // cm
+  double slack = 1e-6;  // cm
+  for (const CaseEvidence* each : {&a, &b}) {
+    const double width = number_of(*each->critical, "critical_gap_upper_cm") -
+                         number_of(*each->critical, "critical_gap_lower_cm");
+    if (std::isfinite(width)) slack += width;
+  }
   const double first = bound_of(a), second = bound_of(b);
-  if (std::isnan(first) || std::isnan(second)) return std::isnan(first) && std::isnan(second);
-  return std::abs(first - second) <= round_off + bracket_of(a) + bracket_of(b);
+  return std::abs(first - second) <= slack || (std::isnan(first) && std::isnan(second));
 }
 
 /// Whether two cases are of one launch, computed with the same numerics.
@@ -319,7 +314,7 @@ store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
     const path name(text_of(*each.run, "stored_case"));
     if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(main.folder / name))
       continue;
-    const auto scene = each.scene();
+    const auto scene = study::with_changes(main.scene, each.changes());
     if (!scene)
       return refused(main, results, "found a case that its scene cannot be: " + scene.error().message(),
                      "results as a study writes them");
@@ -343,12 +338,12 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
   if (study.tells != Tells::launch && study.tells != Tells::sweep) return {};
   // Peak pressure and defect stand in every table of cases or verdicts.
   Row axes = Row::array();
-  for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure()},
-                                    {"charge.crack_radius", quantity::crack_radius()},
-                                    {"charge.flaw_size", quantity::flaw_size()}})
+  for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure},
+                                    {"charge.crack_radius", quantity::crack_radius},
+                                    {"charge.flaw_size", quantity::flaw_size}})
     axes.push_back({{"scene_key", key}, {"key", column.key()}, {"unit", column.form.unit}});
   for (const Row& axis : study.rows("axes"))
-    if (text_of(axis, "key") != quantity::gap().key()) axes.push_back(axis);
+    if (text_of(axis, "key") != quantity::gap.key()) axes.push_back(axis);
   const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
   const std::size_t gaps = verdicts.size() / criticals.size();
   std::vector<CaseEvidence> cases;
@@ -380,17 +375,11 @@ double CaseEvidence::value(const std::string& key) const {
   return found != values.end() ? found->second : own_value(*study, key);
 }
 
-bool CaseEvidence::is_own() const {
-  return std::ranges::all_of(values, [&](const auto& each) {
-    return study::same_number(each.second, own_value(*study, each.first));
-  });
-}
-
-scene::Expected<scene::SceneFile> CaseEvidence::scene() const {
+std::vector<study::Change> CaseEvidence::changes() const {
   std::vector<study::Change> changes;
   for (const auto& [key, value] : values)
     if (!study::same_number(value, own_value(*study, key))) changes.push_back({key, value, {}, key, {}});
-  return study::with_changes(study->scene, changes);
+  return changes;
 }
 
 }  // namespace safety

@@ -4,11 +4,7 @@
 #include "built_in_templates.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +22,7 @@ constexpr std::size_t most_rows_on_page_one = 12;
 /// The setting of an accuracy study whose uncertainty stands in the main study's input, or else the scene's
 /// own where that study has no variants; nothing where the main study took the record of none.
 Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
-  const std::string taken = quantity::recorded_uncertainty().key();
+  const std::string taken = quantity::recorded_uncertainty.key();
   for (const Row& row : accuracy.rows("settings"))
     for (const Row& each : main.rows("cases"))
       if (number_of(each, taken) == number_of(row, "temperature_bound_K")) return row;
@@ -107,17 +103,13 @@ double most_probable(double gap, const CaseEvidence& judged, const StudyEvidence
   return number_of(found_in(drawn->study, "ignition"), "probability_to");
 }
 
-JudgedGap gap_of(const CaseEvidence& judged, const Row& verdict) {
-  JudgedGap gap{.gap = number_of(verdict, "gap_cm"),
-                .safe = text_of(verdict, "verdict") == "SAFE",
-                .margin = number_of(verdict, "margin_K"),
-                .uncertainty = number_of(verdict, "uncertainty_K"),
-                .temperature = number_of(verdict, "temperature_max_K")};
-  if (!is_value(judged)) return gap;
+/// The row of a verdict, with how far its gap is from the critical one.
+Row with_distance(const CaseEvidence& judged, Row row) {
+  if (!is_value(judged)) return row;
   const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
-  gap.distance = lower - gap.gap;
-  gap.distance_uncertainty = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
-  return gap;
+  row["distance_cm"] = lower - number_of(row, "gap_cm");
+  row["distance_uncertainty_cm"] = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
+  return row;
 }
 
 /// cm: what a rule recommends over all cases, the smallest of what it allows in each. Nothing where one
@@ -126,30 +118,21 @@ Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& c
                    const StudyEvidence* drawn) {
   Row smallest;
   for (const CaseEvidence& each : cases) {
-    std::vector<JudgedGap> gaps;
+    std::vector<Row> verdicts;
     for (const Row* row : each.verdicts) {
-      gaps.push_back(gap_of(each, *row));
-      gaps.back().probability = most_probable(gaps.back().gap, each, drawn);
+      verdicts.push_back(with_distance(each, *row));
+      verdicts.back()["probability"] = most_probable(number_of(*row, "gap_cm"), each, drawn);
     }
-    const std::size_t row = largest_gap_under(criterion, gaps);
-    if (row == gaps.size()) return {};
-    if (smallest.is_null() || gaps[row].gap < smallest.get<double>()) smallest = gaps[row].gap;
+    const std::optional<double> largest = largest_gap_under(criterion, std::move(verdicts));
+    if (!largest) return {};
+    if (smallest.is_null() || *largest < smallest.get<double>()) smallest = *largest;
   }
-  return smallest;
-}
-
-/// The case with the smallest critical gap; nullptr where none is a value.
-const CaseEvidence* smallest_of(const std::vector<CaseEvidence>& cases) {
-  const CaseEvidence* smallest = nullptr;
-  const auto gap = [](const CaseEvidence& each) { return number_of(*each.critical, "critical_gap_cm"); };
-  for (const CaseEvidence& each : cases)
-    if (is_value(each) && (smallest == nullptr || gap(each) < gap(*smallest))) smallest = &each;
   return smallest;
 }
 
 /// Whether nothing says how wrong a row is: its uncertainty is then no number to hold a margin against.
 bool is_uncertain(const Row* verdict) {
-  const std::string code = text_of(*verdict, quantity::reason_code().key());
+  const std::string code = text_of(*verdict, quantity::reason_code.key());
   return code == to_string(study::ReasonCode::validity_warning) ||
          code == to_string(study::ReasonCode::unaccepted);
 }
@@ -177,20 +160,19 @@ Row with_look(const CaseEvidence& judged, Row row) {
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
 /// no margin, nor is anything after ignition, when T max is that of the burning skin.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
-  Row row = with_look(judged, verdict);
-  const JudgedGap gap = gap_of(judged, verdict);
+  Row row = with_distance(judged, with_look(judged, verdict));
+  const double margin = number_of(row, "margin_K"), uncertainty = number_of(row, "uncertainty_K");
   const bool ignited = !text_of(row, "ignition_cause").empty();
-  const bool is_known = judged.completed() && std::isfinite(gap.uncertainty) && !is_uncertain(&row);
-  const int decimals = decimals_for(gap.uncertainty);
+  const bool is_known = judged.completed() && std::isfinite(uncertainty) && !is_uncertain(&row);
+  const int decimals = decimals_for(uncertainty);
   const auto down = [&](bool told, double value, int places) {
     return told && judged.completed() && std::isfinite(value) ? Row(rounded_down(value, places)) : Row();
   };
   row["case"] = judged.label;
-  row["margin_K"] = down(!ignited, gap.margin, decimals);
-  row["uncertainty_K"] = is_known ? Row(rounded_up(gap.uncertainty, decimals)) : Row();
-  row["margin_over_uncertainty"] =
-      down(is_known && gap.uncertainty > 0 && !ignited, gap.margin / gap.uncertainty, 1);
-  row["distance_cm"] = down(true, gap.distance, 3);
+  row["margin_K"] = down(!ignited, margin, decimals);
+  row["uncertainty_K"] = is_known ? Row(rounded_up(uncertainty, decimals)) : Row();
+  row["margin_over_uncertainty"] = down(is_known && uncertainty > 0 && !ignited, margin / uncertainty, 1);
+  row["distance_cm"] = down(true, number_of(row, "distance_cm"), 3);
   if (!judged.completed()) row["temperature_max_K"] = nullptr;
   // What else the reason says, but for what page one says of all rows.
   for (const char* clause : {"limited", "noise", "ring", "model_form"})
@@ -204,8 +186,9 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
 const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
   const auto own = std::ranges::find_if(cases, &CaseEvidence::is_own);
   if (own != cases.end()) return *own;
-  const CaseEvidence* smallest = smallest_of(cases);
-  return smallest != nullptr ? *smallest : cases.front();
+  return *std::ranges::min_element(cases, {}, [](const CaseEvidence& each) {
+    return is_value(each) ? number_of(*each.critical, "critical_gap_cm") : HUGE_VAL;
+  });
 }
 
 // --- what the report says ---

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/report/safety_report.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report::safety {
 
@@ -18,10 +19,9 @@ struct CaseEvidence {
   bool completed() const { return text_of(*run, "status") == "completed"; }
   /// SI, of a scene key.
   double value(const std::string& key) const;
-  /// Whether it has the scene's own values of all that the study varies.
-  bool is_own() const;
-  /// Errors: values that the study's scene cannot have.
-  scene::Expected<scene::SceneFile> scene() const;
+  /// What it has otherwise than the study's scene.
+  std::vector<study::Change> changes() const;
+  bool is_own() const { return changes().empty(); }
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);

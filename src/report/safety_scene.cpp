@@ -3,9 +3,9 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/scene/stations.hpp"
 #include "safety_facts.hpp"
 
 #include <fmt/format.h>
@@ -150,7 +150,7 @@ Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFa
       facts[word].push_back({{"file", each.file},
                              {"gap_cm", each.gap ? Row(shown_gap(*each.gap)) : Row()},
                              {"time_ms", each.time ? Row(in(millisecond, *each.time)) : Row()}});
-      std::visit([&](auto& plot) { all.drawings[each.file] = std::move(plot); }, each.plot);
+      all.drawings[each.file] = std::move(each.plot);
     }
   }
   return facts;

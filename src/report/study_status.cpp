@@ -78,11 +78,6 @@ Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
   return writer;
 }
 
-std::string part_text(const std::string& part) {
-  const std::size_t of = part.find("-of-");
-  return of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4);
-}
-
 /// Shards that nobody has seen at work, by the number that the others tell.
 std::size_t shards_not_seen(const std::vector<store::StoreStatus>& snapshots) {
   std::set<std::string> seen;
@@ -123,7 +118,9 @@ Row gaps_of(const std::vector<Writer>& writers) {
 
 Row row_of(const Writer& writer, std::time_t now) {
   Row row = writer.snapshot->members;
-  row["shard"] = part_text(writer.snapshot->part);
+  const std::string& part = writer.snapshot->part;
+  const std::size_t of = part.find("-of-");
+  row["shard"] = of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4);
   row["state"] = word_for(writer.state);
   row["silence"] = duration(static_cast<double>(now - writer.time));
   row["left"] = writer.left ? duration(*writer.left) : "";

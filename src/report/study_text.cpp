@@ -54,17 +54,6 @@ std::size_t clutter(double value) {
   return text.size() - whole + leading_zero + (whole > 3 ? 3 * (whole - 3) : 0);
 }
 
-ShownKey shown_numbers(const std::string& name, const scene::KeyDescription& key,
-                       const std::vector<double>& si_values) {
-  ShownKey result{{.name = name, .heading = name, .meaning = key.sentence}, key.name};
-  // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
-  const bool dotted = name.find('.') != std::string::npos;
-  if (!dotted) std::ranges::replace(result.heading, '_', ' ');
-  std::ranges::replace(result.name, '.', '_');
-  result.form = {Notation::significant, 6, key.dimension, unit_for(si_values, key.dimension)};
-  return result;
-}
-
 bool is_log_normal(const math::Distribution& distribution) {
   return distribution.kind == math::Distribution::Kind::log_normal;
 }
@@ -79,8 +68,7 @@ std::vector<double> marks_of(const math::Distribution& distribution) {
   return values;
 }
 
-}  // namespace
-
+/// The unit in which all of these values read best, among those that people use; empty for pure numbers.
 std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension) {
   std::string best;
   std::size_t least = std::numeric_limits<std::size_t>::max();
@@ -95,8 +83,18 @@ std::string unit_for(const std::vector<double>& si_values, scene::Dimension dime
   return best;
 }
 
+}  // namespace
+
 ShownKey shown(const study::Axis& axis) {
-  return shown_numbers(axis.name, axis.key, axis.distribution ? marks_of(*axis.distribution) : axis.values);
+  ShownKey key{{.name = axis.name, .heading = axis.name, .meaning = axis.key.sentence}, axis.key.name};
+  // An alias such as peak_pressure is words; a dotted name is shown as it is to be written.
+  const bool dotted = axis.name.find('.') != std::string::npos;
+  if (!dotted) std::ranges::replace(key.heading, '_', ' ');
+  std::ranges::replace(key.name, '.', '_');
+  const scene::Dimension dimension = axis.key.dimension;
+  key.form = {Notation::significant, 6, dimension,
+              unit_for(axis.distribution ? marks_of(*axis.distribution) : axis.values, dimension)};
+  return key;
 }
 
 std::vector<ShownKey> shown_axes(const study::Study& study) {
@@ -167,15 +165,6 @@ std::string place_text(const std::vector<ShownKey>& keys, const std::vector<doub
   return text;
 }
 
-namespace {
-
-std::string values_or_distribution(const study::Axis& axis) {
-  const ShownKey key = shown(axis);
-  return axis.distribution ? distribution_text(key, *axis.distribution) : values_text(key, axis.values);
-}
-
-}  // namespace
-
 bool varies(const study::Study& study, const std::string& key) {
   return std::ranges::any_of(study.axes, [&key](const study::Axis& axis) { return axis.key.name == key; });
 }
@@ -196,7 +185,9 @@ std::string setup_text(const study::StudyFile& study) {
   if (!study.chosen_setting.empty())
     text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
   for (const study::Axis& axis : study.study.axes)
-    text += fmt::format("- `{}` is varied: {}\n", axis.key.name, values_or_distribution(axis));
+    text += fmt::format("- `{}` is varied: {}\n", axis.key.name,
+                        axis.distribution ? distribution_text(shown(axis), *axis.distribution)
+                                          : values_text(shown(axis), axis.values));
   // What tells one launch from another; the manifest has all inputs.
   constexpr std::string_view told[] = {"load.peak", "charge.crack_radius", "charge.flaw_size",
                                        "numerics.cell_size"};
@@ -234,15 +225,14 @@ std::string timing_sentence(const study::Timing& timing) {
 nlohmann::ordered_json timing_json(const study::Timing& timing) {
   using study::Timing;
   static const Quantities<Timing> quantities{
-      {quantity::wall_time(), &Timing::wall_time},
-      {{"runs", "runs", count(), "Mechanical runs that were made."}, &Timing::runs},
-      {{"reused", "used again", count(), "Mechanical runs that were stored."}, &Timing::reused},
-      {{"jobs", "jobs", count(), "Runs at once."}, &Timing::jobs},
-      {{"particle_updates", "particle updates", keys::scientific(2), "Of all runs."},
+      {quantity::wall_time, &Timing::wall_time},
+      {"runs", "runs", count(), "Mechanical runs that were made.", &Timing::runs},
+      {"reused", "used again", count(), "Mechanical runs that were stored.", &Timing::reused},
+      {"jobs", "jobs", count(), "Runs at once.", &Timing::jobs},
+      {"particle_updates", "particle updates", keys::scientific(2), "Of all runs.",
        &Timing::particle_updates},
-      {{"run_time", "time of runs", keys::fixed(1, second), "Processor time of all runs."},
-       &Timing::run_time},
-      {quantity::updates_per_second(), &Timing::updates_per_second}};
+      {"run_time", "time of runs", keys::fixed(1, second), "Processor time of all runs.", &Timing::run_time},
+      {quantity::updates_per_second, &Timing::updates_per_second}};
   return json_of(quantities, timing);
 }
 

@@ -18,50 +18,6 @@ std::string rounded(double value, const Form& form) {
   return fixed(value, form.digits);
 }
 
-}  // namespace
-
-double shown_value(double value_si, const Form& form) {
-  return scene::as_written(value_si, form.dimension, form.unit);
-}
-
-Cell shown_cell(Cell cell_si, const Column& column) {
-  if (auto* number = std::get_if<double>(&cell_si)) *number = shown_value(*number, column.form);
-  return cell_si;
-}
-
-std::string digits_of(double value_si, const Form& form) {
-  return rounded(shown_value(value_si, form), form);
-}
-
-std::string in_words(double value_si, const Form& form) {
-  return digits_of(value_si, form) + (form.unit.empty() ? "" : " " + form.unit);
-}
-
-std::string cell_text(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-  return {};
-}
-
-std::string markdown_escaped(const std::string& text) {
-  constexpr std::string_view markup = "\\|*_`<>[]#~";
-  std::string escaped;
-  for (const char character : text) {
-    if (markup.find(character) != std::string_view::npos) escaped += '\\';
-    if (character == '&') {
-      escaped += "&amp;";
-    } else if (character == '\n') {
-      escaped += "<br>";
-    } else if (character != '\r') {
-      escaped += character;
-    }
-  }
-  return escaped;
-}
-
-namespace {
-
 /// Places of the columns that people or programs read.
 std::vector<std::size_t> places_for(const Table& table, Audience audience) {
   std::vector<std::size_t> places;
@@ -215,6 +171,46 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
 
 }  // namespace
 
+double shown_value(double value_si, const Form& form) {
+  return scene::as_written(value_si, form.dimension, form.unit);
+}
+
+Cell shown_cell(Cell cell_si, const Column& column) {
+  if (auto* number = std::get_if<double>(&cell_si)) *number = shown_value(*number, column.form);
+  return cell_si;
+}
+
+std::string digits_of(double value_si, const Form& form) {
+  return rounded(shown_value(value_si, form), form);
+}
+
+std::string in_words(double value_si, const Form& form) {
+  return digits_of(value_si, form) + (form.unit.empty() ? "" : " " + form.unit);
+}
+
+std::string cell_text(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
+}
+
+std::string markdown_escaped(const std::string& text) {
+  constexpr std::string_view markup = "\\|*_`<>[]#~";
+  std::string escaped;
+  for (const char character : text) {
+    if (markup.find(character) != std::string_view::npos) escaped += '\\';
+    if (character == '&') {
+      escaped += "&amp;";
+    } else if (character == '\n') {
+      escaped += "<br>";
+    } else if (character != '\r') {
+      escaped += character;
+    }
+  }
+  return escaped;
+}
+
 std::vector<std::string> keys_of(const Table& table) {
   std::vector<std::string> keys;
   for (const Column& column : table.columns) {
@@ -285,19 +281,10 @@ nlohmann::ordered_json json_of_row(const Table& table, std::size_t row) {
   return object;
 }
 
-nlohmann::ordered_json to_json(const Table& table) {
-  const auto keys = keys_of(table);
-  auto columns = nlohmann::ordered_json::array();
-  for (const std::size_t i : places_for(table, Audience::programs)) {
-    const Column& column = table.columns[i];
-    columns.push_back({{"key", keys[i]},
-                       {"name", column.heading},
-                       {"unit", column.form.unit},
-                       {"meaning", column.meaning}});
-  }
+nlohmann::ordered_json json_rows(const Table& table) {
   auto rows = nlohmann::ordered_json::array();
   for (std::size_t row = 0; row < table.rows.size(); ++row) rows.push_back(json_of_row(table, row));
-  return {{"title", table.title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
+  return rows;
 }
 
 void append_json_rows(std::string& text, const Table& table) {

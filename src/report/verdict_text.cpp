@@ -5,7 +5,6 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/scene/stations.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
@@ -22,7 +21,7 @@ using keys::fixed, keys::scientific, keys::text;
 
 std::string ignition_text(const study::NamedIgnition& ignition) {
   return fmt::format("{} at {}, {}", study::to_string(ignition.cause),
-                     in_words(ignition.time, quantity::ignition_time().form), ignition.point);
+                     in_words(ignition.time, quantity::ignition_time.form), ignition.point);
 }
 
 /// A share of the uncertainty.
@@ -32,10 +31,9 @@ Column share_of_uncertainty(std::string name, std::string heading, std::string m
 }
 
 /// What the judgement of a gap rests on, for programs: empty where there is nothing to say.
-Quantity<VerdictRow> evidence_quantity(const char* name, std::string (*said)(const study::Evidence&),
-                                       const char* meaning) {
-  return {for_programs(Column{name, name, text(), meaning}), &VerdictRow::gap, &study::GapVerdict::evidence,
-          said};
+Quantity<study::GapVerdict> evidence_quantity(const char* name, std::string (*said)(const study::Evidence&),
+                                              const char* meaning) {
+  return {for_programs(Column{name, name, text(), meaning}), &study::GapVerdict::evidence, said};
 }
 
 /// What the input of the case says.
@@ -80,28 +78,20 @@ struct LimitRow {
   const study::CriticalGap* critical = nullptr;
 };
 
-Quantities<LimitRow> limit_quantities() {
-  using keys::significant;
-  return {
-      {{"limit", "limit", significant(6, centimetre), "Limit of the gap that the source states."},
-       &LimitRow::comparison,
-       &study::LimitComparison::limit,
-       &study::CitedLimit::gap},
-      {named("limit_peak_pressure", headed("at", quantity::peak_pressure())), &LimitRow::comparison,
-       &study::LimitComparison::limit, &study::CitedLimit::peak_pressure},
-      {{"source", "source", text(), "Who states it."},
-       &LimitRow::comparison,
-       &study::LimitComparison::limit,
-       &study::CitedLimit::source},
-      {headed("computed at", quantity::peak_pressure()), &LimitRow::input, &study::StudyCase::peak_pressure},
-      {quantity::case_name(), &LimitRow::input, &study::StudyCase::label},
-      {for_programs(quantity::critical_gap()), &LimitRow::critical, value_of},
-      {quantity::critical_gap_reads_as(), &LimitRow::critical, reads_as},
-      {{"difference", "computed minus cited", significant(2, centimetre),
-        "Critical gap minus the limit, where the pressures agree."},
-       &LimitRow::comparison,
-       &study::LimitComparison::difference}};
-}
+const Quantities<LimitRow> limit_quantities{
+    {"limit", "limit", keys::significant(6, centimetre), "Limit of the gap that the source states.",
+     &LimitRow::comparison, &study::LimitComparison::limit, &study::CitedLimit::gap},
+    {named("limit_peak_pressure", headed("at", quantity::peak_pressure)), &LimitRow::comparison,
+     &study::LimitComparison::limit, &study::CitedLimit::peak_pressure},
+    {"source", "source", text(), "Who states it.", &LimitRow::comparison, &study::LimitComparison::limit,
+     &study::CitedLimit::source},
+    {headed("computed at", quantity::peak_pressure), &LimitRow::input, &study::StudyCase::peak_pressure},
+    {quantity::case_name, &LimitRow::input, &study::StudyCase::label},
+    {for_programs(quantity::critical_gap), &LimitRow::critical, value_of},
+    {quantity::critical_gap_reads_as, &LimitRow::critical, reads_as},
+    {"difference", "computed minus cited", keys::significant(2, centimetre),
+     "Critical gap minus the limit, where the pressures agree.", &LimitRow::comparison,
+     &study::LimitComparison::difference}};
 
 /// One cause that makes the critical gap of a case uncertain.
 struct ShareRow {
@@ -115,63 +105,60 @@ std::string gap_or_bound_text(study::GapOrBound gap) {
   return gap > 0.0 ? in_words(gap, keys::significant(4, centimetre)) : "ignites without a gap";
 }
 
-Quantities<ShareRow> share_quantities() {
-  return {
-      {quantity::case_name(), [](const ShareRow& row) { return row.of->label; }},
-      {{"cause", "cause", text(), "What is uncertain."},
-       [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
-      {{"class", "class", text(), "Whether it scatters at random or is not known better."},
-       [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
-      {{"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end."},
-       [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
-      {{"lowered", "at the other end", text(), "Critical gap with the cause at its better end."},
-       [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
-      {{"lowers", "lowers the bound by", keys::significant(2, centimetre),
-        "By how much the cause moves the critical gap towards ignition."},
-       [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
-}
+const Quantities<ShareRow> share_quantities{
+    {quantity::case_name, [](const ShareRow& row) { return row.of->label; }},
+    {"cause", "cause", text(), "What is uncertain.",
+     [](const ShareRow& row) { return study::traits_of(row.share->kind).title; }},
+    {"class", "class", text(), "Whether it scatters at random or is not known better.",
+     [](const ShareRow& row) { return study::traits_of(row.share->kind).of_class; }},
+    {"raised", "critical gap towards ignition", text(), "Critical gap with the cause at its worse end.",
+     [](const ShareRow& row) { return gap_or_bound_text(row.share->raised); }},
+    {"lowered", "at the other end", text(), "Critical gap with the cause at its better end.",
+     [](const ShareRow& row) { return gap_or_bound_text(row.share->lowered); }},
+    {"lowers", "lowers the bound by", keys::significant(2, centimetre),
+     "By how much the cause moves the critical gap towards ignition.",
+     [](const ShareRow& row) { return study::move_towards_ignition(row.of->gap->lower, *row.share); }}};
 
 }  // namespace
 
-Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
+Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
   using study::GapVerdict, study::Judgement, study::NamedIgnition, study::Peak, study::Uncertainty,
       surface::AirEnergy;
   using namespace quantity;
   return {
-      {temperature_max(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::temperature},
-      {temperature_max_place(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::point},
-      {temperature_max_time(), &VerdictRow::gap, &GapVerdict::maximum, &Peak::time},
-      {temperature_early(study.early_time), &VerdictRow::gap, &GapVerdict::early, &Peak::temperature},
-      {for_programs(temperature_early_place()), &VerdictRow::gap, &GapVerdict::early, &Peak::point},
+      {temperature_max, &GapVerdict::maximum, &Peak::temperature},
+      {temperature_max_place, &GapVerdict::maximum, &Peak::point},
+      {temperature_max_time, &GapVerdict::maximum, &Peak::time},
+      {temperature_early(study.early_time), &GapVerdict::early, &Peak::temperature},
+      {for_programs(temperature_early_place), &GapVerdict::early, &Peak::point},
       {for_programs(Column{"spread", "spread", fixed(1, kelvin),
                            "Hottest less coldest station at the end of what is read."}),
-       &VerdictRow::gap, &GapVerdict::spread},
+       &GapVerdict::spread},
       {for_programs(Column{"spread_early", "early spread", fixed(1, kelvin), "The same at early_time."}),
-       &VerdictRow::gap, &GapVerdict::early_spread},
-      {for_programs(temperature_max_inert()), &VerdictRow::inert},
-      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}), &VerdictRow::gap,
+       &GapVerdict::early_spread},
+      {for_programs(temperature_max_inert), &GapVerdict::heated},
+      {always({"margin", "margin", fixed(2, kelvin), "Ignition temperature less T max."}),
        &GapVerdict::margin},
-      {always(uncertainty()), &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::total},
+      {always(uncertainty), &GapVerdict::uncertainty, &Uncertainty::total},
       {share_of_uncertainty("computation", "of computation",
                             "Of it: sampling, integration, mesh, step, scaling, and sliding on the base."),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::computed},
+       &GapVerdict::uncertainty, &Uncertainty::computed},
       {for_programs(share_of_uncertainty("sliding", "of sliding",
                                          "Of the computation: what temperatures leave out of sliding.")),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::sliding},
+       &GapVerdict::uncertainty, &Uncertainty::sliding},
       {share_of_uncertainty("fit", "of fit", "Of it: how well the calibrated constants are known."),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::fit},
+       &GapVerdict::uncertainty, &Uncertainty::fit},
       {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::inputs},
+       &GapVerdict::uncertainty, &Uncertainty::inputs},
       {for_programs(share_of_uncertainty("load_curve", "of load curve",
                                          "Of the inputs: the noise of a measured pressure curve.")),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::load_curve},
+       &GapVerdict::uncertainty, &Uncertainty::load_curve},
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
-       &VerdictRow::gap, &GapVerdict::uncertainty, &Uncertainty::model_form},
-      {verdict(), &VerdictRow::gap, &GapVerdict::judgement, &Judgement::verdict},
-      {reason(), &VerdictRow::gap, [](const GapVerdict& gap) { return study::reason_text(gap); }},
-      {for_programs(reason_code()), &VerdictRow::gap, &GapVerdict::judgement, &Judgement::code},
+       &GapVerdict::uncertainty, &Uncertainty::model_form},
+      {verdict, &GapVerdict::judgement, &Judgement::verdict},
+      {reason, [](const GapVerdict& gap) { return study::reason_text(gap); }},
+      {for_programs(reason_code), &GapVerdict::judgement, &Judgement::code},
       {for_programs(Column{"cause", "cause", text(), "The beginning of the reason: what decided."}),
-       &VerdictRow::gap,
        [](const GapVerdict& gap) { return study::cause_text(gap.evidence, gap.judgement); }},
       evidence_quantity("validity_warnings", study::validity_warnings_text,
                         "Why a completed run is no basis."),
@@ -186,25 +173,25 @@ Quantities<VerdictRow> verdict_quantities(const study::Study& study) {
       evidence_quantity("extrapolated", study::extrapolated_text,
                         "What lies outside the domain of the calibration."),
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
-       &VerdictRow::gap, &GapVerdict::ignition, ignition_text},
-      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}), &VerdictRow::gap,
+       &GapVerdict::ignition, ignition_text},
+      {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}),
        &GapVerdict::ignition, [](const NamedIgnition& ignition) { return study::to_string(ignition.cause); }},
-      {for_programs(ignition_time()), &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::time},
+      {for_programs(ignition_time), &GapVerdict::ignition, &NamedIgnition::time},
       {for_programs(Column{"ignition_place", "ignition at", text(), "Station that ignites."}),
-       &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::point},
+       &GapVerdict::ignition, &NamedIgnition::point},
       {for_programs(Column{"ignition_chemical_share", "chemical share", fixed(3),
                            "Share of reaction in the heating rate at ignition."}),
-       &VerdictRow::gap, &GapVerdict::ignition, &NamedIgnition::chemical_share},
-      {for_programs(skin_took()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::taken},
-      {for_programs(compression_supplies()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::supplied},
-      {for_programs(taken_over_supplied()), &VerdictRow::gap, &GapVerdict::air, &AirEnergy::ratio}};
+       &GapVerdict::ignition, &NamedIgnition::chemical_share},
+      {for_programs(skin_took), &GapVerdict::air, &AirEnergy::taken},
+      {for_programs(compression_supplies), &GapVerdict::air, &AirEnergy::supplied},
+      {for_programs(taken_over_supplied), &GapVerdict::air, &AirEnergy::ratio}};
 }
 
 Quantities<study::CriticalGap> critical_gap_quantities() {
   using study::CriticalGap, keys::significant;
-  return {{for_programs(quantity::critical_gap_kind()), &CriticalGap::kind},
-          {for_programs(quantity::critical_gap()), value_of},
-          {quantity::critical_gap_reads_as(), reads_as},
+  return {{for_programs(quantity::critical_gap_kind), &CriticalGap::kind},
+          {for_programs(quantity::critical_gap), value_of},
+          {quantity::critical_gap_reads_as, reads_as},
           {for_programs(Column{"critical_gap_lower", "no ignition", significant(6, centimetre),
                                "Lower end of the bracket: the largest gap there that does not ignite."}),
            &CriticalGap::lower},
@@ -216,14 +203,11 @@ Quantities<study::CriticalGap> critical_gap_quantities() {
 Quantities<study::CriticalGap> bounded_gap_quantities() {
   return keys::joined<study::CriticalGap>(
       {critical_gap_quantities(),
-       {{{"critical_gap_at_least", "at least", keys::significant(3, centimetre),
-          "Lower bound of the critical gap: what is below it is SAFE."},
-         &study::CriticalGap::bounds,
+       {{"critical_gap_at_least", "at least", keys::significant(3, centimetre),
+         "Lower bound of the critical gap: what is below it is SAFE.", &study::CriticalGap::bounds,
          &study::GapBounds::at_least},
-        {{"critical_gap_at_most", "at most", keys::significant(3, centimetre),
-          "Upper bound of the critical gap."},
-         &study::CriticalGap::bounds,
-         &study::GapBounds::at_most},
+        {"critical_gap_at_most", "at most", keys::significant(3, centimetre),
+         "Upper bound of the critical gap.", &study::CriticalGap::bounds, &study::GapBounds::at_most},
         {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
                              "How it is quoted, in digits that its bounds bear."}),
          [](const study::CriticalGap& gap) {
@@ -278,8 +262,7 @@ std::string reads_as(const study::CriticalGap& gap) {
                                                            : gap_or_bound_text(gap.indicative));
 }
 
-std::vector<Column> gap_share_columns() { return keys::described(share_quantities()); }
-std::vector<Column> cited_limit_columns() { return keys::described(limit_quantities()); }
+std::vector<Column> cited_limit_columns() { return keys::described(limit_quantities); }
 
 Table cited_limit_table(const study::StudyFile& study,
                         const std::vector<const study::CriticalGap*>& critical) {
@@ -292,18 +275,17 @@ Table cited_limit_table(const study::StudyFile& study,
     rows.push_back({std::move(each)});
     if (nearest) rows.back() = {rows.back().comparison, study.cases[*nearest], critical[*nearest]};
   }
-  Table table = table_of("Cited limits of the gap", limit_quantities(), rows);
-  table.notes = noted("cited_limits",
-                      {{"slack_percent", shown_value(study::pressure_slack, keys::significant(6, percent))},
-                       {"chosen", chosen}});
-  return table;
+  return table_of("Cited limits of the gap", limit_quantities, rows,
+                  noted("cited_limits",
+                        {{"slack_percent", shown_value(study::pressure_slack, keys::significant(6, percent))},
+                         {"chosen", chosen}}));
 }
 
 std::string friction_remark(const study::StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   Row facts{{"closure", study::to_string(scene.surface.friction)},
             {"localisation", scene.surface.localisation},
-            {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time().form)},
+            {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time.form)},
             {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature}};
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
     if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
@@ -311,23 +293,22 @@ std::string friction_remark(const study::StudyFile& study) {
 }
 
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
-  const Form form = quantity::critical_gap().form;
+  const Form form = quantity::critical_gap.form;
   return measured_gap(shown_value(value_of(gap), form), shown_value(gap.bounds.at_least, form),
                       shown_value(gap.bounds.at_most, form));
 }
 
 std::string measured_text(const study::CriticalGap& gap) {
   const auto known = measured_gap(gap);
-  return known ? known->text(quantity::critical_gap().form.unit) : centimetres(gap.value);
+  return known ? known->text(quantity::critical_gap.form.unit) : centimetres(gap.value);
 }
 
 Table gap_share_table(const std::vector<NamedGap>& cases) {
   std::vector<ShareRow> rows;
   for (const NamedGap& each : cases)
     for (const study::GapShare& share : each.gap->shares) rows.push_back({&each, &share});
-  Table table = table_of("What makes the critical gap uncertain", share_quantities(), rows);
-  table.notes = noted("gap_shares", {{"coverage", study::coverage_factor}});
-  return table;
+  return table_of("What makes the critical gap uncertain", share_quantities, rows,
+                  noted("gap_shares", {{"coverage", study::coverage_factor}}));
 }
 
 std::string uncertainty_remark(const study::StudyFile& study) {

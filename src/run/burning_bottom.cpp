@@ -1,13 +1,12 @@
 #include "burning_bottom.hpp"
 
-#include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/materials/kinetics.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/stations.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace launchsafe::run {
@@ -73,7 +72,7 @@ BurningBottom::BurningBottom(const mpm::Simulation& simulation, const TraceRecor
   const std::vector<trace::Station>& stations = recorder.trace().stations;
   flames_.resize(stations.size());
   for (const trace::Station& station : stations) tiles_.push_back(!station.observation);
-  history_.complete_time = std::numeric_limits<double>::quiet_NaN();
+  history_.complete_time = math::not_a_number;
   const double bottom = scene::charge_extent(simulation.scene()).x_end;
   rooms_.resize(stations.size(), 0.0);
   const auto measure = [&](double begin, double end) {
@@ -126,7 +125,7 @@ void BurningBottom::ignite(const mpm::Simulation& simulation, const SteppedSkin&
   flame.skin_speed = speed(skin.unburnt_temperature(station));
   flame.bulk_speed = speed(flame.bulk_temperature);
   for (const double each : {flame.skin_speed, flame.bulk_speed})
-    fastest_ = std::isfinite(each) ? std::max(fastest_, each) : std::numeric_limits<double>::infinity();
+    fastest_ = std::isfinite(each) ? std::max(fastest_, each) : math::infinity;
   if (history_.skin_flame_speed > 0.0) return;
   history_.skin_flame_speed = flame.skin_speed;
   history_.bulk_flame_speed = flame.bulk_speed;
@@ -168,15 +167,15 @@ void BurningBottom::burn_column(mpm::Simulation& simulation, Column& column,
                                 const std::vector<Burnt>& burnt) {
   const mpm::ParticleFields& p =
       mpm::particle_fields_of(simulation.bodies()[static_cast<std::size_t>(column.body)]);
-  double depth = 0, length = 0, fresh = 0, released = 0, kept_back = 0, brought = 0;
+  double depth = 0;
+  Burnt sum;
   for (const auto& [station, share] : column.stations) {
     depth += share * flames_[station].depth;
-    length += share * burnt[station].depth;
-    fresh += share * burnt[station].fresh;
-    released += share * burnt[station].released;
-    kept_back += share * burnt[station].kept_back;
-    brought += share * burnt[station].brought;
+    for (double Burnt::*part :
+         {&Burnt::depth, &Burnt::fresh, &Burnt::released, &Burnt::kept_back, &Burnt::brought})
+      sum.*part += share * burnt[station].*part;
   }
+  const double length = sum.depth;
   if (!(length > 0.0)) return;
   double mass = 0;
   const int last = p.lattice.columns() - 1;
@@ -187,15 +186,15 @@ void BurningBottom::burn_column(mpm::Simulation& simulation, Column& column,
     double& share = column.burnt[static_cast<std::size_t>(last - i)];
     const double now = std::min(1.0, (depth - below) / extent);
     if (now > share && now >= least_start) {
-      simulation.burn(column.body, slot, now - share, fresh / length);
+      simulation.burn(column.body, slot, now - share, sum.fresh / length);
       mass += (now - share) * p.mass[slot];
       share = now;
     }
     below += extent;
   }
-  released_ += whole_ * mass * released / length;
-  brought_ += whole_ * mass * brought / length;
-  kept_back_ += whole_ * mass * kept_back / length;
+  released_ += whole_ * mass * sum.released / length;
+  brought_ += whole_ * mass * sum.brought / length;
+  kept_back_ += whole_ * mass * sum.kept_back / length;
 }
 
 void BurningBottom::advance(mpm::Simulation& simulation, const SteppedSkin& skin, double dt) {

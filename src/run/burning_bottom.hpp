@@ -2,18 +2,18 @@
 // particles, and the ledger of its energy.
 //
 // At a station that has ignited the flame stands at the bottom and eats into the charge at the speed of the
-// travelling wave (materials/deflagration.hpp): through the skin at the temperature that the skin has, then
+// travelling wave (materials/kinetics.hpp): through the skin at the temperature that the skin has, then
 // into the charge as the mechanics left it. Skin that reaches T2 ahead of the flame has burnt too. Burning
 // spreads to the sides by the gas alone: its pressure is that of the bottom, which heats the air over the
 // other stations.
 #pragma once
 
 #include "charge_heat.hpp"
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace launchsafe::run {
@@ -74,11 +74,11 @@ class BurningBottom {
   bool reads_bulk_;             ///< the plan follows the temperature of the bulk
   double whole_;                ///< 2 pi, or 1 in plane strain
   std::vector<Column> columns_;
-  std::vector<Flame> flames_;  ///< by station
-  std::vector<bool> tiles_;    ///< by station: it tiles the bottom and is no observation point
-  std::vector<double> rooms_;  ///< by station, m: see Flame::room
-  double thinnest_cell_ = std::numeric_limits<double>::infinity();  ///< m, of bodies at the bottom
-  double fastest_ = 0;                                              ///< m/s
+  std::vector<Flame> flames_;              ///< by station
+  std::vector<bool> tiles_;                ///< by station: it tiles the bottom and is no observation point
+  std::vector<double> rooms_;              ///< by station, m: see Flame::room
+  double thinnest_cell_ = math::infinity;  ///< m, of bodies at the bottom
+  double fastest_ = 0;                     ///< m/s
   bool burnt_through_ = false;
   double released_ = 0, kept_back_ = 0, brought_ = 0;  ///< J
   CombustionHistory history_;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace launchsafe::run {
 
@@ -41,12 +40,11 @@ double EnergyBalance::drift() const {
 }
 
 void add_mass(std::vector<MaterialMass>& masses, const std::string& material, double mass) {
-  for (MaterialMass& each : masses)
-    if (each.material == material) {
-      each.mass += mass;
-      return;
-    }
-  masses.push_back({material, mass});
+  const auto known = std::ranges::find(masses, material, &MaterialMass::material);
+  if (known == masses.end())
+    masses.push_back({material, mass});
+  else
+    known->mass += mass;
 }
 
 double mass_of(const MechanicsResult& mechanics, std::string_view material) {
@@ -72,50 +70,8 @@ double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
   return most;
 }
 
-}  // namespace
-
-double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
-  return largest_at_bottom(mechanics, bottom, &InterfaceResult::friction_heat);
-}
-
-double opening_at_bottom(const MechanicsResult& mechanics, double bottom) {
-  return largest_at_bottom(mechanics, bottom, &InterfaceResult::largest_gap);
-}
-
-double largest_energy_drift(const MechanicsResult& mechanics) {
-  double largest = std::numeric_limits<double>::quiet_NaN(), scale = 0;
-  for (const MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());
-  for (const MonitorSample& sample : mechanics.monitor) {
-    const double drift = std::abs(sample.energy.drift()) * sample.energy.scale() / scale;
-    if (!(drift <= largest)) largest = drift;
-  }
-  return largest;
-}
-
-namespace {
-
 /// Pa. A hundredth of an atmosphere: it heats nothing.
 constexpr double least_pressure = 1e3;
-
-}  // namespace
-
-double least_judged_energy(const scene::Scene& scene) {
-  const double pressure = std::max(0.01 * scene::PressureHistory(scene.load).peak(), least_pressure);
-  double energy = 0.0;
-  for (const scene::Material& material : scene::used_materials(scene)) {
-    const double speed = scene::longitudinal_speed(material.law);
-    const double density = initial_density(material.law);
-    energy += 0.5 * pressure * pressure * scene::mass_of(scene, material.name) /
-              (density * density * speed * speed);
-  }
-  return energy;
-}
-
-double least_judged_impulse(const scene::Scene& scene) {
-  return least_pressure * scene::base_area(scene) * scene::end_time(scene.load);
-}
-
-namespace {
 
 using materials::StateField;
 
@@ -161,6 +117,40 @@ std::vector<SnapshotField> all_fields() {
 }
 
 }  // namespace
+
+double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
+  return largest_at_bottom(mechanics, bottom, &InterfaceResult::friction_heat);
+}
+
+double opening_at_bottom(const MechanicsResult& mechanics, double bottom) {
+  return largest_at_bottom(mechanics, bottom, &InterfaceResult::largest_gap);
+}
+
+double largest_energy_drift(const MechanicsResult& mechanics) {
+  double largest = math::not_a_number, scale = 0;
+  for (const MonitorSample& sample : mechanics.monitor) scale = std::max(scale, sample.energy.scale());
+  for (const MonitorSample& sample : mechanics.monitor) {
+    const double drift = std::abs(sample.energy.drift()) * sample.energy.scale() / scale;
+    if (!(drift <= largest)) largest = drift;
+  }
+  return largest;
+}
+
+double least_judged_energy(const scene::Scene& scene) {
+  const double pressure = std::max(0.01 * scene::PressureHistory(scene.load).peak(), least_pressure);
+  double energy = 0.0;
+  for (const scene::Material& material : scene::used_materials(scene)) {
+    const double speed = scene::longitudinal_speed(material.law);
+    const double density = initial_density(material.law);
+    energy += 0.5 * pressure * pressure * scene::mass_of(scene, material.name) /
+              (density * density * speed * speed);
+  }
+  return energy;
+}
+
+double least_judged_impulse(const scene::Scene& scene) {
+  return least_pressure * scene::base_area(scene) * scene::end_time(scene.load);
+}
 
 const std::vector<SnapshotField>& snapshot_fields() {
   static const std::vector<SnapshotField> fields = all_fields();

@@ -1,6 +1,6 @@
 #include "charge_heat.hpp"
 
-#include "launchsafe/scene/stations.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/surface/skin.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 

@@ -1,7 +1,7 @@
 #include "closing_gap.hpp"
 
-#include "launchsafe/scene/selective_inertia.hpp"
-#include "launchsafe/scene/stations.hpp"
+#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +50,7 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
   history_.smallest_opening = gap;
   for (std::size_t column = 0; column < nodes_.size(); ++column) {
     nodes_[column].opening = gap;
-    nodes_[column].hottest = columns_.hottest(column);
+    nodes_[column].hottest = columns_[column].hottest();
     nodes_[column].pressure = model_.surface.air.initial_pressure;
     if (!shares_air_) start_interval(column, contact, 0.0);
   }
@@ -176,14 +176,14 @@ void ClosingGap::follow_heat(std::size_t column, const TraceRecorder& recorder, 
   const double length = time - node.begin, friction = friction_of(node, recorder);
   const double heating = (friction - node.friction_before) * model_.surface.localisation /
                          (model_.charge_density * model_.specific_heat * length);
-  const bool was_ignited = columns_.ignited(column);
+  const bool was_ignited = columns_[column].ignited();
   columns_.advance(column, length, node.air.pressure, node.pressure, node.pressure_integral / length,
                    heating);
-  failed_ = failed_ || columns_.failed(column);
-  node.hottest = std::max(node.hottest, columns_.hottest(column));
-  history_.largest_gas_temperature = std::max(history_.largest_gas_temperature, columns_.mean_air(column));
-  if (columns_.ignited(column) && !was_ignited)
-    note_ignition(column, node.begin + columns_.ignition_time(column));
+  failed_ = failed_ || columns_[column].failed();
+  node.hottest = std::max(node.hottest, columns_[column].hottest());
+  history_.largest_gas_temperature = std::max(history_.largest_gas_temperature, columns_[column].mean_air());
+  if (columns_[column].ignited() && !was_ignited)
+    note_ignition(column, node.begin + columns_[column].ignition_time());
   node.friction_before = friction;
 }
 
@@ -198,7 +198,7 @@ void ClosingGap::start_interval(std::size_t column, mpm::Contact& contact, doubl
     node.pressure_ratio = node.pressure / contact.gas(node.face, node.node).at(node.opening);
     return;
   }
-  contact.set_gas(node.face, node.node, gas_of(node.air, columns_.covolume(column)));
+  contact.set_gas(node.face, node.node, gas_of(node.air, columns_[column].column().covolume()));
 }
 
 mpm::GapGas ClosingGap::gas_of(const surface::EnclosedAir& air, double covolume) const {
@@ -219,7 +219,7 @@ void ClosingGap::share_air(mpm::Contact& contact, double time) {
     openings.push_back(node.opening);
     areas.push_back(node.area);
   }
-  const double covolume = mean([&](std::size_t column) { return columns_.covolume(column); });
+  const double covolume = mean([&](std::size_t column) { return columns_[column].column().covolume(); });
   surface::EnclosedAir air = columns_.fit_together(nodes_.front().pressure, openings, areas);
   air.volume = contact.mean_opening() - covolume;
   for (Node& node : nodes_) {
@@ -233,7 +233,7 @@ void ClosingGap::share_air(mpm::Contact& contact, double time) {
 }
 
 void ClosingGap::note_ignition(std::size_t column, double time) {
-  const double share = columns_.chemical_share(column);
+  const double share = columns_[column].chemical_share();
   const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
   if (!skin_.ignition || time < skin_.ignition->time)
     skin_.ignition = surface::Ignition{time, nodes_[column].station, cause, share};
@@ -259,14 +259,14 @@ void ClosingGap::record(const TraceRecorder& recorder) {
   history_.opening.push_back(mean([&](std::size_t column) { return nodes_[column].opening; }));
   history_.gas_pressure.push_back(mean([&](std::size_t column) { return nodes_[column].pressure; }));
   skin_.time.push_back(history_.time.back());
-  skin_.air_temperature.push_back(mean([&](std::size_t column) { return columns_.mean_air(column); }));
+  skin_.air_temperature.push_back(mean([&](std::size_t column) { return columns_[column].mean_air(); }));
   for (const std::vector<std::size_t>& columns : columns_of_station_) {
     double hottest = 0.0;
     for (const std::size_t column : columns) hottest = std::max(hottest, nodes_[column].hottest);
     skin_.temperature.push_back(hottest);
   }
   for (std::size_t column = 0; column < nodes_.size(); ++column)
-    nodes_[column].hottest = columns_.hottest(column);
+    nodes_[column].hottest = columns_[column].hottest();
 }
 
 ClosingHistory ClosingGap::take_history(mpm::Simulation& simulation) {
@@ -274,13 +274,13 @@ ClosingHistory ClosingGap::take_history(mpm::Simulation& simulation) {
   const mpm::Contact& contact = contact_of(simulation);
   for (double FilmEnergy::*part : {&FilmEnergy::charge, &FilmEnergy::base, &FilmEnergy::gas,
                                    &FilmEnergy::work, &FilmEnergy::friction, &FilmEnergy::reaction})
-    history_.energy.*part = mean([&](std::size_t column) { return columns_.energy(column).*part; });
+    history_.energy.*part = mean([&](std::size_t column) { return columns_[column].energy().*part; });
   history_.work_on_gas =
       mean([&](std::size_t column) { return contact.gas_work(nodes_[column].face, nodes_[column].node); });
   // What flows between columns is none to all of them together.
   if (shares_air_) skin_.energy_residual = history_.energy.residual();
   for (std::size_t column = 0; column < nodes_.size(); ++column)
-    skin_.energy_residual = std::max(skin_.energy_residual, columns_.energy(column).residual());
+    skin_.energy_residual = std::max(skin_.energy_residual, columns_[column].energy().residual());
   return std::move(history_);
 }
 

@@ -3,7 +3,6 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/stations.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <fmt/format.h>

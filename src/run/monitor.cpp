@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
 #include <vector>
@@ -41,6 +40,29 @@ double largest_of(const math::AlignedArray* values) {
   return values == nullptr || values->empty() ? 0.0 : *std::ranges::max_element(*values);
 }
 
+/// Upper bound of sum G^2/S over the nodes of one direction, 1/m2.
+double stiffness(double cell, double half) { return 2.0 / (cell * half) + 1.0 / (cell * (cell - half)); }
+
+/// The total-Lagrangian bound: weights are constants of the lattice, so the sums are known.
+double proved_on_lattice(const scene::Scene& scene) {
+  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
+  const int per_cell = scene.numerics.particles_per_cell;
+  // sum G^2/S = (1/S0 + 1/S1)/L^2 along one direction; largest for the particle nearest to a cell's edge.
+  const double nearest = 0.5 / per_cell;
+  const double along_x = 1.0 / nearest + 1.0 / (1.0 - nearest);
+  double along_r = along_x;
+  for (const scene::Body& body : scene.bodies) {
+    const std::vector<double> edges = scene::particle_edges(scene, body).r;
+    for (std::size_t j = 0; axisymmetric && j + 1 < edges.size(); ++j) {
+      const double inner = edges[j - j % static_cast<std::size_t>(per_cell)];
+      const double r = 0.5 * (edges[j] + edges[j + 1]), length = edges[j + 1] - edges[j];
+      const double outer_share = (r - inner + length * length / (12.0 * r)) / (length * per_cell);
+      along_r = std::max(along_r, 1.0 / outer_share + 1.0 / (1.0 - outer_share));
+    }
+  }
+  return 2.0 / std::sqrt(along_x + along_r);
+}
+
 }  // namespace
 
 const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view name) {
@@ -55,18 +77,9 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_shell(simulation);
   const mpm::EnergyTotals& totals = simulation.energy();
-  EnergyBalance energy;
-  energy.kinetic = whole * totals.kinetic;
-  energy.internal = whole * totals.internal;
-  energy.external = whole * totals.external;
-  energy.body_force = whole * totals.body_force;
-  energy.damping = whole * totals.damping;
-  energy.contact = whole * totals.contact;
-  energy.hourglass = whole * totals.hourglass;
-  energy.plastic = whole * totals.plastic;
-  energy.viscous = whole * totals.viscous;
-  energy.crack = whole * totals.crack;
-  return energy;
+  return {whole * totals.kinetic, whole * totals.internal, whole * totals.external, whole * totals.body_force,
+          whole * totals.damping, whole * totals.contact,  whole * totals.plastic,  whole * totals.viscous,
+          whole * totals.crack,   whole * totals.hourglass};
 }
 
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step) {
@@ -110,11 +123,9 @@ std::vector<InterfaceResult> interfaces_of(const mpm::Simulation& simulation) {
 
 LimiterCounts count_limited(const mpm::Simulation& simulation) {
   const mpm::EventCounts& events = simulation.events();
-  LimiterCounts counts;
-  counts.crack_at_bound = static_cast<std::uint64_t>(events.crack_at_bound);
-  counts.tension_cutoff = static_cast<std::uint64_t>(events.tension_cutoff);
-  counts.hugoniot_guard = static_cast<std::uint64_t>(events.pressure_guard);
-  return counts;
+  return {static_cast<std::uint64_t>(events.crack_at_bound),
+          static_cast<std::uint64_t>(events.tension_cutoff),
+          static_cast<std::uint64_t>(events.pressure_guard)};
 }
 
 std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const EnergyBalance& energy,
@@ -138,37 +149,10 @@ std::optional<Stop> reason_to_stop(const mpm::Simulation& simulation, const Ener
   return std::nullopt;
 }
 
-namespace {
-
-/// Upper bound of sum G^2/S over the nodes of one direction, 1/m2.
-double stiffness(double cell, double half) { return 2.0 / (cell * half) + 1.0 / (cell * (cell - half)); }
-
-/// The total-Lagrangian bound: weights are constants of the lattice, so the sums are known.
-double proved_on_lattice(const scene::Scene& scene) {
-  const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
-  const int per_cell = scene.numerics.particles_per_cell;
-  // sum G^2/S = (1/S0 + 1/S1)/L^2 along one direction; largest for the particle nearest to a cell's edge.
-  const double nearest = 0.5 / per_cell;
-  const double along_x = 1.0 / nearest + 1.0 / (1.0 - nearest);
-  double along_r = along_x;
-  for (const scene::Body& body : scene.bodies) {
-    const std::vector<double> edges = scene::particle_edges(scene, body).r;
-    for (std::size_t j = 0; axisymmetric && j + 1 < edges.size(); ++j) {
-      const double inner = edges[j - j % static_cast<std::size_t>(per_cell)];
-      const double r = 0.5 * (edges[j] + edges[j + 1]), length = edges[j + 1] - edges[j];
-      const double outer_share = (r - inner + length * length / (12.0 * r)) / (length * per_cell);
-      along_r = std::max(along_r, 1.0 / outer_share + 1.0 / (1.0 - outer_share));
-    }
-  }
-  return 2.0 / std::sqrt(along_x + along_r);
-}
-
-}  // namespace
-
 double proved_time_step_factor(const scene::Scene& scene) {
   if (scene.numerics.formulation == scene::Formulation::total_lagrangian) return proved_on_lattice(scene);
   const scene::Mesh mesh = scene::fit_mesh(scene);
-  double least = std::numeric_limits<double>::infinity();
+  double least = math::infinity;
   for (const scene::Body& body : scene.bodies) {
     const scene::ParticleCount count = scene::particles_of(scene, body);
     const double half_x = 0.5 * (body.x_end - body.x_begin) / count.nx;

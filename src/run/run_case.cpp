@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <memory>
 
 namespace launchsafe::run {
@@ -124,7 +123,7 @@ const Runner* last_before(const std::shared_ptr<const Checkpoints>& checkpoints,
 /// Takes a snapshot of a launch at the earliest ignition of its gaps, by a second run from the last
 /// checkpoint before it, or from the start: bitwise what the launch had.
 void add_snapshot_of_ignition(const scene::Scene& scene, CaseResult& result, const RunOptions& options) {
-  double time = std::numeric_limits<double>::infinity();
+  double time = math::infinity;
   for (const GapResult& gap : result.gaps)
     if (gap.skin.ignition) time = std::min(time, gap.skin.ignition->time);
   if (!(time <= result.mechanics.end_time)) return;

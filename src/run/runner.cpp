@@ -1,6 +1,5 @@
 #include "runner.hpp"
 
-#include "launchsafe/run/processor_time.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "snapshot.hpp"
@@ -9,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>
@@ -21,7 +21,6 @@ namespace {
 constexpr std::uint64_t steps_per_check = 16;
 /// A step shorter than this share of the first one means that the state has blown up.
 constexpr double collapse_share = 1e-3;
-constexpr std::uint64_t monitor_samples = 500;
 
 /// Flushes denormals to zero on this thread during its lifetime: they cost a hundred times a normal number
 /// and carry nothing here, where relaxing stresses decay through them. Without SSE it does nothing.
@@ -42,6 +41,13 @@ class FlushDenormals {
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 };
+
+/// Processor time (s) that the calling thread has used: other work on the machine does not count.
+double thread_processor_time() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -88,15 +94,10 @@ void Runner::continue_from(const Runner& other) {
   first_step_ = other.first_step_;
   time_step_ = other.time_step_;
   next_sample_ = other.next_sample_;
-  next_monitor_ = other.next_monitor_;
-  longer_time_ = other.longer_time_;
-  longer_monitor_ = other.longer_monitor_;
-  next_longer_ = other.next_longer_;
-  if (launch_time_ == longer_time_) {
-    result_.monitor = std::move(longer_monitor_);
-    next_monitor_ = next_longer_;
-    longer_time_ = 0.0;
-  }
+  monitor_ = other.monitor_;
+  monitor_.duration = launch_time_;
+  longer_ = other.longer_;
+  if (launch_time_ == longer_.duration) monitor_ = std::exchange(longer_, {});
   snapshots_ = other.snapshots_;
   largest_energy_ = other.largest_energy_;
   if (!surface_) return;
@@ -109,7 +110,7 @@ void Runner::keep_checkpoints(std::size_t enough) {
   checkpoints_ = std::make_shared<Checkpoints>();
   enough_checkpoints_ = enough;
   if (const auto longer = scene::longer_launch(simulation_.scene().load))
-    longer_time_ = scene::end_time(*longer);
+    longer_.duration = scene::end_time(*longer);
 }
 
 double Runner::time_of_checkpoint(std::size_t index, double duration) {
@@ -129,8 +130,8 @@ MechanicsResult Runner::run() {
   const double processor_start = thread_processor_time();
   if (result_.steps == 0) {
     first_step_ = time_step_ = simulation_.stable_time_step();
-    take_monitor_sample(time_step_);
-    take_longer_sample(time_step_);
+    monitor_.take(simulation_, time_step_);
+    if (longer_.duration > 0.0) longer_.take(simulation_, time_step_);
     take_due_snapshots();
   }
   while (!is_done() && result_.status == RunStatus::completed) {
@@ -148,7 +149,7 @@ MechanicsResult Runner::run() {
     check_step(dt);
     if (result_.status == RunStatus::completed) advance(dt);
   }
-  take_monitor_sample(time_step_);
+  monitor_.take(simulation_, time_step_);
   if (result_.status == RunStatus::completed) check_energy(energy_of(simulation_));
   result_.end_time = simulation_.time();
   result_.limiters = count_limited(simulation_);
@@ -158,6 +159,7 @@ MechanicsResult Runner::run() {
   if (const mpm::TotalLagrangian* form = simulation_.total_lagrangian())
     result_.processor_time += form->helpers_processor_time();
   result_.trace = recorder_.take();
+  result_.monitor = std::move(monitor_.samples);
   result_.snapshots = snapshots_.finish();
   return std::move(result_);
 }
@@ -226,8 +228,8 @@ void Runner::advance(double dt) {
   }
   take_due_snapshots();
   if (simulation_.scene().output.asks_for_snapshots()) take_snapshots_of_events(samples);
-  if (time >= next_monitor_ && !last) take_monitor_sample(dt);
-  if (time >= next_longer_) take_longer_sample(dt);
+  if (time >= monitor_.next && !last) monitor_.take(simulation_, dt);
+  if (longer_.duration > 0.0 && time >= longer_.next) longer_.take(simulation_, dt);
   if (samples && !last && checkpoints_) take_due_checkpoint();
 }
 
@@ -312,15 +314,10 @@ void Runner::stop_now(RunStatus status, const std::string& what) {
   stop(status, fmt::format("at t = {:.6g} ms: {}", 1e3 * simulation_.time(), what));
 }
 
-void Runner::take_monitor_sample(double time_step) {
-  result_.monitor.push_back(monitor_sample(simulation_, time_step));
-  next_monitor_ = simulation_.time() + launch_time_ / static_cast<double>(monitor_samples);
-}
-
-void Runner::take_longer_sample(double time_step) {
-  if (!(longer_time_ > 0.0)) return;
-  longer_monitor_.push_back(monitor_sample(simulation_, time_step));
-  next_longer_ = simulation_.time() + longer_time_ / static_cast<double>(monitor_samples);
+void Runner::Monitor::take(const mpm::Simulation& simulation, double time_step) {
+  constexpr double samples_of_launch = 500.0;
+  samples.push_back(monitor_sample(simulation, time_step));
+  next = simulation.time() + duration / samples_of_launch;
 }
 
 }  // namespace launchsafe::run

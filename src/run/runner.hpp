@@ -49,6 +49,13 @@ class Runner {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Samples over a launch, evenly spread.
+  struct Monitor {
+    double duration = 0;  ///< s, of the launch
+    std::vector<MonitorSample> samples = {};
+    double next = 0;  ///< s
+    void take(const mpm::Simulation& simulation, double time_step);
+  };
 
   void advance(double dt);
   void take_due_checkpoint();
@@ -64,8 +71,6 @@ class Runner {
   Snapshot snapshot() const;
   void stop(RunStatus status, std::string reason);
   void stop_now(RunStatus status, const std::string& what);
-  void take_monitor_sample(double time_step);
-  void take_longer_sample(double time_step);
 
   RunOptions options_;
   mpm::Simulation simulation_;
@@ -85,12 +90,10 @@ class Runner {
   std::shared_ptr<Checkpoints> checkpoints_;
   std::size_t enough_checkpoints_ = 0;
   double next_sample_ = simulation_.scene().output.trace_interval;
-  double next_monitor_ = 0;
-  /// s, of the launch that goes on for longer and may continue from the checkpoints; 0 without either. Its
-  /// monitor has other instants.
-  double longer_time_ = 0;
-  std::vector<MonitorSample> longer_monitor_;
-  double next_longer_ = 0;
+  Monitor monitor_{launch_time_};
+  /// Of the launch that goes on for longer and may continue from the checkpoints, at other instants; without
+  /// a duration where there is none.
+  Monitor longer_;
   SnapshotTaker snapshots_{simulation_.scene()};
   bool ends_with_snapshots_ = false;
   double largest_energy_ = least_judged_energy(simulation_.scene());

@@ -1,7 +1,7 @@
 #include "snapshot.hpp"
 
 #include "charge_heat.hpp"
-#include "launchsafe/scene/stations.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "monitor.hpp"
 
 #include <algorithm>
@@ -11,29 +11,30 @@
 namespace launchsafe::run {
 namespace {
 
-/// Present over initial distance between the neighbours of place `i` on a line of `count` particles, at an
-/// end between the particle and its one neighbour; 1 for a particle without any. `now` and `at_rest` give
-/// places.
+using scene::Event;
+
+/// m, of the cell of the particle at place `i` on a line of `count` particles: half its length at rest, times
+/// present over initial distance between its neighbours, at an end between the particle and its one
+/// neighbour; 1 for a particle without any. `now` and `at_rest` give places.
 template <class Now, class AtRest>
-double stretch_at(int i, int count, Now now, AtRest at_rest) {
+double half_length(double at_rest_length, int i, int count, Now now, AtRest at_rest) {
   const int before = std::max(i - 1, 0), behind = std::min(i + 1, count - 1);
-  return before == behind ? 1.0 : (now(behind) - now(before)) / (at_rest(behind) - at_rest(before));
+  const double stretch =
+      before == behind ? 1.0 : (now(behind) - now(before)) / (at_rest(behind) - at_rest(before));
+  return 0.5 * at_rest_length * stretch;
 }
 
-/// Of the cell of the particle in column i and row j, m.
+/// Of the particle in column i and row j.
 double half_length_x(const mpm::ParticleFields& p, int i, int j) {
-  const mpm::Lattice& lattice = p.lattice;
-  const double stretch = stretch_at(
-      i, lattice.columns(), [&](int k) { return p.x[lattice.slot(k, j)]; },
-      [&](int k) { return lattice.x_of(k); });
-  return 0.5 * lattice.length_x(i) * stretch;
+  const mpm::Lattice& l = p.lattice;
+  return half_length(
+      l.length_x(i), i, l.columns(), [&](int k) { return p.x[l.slot(k, j)]; },
+      [&](int k) { return l.x_of(k); });
 }
 double half_length_r(const mpm::ParticleFields& p, int i, int j) {
-  const mpm::Lattice& lattice = p.lattice;
-  const double stretch = stretch_at(
-      j, lattice.rows(), [&](int k) { return p.r[lattice.slot(i, k)]; },
-      [&](int k) { return lattice.r_of(k); });
-  return 0.5 * lattice.length_r(j) * stretch;
+  const mpm::Lattice& l = p.lattice;
+  return half_length(
+      l.length_r(j), j, l.rows(), [&](int k) { return p.r[l.slot(i, k)]; }, [&](int k) { return l.r_of(k); });
 }
 
 /// What `value` gives of a body and the slot of a particle, for all particles in the order of a snapshot: 0
@@ -159,6 +160,37 @@ FaceSnapshot face_snapshot(const mpm::Simulation& simulation, const mpm::TotalLa
   return face;
 }
 
+/// Whether any body's plastic strain is above 0.
+bool has_yielded(const mpm::Simulation& simulation) {
+  return std::ranges::any_of(simulation.bodies(), [](const mpm::AnyBody& any) {
+    const math::AlignedArray* strain = field_of(any, "plastic_strain");
+    return strain != nullptr && std::ranges::any_of(*strain, [](double each) { return each > 0.0; });
+  });
+}
+
+/// Whether any crack is longer than at first by more than a thousandth.
+bool has_grown_crack(const mpm::Simulation& simulation) {
+  constexpr double grown = 1.001;
+  const auto charges = simulation.bodies_of<materials::Charge>();
+  return std::ranges::any_of(charges, [](const mpm::Body<materials::Charge>& charge) {
+    const double longest = grown * charge.law.strength.initial_crack_radius;
+    const math::AlignedArray& radius =
+        charge.state[materials::field_index<materials::Charge>("crack_radius")];
+    return std::ranges::any_of(radius, [&](double each) { return each > longest; });
+  });
+}
+
+/// m, of the nodes of all faces whose bond has not held.
+double largest_slip(const mpm::Simulation& simulation) {
+  double largest = 0;
+  const mpm::TotalLagrangian* form = simulation.total_lagrangian();
+  if (form == nullptr) return largest;
+  for (std::size_t face = 0; face < form->contact().faces(); ++face)
+    for (const mpm::FaceState& node : form->contact().state_of(face))
+      if (!node.bonded) largest = std::max(largest, std::abs(node.slip));
+  return largest;
+}
+
 }  // namespace
 
 Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trace::Station>& stations) {
@@ -199,43 +231,6 @@ void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& tr
                                                : from);
   }
 }
-
-using scene::Event;
-
-namespace {
-
-/// Whether any body's plastic strain is above 0.
-bool has_yielded(const mpm::Simulation& simulation) {
-  return std::ranges::any_of(simulation.bodies(), [](const mpm::AnyBody& any) {
-    const math::AlignedArray* strain = field_of(any, "plastic_strain");
-    return strain != nullptr && std::ranges::any_of(*strain, [](double each) { return each > 0.0; });
-  });
-}
-
-/// Whether any crack is longer than at first by more than a thousandth.
-bool has_grown_crack(const mpm::Simulation& simulation) {
-  constexpr double grown = 1.001;
-  const auto charges = simulation.bodies_of<materials::Charge>();
-  return std::ranges::any_of(charges, [](const mpm::Body<materials::Charge>& charge) {
-    const double longest = grown * charge.law.strength.initial_crack_radius;
-    const math::AlignedArray& radius =
-        charge.state[materials::field_index<materials::Charge>("crack_radius")];
-    return std::ranges::any_of(radius, [&](double each) { return each > longest; });
-  });
-}
-
-/// m, of the nodes of all faces whose bond has not held.
-double largest_slip(const mpm::Simulation& simulation) {
-  double largest = 0;
-  const mpm::TotalLagrangian* form = simulation.total_lagrangian();
-  if (form == nullptr) return largest;
-  for (std::size_t face = 0; face < form->contact().faces(); ++face)
-    for (const mpm::FaceState& node : form->contact().state_of(face))
-      if (!node.bonded) largest = std::max(largest, std::abs(node.slip));
-  return largest;
-}
-
-}  // namespace
 
 SnapshotTaker::SnapshotTaker(const scene::Scene& scene)
     : tolerance_(2e-12 * scene::end_time(scene.load)), wanted_(scene.output.snapshot_events) {

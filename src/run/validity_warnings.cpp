@@ -1,9 +1,8 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
 #include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/selective_inertia.hpp"
-#include "launchsafe/scene/stations.hpp"
 
 #include <fmt/format.h>
 

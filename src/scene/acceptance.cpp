@@ -1,4 +1,4 @@
-#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,7 @@
 namespace launchsafe::scene {
 namespace {
 
-constexpr std::ptrdiff_t fewest_letters = 8;
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+constexpr std::size_t fewest_letters = 8;
 
 /// Characters that nobody sees: soft hyphen, zero-width and directional ones, byte-order marks (UTF-8).
 bool has_invisible(const std::string& text) {
@@ -30,29 +28,10 @@ bool is_letter(char c) {
 
 /// Whether a reason is one in words: several, of enough letters, not one letter again and again.
 bool is_in_words(const std::string& text) {
-  std::set<char> letters;
-  std::ptrdiff_t count = 0;
-  for (const char c : text) {
-    if (!is_letter(c)) continue;
-    ++count;
-    letters.insert(c);
-  }
-  return count >= fewest_letters && letters.size() > 2 && text.find(' ') != std::string::npos;
-}
-
-/// Whether two numbers are one, to the digits in which people read them.
-bool same_number(double a, double b) {
-  constexpr double digits = 1e-5;
-  return a == b || std::abs(a - b) <= digits * std::max(std::abs(a), std::abs(b));
-}
-
-bool same_value(const Value& a, const Value& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
-  const auto* numbers = std::get_if<std::vector<double>>(&a);
-  if (numbers == nullptr) return a == b;
-  const auto& others = std::get<std::vector<double>>(b);
-  return std::equal(numbers->begin(), numbers->end(), others.begin(), others.end(), same_number);
+  std::string letters;
+  std::ranges::copy_if(text, std::back_inserter(letters), is_letter);
+  const std::set<char> different(letters.begin(), letters.end());
+  return letters.size() >= fewest_letters && different.size() > 2 && text.find(' ') != std::string::npos;
 }
 
 /// The range of numbers that a text accepts; nothing where it is none.
@@ -67,7 +46,8 @@ bool accepts(const Acceptance& acceptance, const KeyDescription& key, const Valu
   if (const auto range = accepted_range(key, acceptance.value))
     return (*range)[0] <= std::get<double>(value) && std::get<double>(value) <= (*range)[1];
   const auto meant = parse_value(acceptance.value, key, {});
-  return meant && same_value(*meant, value);
+  constexpr double digits = 1e-5;  // in which people read numbers
+  return meant && same_value(*meant, value, digits);
 }
 
 /// { key = "K", value = "V", because = "..." }, ready to copy.
@@ -77,8 +57,8 @@ std::string entry_to_write(const std::string& key, const std::string& value) {
                      plain ? '"' + value + '"' : exact_toml({.kind = KeyKind::text}, value));
 }
 
-std::optional<InputError> check_value(const Acceptance& acceptance, const KeyDescription& key,
-                                      const std::map<std::string, Place>& places) {
+Fault check_value(const Acceptance& acceptance, const KeyDescription& key,
+                  const std::map<std::string, Place>& places) {
   constexpr double widest = 2.0;
   if (acceptance.value.empty())
     return error_at(places.at("key"), "accept.value", "nothing",
@@ -98,9 +78,8 @@ std::optional<InputError> check_value(const Acceptance& acceptance, const KeyDes
   return error;
 }
 
-std::optional<InputError> check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
-                                const std::vector<Acceptance>& earlier,
-                                const std::vector<KeyDescription>& known) {
+Fault check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
+            const std::vector<Acceptance>& earlier, const std::vector<KeyDescription>& known) {
   const std::string& name = acceptance.key;
   if (name == "calibration")
     return error_at(places.at("key"), "accept.key", "\"calibration\", for all that is foreign to it at once",
@@ -128,6 +107,17 @@ std::optional<InputError> check(const Acceptance& acceptance, const std::map<std
 }
 
 }  // namespace
+
+bool same_value(const Value& a, const Value& b, double tolerance) {
+  if (a.index() != b.index()) return false;
+  const auto is_same = [tolerance](double one, double other) {
+    return one == other || std::abs(one - other) <= tolerance * std::max(std::abs(one), std::abs(other));
+  };
+  if (const auto* number = std::get_if<double>(&a)) return is_same(*number, std::get<double>(b));
+  const auto* numbers = std::get_if<std::vector<double>>(&a);
+  return numbers == nullptr ? a == b
+                            : std::ranges::equal(*numbers, std::get<std::vector<double>>(b), is_same);
+}
 
 Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
                         const Value& value, std::string range) {
@@ -163,7 +153,8 @@ std::string acceptances_to_write(const std::vector<Implausible>& values) {
   return text.empty() ? text : "accept = [\n" + text + "]";
 }
 
-std::optional<InputError> check_reason(const std::string& text, const Place& place, const std::string& key) {
+Fault check_reason(const std::string& text, const Place& place, const std::string& key) {
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (is_in_words(text) && !has_invisible(text) && std::ranges::none_of(text, is_control))
     return std::nullopt;
   return error_at(

@@ -47,7 +47,7 @@ std::vector<double> quiet_points(const std::vector<double>& pressure) {
 }
 
 /// Sets what noise left below zero to 0.
-std::optional<InputError> remove_negative(CleanedRecord& cleaned, const std::string& file) {
+Fault remove_negative(CleanedRecord& cleaned, const std::string& file) {
   const double allowed = std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.peak);
   for (double& pressure : cleaned.curve.pressure) {
     if (pressure >= 0.0) continue;
@@ -65,8 +65,8 @@ std::optional<InputError> remove_negative(CleanedRecord& cleaned, const std::str
 }
 
 /// Offset and noise of the record, from the user or from its quiet part.
-std::optional<InputError> find_offset(const PressureCurve& record, const GaugeCleaning& cleaning,
-                                      CleanedRecord& cleaned, const std::string& file) {
+Fault find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, CleanedRecord& cleaned,
+                  const std::string& file) {
   const std::vector<double> quiet = quiet_points(record.pressure);
   if (quiet.size() >= least_quiet_points) {
     cleaned.quiet_points = quiet.size();

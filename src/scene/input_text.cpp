@@ -14,6 +14,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <system_error>
 
 namespace launchsafe::scene {
@@ -52,31 +53,18 @@ class TomlScanner {
   }
 
  private:
-  bool three_quotes(char quote) const {
-    return text_.substr(position_).starts_with(std::string_view(quote == '"' ? "\"\"\"" : "'''"));
-  }
-
+  /// From behind its first quotation mark. A short one ends with its line at the latest, a long one at the
+  /// last three of up to five quotation marks.
   void pass_text(char quote) {
-    --position_;
-    if (three_quotes(quote)) return pass_long_text(quote);
-    for (++position_; !done(); ++position_) {
-      if (text_[position_] == '\n') return;
-      if (text_[position_] == quote) {
-        ++position_;
+    const bool is_long = text_.substr(position_ - 1).starts_with(std::string(3, quote));
+    const std::string mark(is_long ? 3 : 1, quote);
+    for (position_ += mark.size() - 1; !done(); ++position_) {
+      if (text_.substr(position_).starts_with(mark)) {
+        position_ += mark.size();
+        for (int more = 0; is_long && more < 2 && !done() && text_[position_] == quote; ++more) ++position_;
         return;
       }
-      if (text_[position_] == '\\' && quote == '"') ++position_;
-    }
-  }
-
-  /// Ends at the last three of up to five quotation marks.
-  void pass_long_text(char quote) {
-    for (position_ += 3; !done(); ++position_) {
-      if (three_quotes(quote)) {
-        position_ += 3;
-        for (int more = 0; more < 2 && !done() && text_[position_] == quote; ++more) ++position_;
-        return;
-      }
+      if (text_[position_] == '\n' && !is_long) return;
       if (text_[position_] == '\\' && quote == '"') ++position_;
     }
   }
@@ -87,19 +75,11 @@ class TomlScanner {
 
 constexpr std::string_view allowed_file = "a regular file";
 
-/// A descriptor that is closed with its owner.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
+/// Closes a descriptor that is open.
+struct Close {
+  void operator()(const int* descriptor) const {
+    if (*descriptor >= 0) ::close(*descriptor);
   }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
 };
 
 /// The nearest name in the folder of a file that does not exist, in quotation marks; empty for none.
@@ -134,21 +114,13 @@ InputError unreadable(const Place& place, int reason) {
   return error;
 }
 
-struct Wording {
-  const char *found, *allowed;
-};
-
-Wording wording_of(InputContent content) {
-  switch (content) {
-    case InputContent::study:
-      return {"a study, which launchsafe study computes", "a study: a file with the keys kind and scene"};
-    case InputContent::materials:
-      return {"materials, which a scene's material_file names and launchsafe explain tells",
-              "a file of tables [material.NAME] and [contact.NAME]"};
-    case InputContent::scene:
-    case InputContent::unknown:
-      break;
-  }
+/// What a file is where another one is wanted, and what it is where it is wanted.
+std::pair<const char*, const char*> words_of(InputContent content) {
+  if (content == InputContent::study)
+    return {"a study, which launchsafe study computes", "a study: a file with the keys kind and scene"};
+  if (content == InputContent::materials)
+    return {"materials, which a scene's material_file names and launchsafe explain tells",
+            "a file of tables [material.NAME] and [contact.NAME]"};
   return {"a scene, which launchsafe run computes", "a scene: a file with tables [[body]]"};
 }
 
@@ -220,7 +192,7 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-std::optional<InputError> check_encoding(std::string_view text, const std::string& file) {
+Fault check_encoding(std::string_view text, const std::string& file) {
   for (const char* at = text.data(); at != text.data() + text.size();) {
     const char* const character = at;
     // Neither overlong forms nor surrogates nor what is beyond U+10FFFF are characters (Unicode, table 3-7).
@@ -235,7 +207,7 @@ std::optional<InputError> check_encoding(std::string_view text, const std::strin
   return std::nullopt;
 }
 
-std::optional<InputError> check_nesting(std::string_view toml, const std::string& file) {
+Fault check_nesting(std::string_view toml, const std::string& file) {
   TomlScanner scanner(toml);
   std::size_t open = 0, points = 0;  // brackets, and points since the last character that ends a key
   while (!scanner.done()) {
@@ -260,14 +232,15 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
   // Before it is opened, because that alone may do something to a device.
   if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
   // Should it have become a pipe by now, opening it does not wait for a writer.
-  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) return unreadable(place, errno);
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+  const std::unique_ptr<const int, Close> closed_at_the_end(&descriptor);
+  if (descriptor < 0 || ::fstat(descriptor, &status) != 0) return unreadable(place, errno);
   if (!S_ISREG(status.st_mode)) return error_at(place, {}, kind_of(status), allowed_file);
   std::string text;
   text.reserve(std::min(static_cast<std::size_t>(status.st_size), largest));
   std::array<char, std::size_t{1} << 16> part;
   for (;;) {
-    const ssize_t count = ::read(descriptor.number(), part.data(), part.size());
+    const ssize_t count = ::read(descriptor, part.data(), part.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return unreadable(place, errno);
     if (count == 0) return text;
@@ -296,11 +269,10 @@ InputContent content_of(const toml::table& root) {
   return root.contains("kind") || root.contains("scene") ? InputContent::study : InputContent::unknown;
 }
 
-std::optional<InputError> check_content(const toml::table& root, const std::string& file,
-                                        InputContent wanted) {
+Fault check_content(const toml::table& root, const std::string& file, InputContent wanted) {
   const InputContent content = content_of(root);
   if (content == wanted || content == InputContent::unknown) return std::nullopt;
-  return error_at({file}, {}, wording_of(content).found, wording_of(wanted).allowed);
+  return error_at({file}, {}, words_of(content).first, words_of(wanted).second);
 }
 
 std::string quotable(std::string_view text, std::size_t longest) {

@@ -17,10 +17,10 @@ std::vector<std::string_view> parts_of_list(std::string_view text);
 std::string lower_case(std::string_view text);
 
 /// The first byte of a text that is no UTF-8, or a NUL, with its line.
-std::optional<InputError> check_encoding(std::string_view text, const std::string& file);
+Fault check_encoding(std::string_view text, const std::string& file);
 
 /// TOML nested deeper than any scene or study is, which would exhaust the stack of whoever walks through it:
 /// brackets inside each other, or a dotted key of many parts.
-std::optional<InputError> check_nesting(std::string_view toml, const std::string& file);
+Fault check_nesting(std::string_view toml, const std::string& file);
 
 }  // namespace launchsafe::scene

@@ -20,7 +20,7 @@ InputError fault_of(const SceneFile& file, const Interface& faces, const std::st
   return error_at(where, name, found, allowed, suggestion);
 }
 
-std::optional<InputError> check_body(const SceneFile& file, const Interface& faces) {
+Fault check_body(const SceneFile& file, const Interface& faces) {
   const Scene& scene = file.scene;
   const std::vector<std::string> touching = bodies_at_the_charge(scene);
   if (std::ranges::find(touching, faces.body) != touching.end()) return std::nullopt;
@@ -35,7 +35,7 @@ std::optional<InputError> check_body(const SceneFile& file, const Interface& fac
                   nearest.empty() ? nearest : "interface." + nearest);
 }
 
-std::optional<InputError> check_law(const SceneFile& file, const Interface& faces) {
+Fault check_law(const SceneFile& file, const Interface& faces) {
   const bool slides = faces.condition == Condition::sliding;
   const bool breaks = faces.tension_strength || faces.shear_strength;
   const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
@@ -103,21 +103,6 @@ Expected<Interface> read_interface(const std::string& body, const toml::table& t
   return faces;
 }
 
-Expected<NamedContact> read_contact(const std::string& name, const toml::table& table,
-                                    const std::string& file) {
-  NamedContact contact;
-  contact.name = name;
-  const auto places = read_table(table, contact_keys(), {"source"}, file, contact);
-  if (!places) return places.error();
-  std::vector<std::string> given;
-  for (const Key<Interface>& key : interface_keys())
-    if (places->contains(key.name)) given.push_back(key.name);
-  auto sources = read_sources(table, given, file);
-  if (!sources) return sources.error();
-  contact.sources = std::move(*sources);
-  return contact;
-}
-
 }  // namespace
 
 bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
@@ -176,7 +161,7 @@ Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::str
                                          const std::vector<NamedContact>& contacts,
                                          std::map<std::string, Place>& places) {
   ReadInterfaces read;
-  const auto add = [&](const std::string& body, const toml::table& table) -> std::optional<InputError> {
+  const auto add = [&](const std::string& body, const toml::table& table) -> Fault {
     const std::string name = "interface." + body;
     places[name] = place_of(table, file);
     auto faces = read_interface(body, table, file, contacts, read.sources, places);
@@ -189,7 +174,7 @@ Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::str
   return read;
 }
 
-std::optional<InputError> check_interfaces(const SceneFile& file) {
+Fault check_interfaces(const SceneFile& file) {
   for (const Interface& faces : file.scene.interfaces) {
     if (auto error = check_body(file, faces)) return error;
     if (auto error = check_law(file, faces)) return error;
@@ -264,22 +249,6 @@ const KeyDescription& contact_of_interface_key() {
       .example = "smooth",
       .plausible = {.because = "the values are judged"}};
   return key;
-}
-
-Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
-                                                  const std::vector<NamedContact>& known) {
-  std::vector<NamedContact> contacts;
-  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
-    if (find_named(known, name) != nullptr)
-      return error_at(place_of(table, file), "contact", fmt::format("a contact called \"{}\"", name),
-                      "a name that no other contact has");
-    auto contact = read_contact(name, table, file);
-    if (!contact) return within("contact." + name, contact.error());
-    contacts.push_back(std::move(*contact));
-    return std::nullopt;
-  };
-  if (auto error = visit_tables(root, "contact", "that interfaces refer to", file, read)) return *error;
-  return contacts;
 }
 
 }  // namespace launchsafe::scene

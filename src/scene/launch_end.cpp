@@ -12,9 +12,6 @@ namespace {
 /// Round-off of times that were written in decimals.
 constexpr double same_time = 1e-9;
 
-/// What an analytic load falls to when it is over, and a measured curve when the gauge's pressure is gone.
-double base_of(const Load& load) { return load.curve_time.empty() ? load.base : 0.0; }
-
 /// From where x - ln x = 1 + ln(1/share)/n on, ((t/t_m) exp(1 - t/t_m))^n with x = t/t_m stays below the
 /// share. The root is approached from above, where Newton's method on a convex function cannot miss it.
 double end_of_power_exponential(const Load& load) {
@@ -73,16 +70,13 @@ double read_time(const Load& load) {
 
 double share_left(const Load& load, double time) {
   const PressureHistory history(load);
-  const double base = base_of(load), height = history.stated_peak() - base;
+  // What an analytic load falls to when it is over, and a measured curve when the gauge's pressure is gone.
+  const double base = load.curve_time.empty() ? load.base : 0.0, height = history.stated_peak() - base;
   return height > 0.0 ? (history.at(time) - base) / height : 0.0;
 }
 
 double calibres_of(const Scene& scene, const RigidMotion& motion) {
   return motion.travel / (2.0 * extent_of(scene).r_end);
-}
-
-double calibres_until(const Scene& scene, double time) {
-  return calibres_of(scene, rigid_motion(scene, time));
 }
 
 bool is_cut_short(const Load& load) {
@@ -113,12 +107,6 @@ std::optional<Load> longer_launch(Load load) {
     return std::nullopt;
   }
   return end_time(load) <= most_times_as_long * end ? std::optional(std::move(load)) : std::nullopt;
-}
-
-std::optional<ExitWindow> exit_window(const Load& load) {
-  const std::optional<double> exit = exit_time(load);
-  if (!exit) return std::nullopt;
-  return ExitWindow{*exit - load.muzzle_exit_spread, *exit + load.muzzle_exit_spread};
 }
 
 std::string exit_text(const Scene& scene) {

@@ -8,19 +8,11 @@ bool has_exit(const Load& load) { return load.muzzle_exit || load.muzzle_travel;
 
 bool is_bell(const Load& load) { return load.shape == LoadShape::bell; }
 
-/// The key of a number that a measured curve takes the place of.
-Key<Load> analytic(Key<Load> key) {
-  key.is_replaced = [](const Load& load) { return !load.curve_time.empty(); };
-  return key;
-}
-
-/// The peak, to which a measured curve may be scaled.
-Key<Load> peak_key() {
-  Key<Load> key =
-      plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
-                           "Largest chamber pressure.", &Load::peak),
-                between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa", over_range);
-  key.is_replaced = [](const Load& load) { return !load.curve_time.empty() && !load.rescale_to_peak; };
+/// The key of a number that a measured curve takes the place of, unless it is scaled to it.
+Key<Load> analytic(Key<Load> key, bool scales = false) {
+  key.is_replaced = [scales](const Load& load) {
+    return !load.curve_time.empty() && !(scales && load.rescale_to_peak);
+  };
   return key;
 }
 
@@ -34,7 +26,10 @@ std::vector<Key<Load>> load_keys() {
                                     "beginning alone; without it the launch is simulated until it is over.",
                                     &Load::duration),
           between(1e-3, 0.1), "a shell leaves its tube after some milliseconds"),
-      peak_key(),
+      analytic(plausibly(number_key("peak", Dimension::pressure, above_to(0, 10e9), Standing::paper,
+                                    "Largest chamber pressure.", &Load::peak),
+                         between(10e6, 1e9), "a mortar has 10 MPa, and no gun tube bears 1 GPa", over_range),
+               true),
       analytic(plausibly(number_key("base", Dimension::pressure, between(0, 10e9), Standing::assumed,
                                     "Chamber pressure at the start.", &Load::base),
                          between(0, 20e6), "before the shell moves there is an igniter's pressure at most")),

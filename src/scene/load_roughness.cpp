@@ -92,11 +92,6 @@ double mean_interval(const Load& load) {
   return (load.curve_time.back() - load.curve_time.front()) / static_cast<double>(load.curve_time.size() - 1);
 }
 
-/// Share of the noise of single points that the average over a window has.
-double share_left_by_smoothing(const Load& load) {
-  return 1.0 / std::sqrt(std::max(1.0, load.smoothing / mean_interval(load)));
-}
-
 /// The integral of p |dp| over the simulated time, Pa2, with the swings of noise and without.
 struct Work {
   double whole = 0, noiseless = 0;
@@ -108,7 +103,9 @@ Work work_of(const Load& load) {
   for (const double time : history.marks()) pressures.push_back(history.at(time));
   const double stated = history.stated_peak();
   const double scale = stated / std::max(*std::ranges::max_element(load.curve_pressure), 1e-300);
-  const double noise = scale * noise_of(load) * share_left_by_smoothing(load);
+  // Of the noise of single points the average over a window has a share.
+  const double left = 1.0 / std::sqrt(std::max(1.0, load.smoothing / mean_interval(load)));
+  const double noise = scale * noise_of(load) * left;
   const double least_swing =
       std::clamp(deviations_of_a_swing * noise, least_swing_share * stated, largest_swing_share * stated);
   // A load that only swings less than that has a noiseless one that cannot be told from a constant.

@@ -70,8 +70,8 @@ Key<Source> keys_of_source_key() {
       [](const auto& keys) { return fmt::format("{}", fmt::join(keys, ", ")); });
 }
 
-std::optional<InputError> check_source(const Source& source, const std::map<std::string, Place>& places,
-                                       const std::vector<std::string>& known, std::set<std::string>& cited) {
+Fault check_source(const Source& source, const std::map<std::string, Place>& places,
+                   const std::vector<std::string>& known, std::set<std::string>& cited) {
   if (source.keys.empty())
     return error_at(places.at("keys"), "source.keys", "no key", "names of keys, such as \"density\"");
   for (const std::string& key : source.keys) {
@@ -91,9 +91,35 @@ std::optional<InputError> check_source(const Source& source, const std::map<std:
   return std::nullopt;
 }
 
+/// All tables of that name but materials; `meaning` as of visit_tables, `known`: those of other files.
+template <class Named>
+Expected<std::vector<Named>> read_named(const toml::table& root, const std::string& what,
+                                        std::string_view meaning, const std::vector<Key<Named>>& keys,
+                                        const std::string& file, const std::vector<Named>& known) {
+  std::vector<Named> all;
+  const auto read = [&](const std::string& name, const toml::table& table) -> Fault {
+    if (find_named(known, name) != nullptr)
+      return error_at(place_of(table, file), what, fmt::format("a {} called \"{}\"", what, name),
+                      fmt::format("a name that no other {} has", what));
+    Named& named = all.emplace_back();
+    named.name = name;
+    const auto places = read_table(table, keys, {"source"}, file, named);
+    if (!places) return within(what + "." + name, places.error());
+    std::vector<std::string> given;
+    for (const Key<Named>& key : keys)
+      if (key.name != "title" && places->contains(key.name)) given.push_back(key.name);
+    auto sources = read_sources(table, given, file);
+    if (!sources) return within(what + "." + name, sources.error());
+    named.sources = std::move(*sources);
+    return std::nullopt;
+  };
+  if (auto error = visit_tables(root, what, meaning, file, read)) return *error;
+  return all;
+}
+
 }  // namespace
 
-std::optional<InputError> check_material_tables(const toml::table& root, const std::string& file) {
+Fault check_material_tables(const toml::table& root, const std::string& file) {
   if (auto read = read_described(root, {}, {"material", "contact"}, file); !read) return read.error();
   return std::nullopt;
 }
@@ -109,7 +135,11 @@ const std::vector<NamedContact>& shipped_contacts() {
 }
 
 const std::vector<Decomposition>& shipped_decompositions() {
-  static const std::vector<Decomposition> all = read_built_in<Decomposition>(read_decompositions);
+  static const std::vector<Decomposition> all = read_built_in<Decomposition>(
+      [](const toml::table& root, const std::string& file, const std::vector<Decomposition>& known) {
+        return read_named(root, "decomposition", "that combustion.kinetics refers to", decomposition_keys(),
+                          file, known);
+      });
   return all;
 }
 
@@ -133,40 +163,25 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
 }
 
 const std::vector<Key<Decomposition>>& decomposition_keys() {
-  static const std::vector<Key<Decomposition>> keys{
-      required(text_key("title", Standing::input, "Of which explosive, for reports.", "RDX",
-                        &Decomposition::title)),
-      required(number_key<Decomposition>(
-          "activation_temperature", Dimension::temperature_difference, above_to(0, 1e6), Standing::literature,
-          "Activation energy over the gas constant, E/R.",
-          [](auto& d) -> auto& { return d.kinetics.activation_temperature; })),
-      required(number_key<Decomposition>(
-          "frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature, "Frequency factor Z.",
-          [](auto& d) -> auto& { return d.kinetics.frequency; })),
-      required(number_key<Decomposition>(
-          "heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8), Standing::literature, "Heat Q.",
-          [](auto& d) -> auto& { return d.kinetics.heat_of_reaction; })),
-  };
+  using materials::KineticsParameters;
+  static const std::vector<Key<Decomposition>> keys = keys::joined(
+      {{required(text_key("title", Standing::input, "Of which explosive, for reports.", "RDX",
+                          &Decomposition::title))},
+       keys::keys_of_part(
+           "", &Decomposition::kinetics,
+           {required(number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
+                                Standing::literature, "Activation energy over the gas constant, E/R.",
+                                &KineticsParameters::activation_temperature)),
+            required(number_key("frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature,
+                                "Frequency factor Z.", &KineticsParameters::frequency)),
+            required(number_key("heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8),
+                                Standing::literature, "Heat Q.", &KineticsParameters::heat_of_reaction))})});
   return keys;
 }
 
-Expected<std::vector<Decomposition>> read_decompositions(const toml::table& root, const std::string& file,
-                                                         const std::vector<Decomposition>&) {
-  std::vector<Decomposition> all;
-  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
-    Decomposition each;
-    each.name = each.kinetics.name = name;
-    if (auto places = read_table(table, decomposition_keys(), {"source"}, file, each); !places)
-      return within("decomposition." + name, places.error());
-    auto sources = read_sources(table, {"activation_temperature", "frequency", "heat_of_reaction"}, file);
-    if (!sources) return within("decomposition." + name, sources.error());
-    each.sources = std::move(*sources);
-    all.push_back(std::move(each));
-    return std::nullopt;
-  };
-  if (auto error = visit_tables(root, "decomposition", "that combustion.kinetics refers to", file, read))
-    return *error;
-  return all;
+Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
+                                                  const std::vector<NamedContact>& known) {
+  return read_named(root, "contact", "that interfaces refer to", contact_keys(), file, known);
 }
 
 materials::KineticsParameters flame_kinetics(const Scene& scene) {

@@ -1,4 +1,3 @@
-#include "launchsafe/scene/mechanical_part.hpp"
 
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
@@ -7,17 +6,6 @@
 
 namespace launchsafe::scene {
 namespace {
-
-Switch decided(const Term& term) { return term.in ? Switch::on : Switch::off; }
-
-/// The plan's decisions instead of what they rest on.
-void settle_physics(const Plan& plan, Physics& physics) {
-  const Physics usual;
-  physics.conduction = decided(plan.conduction);
-  physics.bulk_reaction = decided(plan.bulk_reaction);
-  physics.conduction_bound = usual.conduction_bound;
-  physics.reaction_bound = usual.reaction_bound;
-}
 
 /// Which inputs do not reach the mechanics of a launch.
 class Unfelt {
@@ -113,7 +101,9 @@ Scene mechanical_part(const Scene& scene) {
   const Unfelt unfelt(plan, part.output.asks_for_snapshots());
   unfelt.drop(scene_keys(), part);
   settle_materials(part, unfelt);
-  settle_physics(plan, part.physics);
+  // The plan's decisions instead of what they rest on.
+  part.physics = {.conduction = plan.conduction.in ? Switch::on : Switch::off,
+                  .bulk_reaction = plan.bulk_reaction.in ? Switch::on : Switch::off};
   std::ranges::sort(part.output.snapshot_times);
   clear_signs_of_zeros(part);
   return part;

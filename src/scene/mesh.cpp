@@ -1,12 +1,13 @@
 #include "launchsafe/scene/mesh.hpp"
 
-#include "launchsafe/scene/stations.hpp"
-
 #include <fmt/format.h>
 
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <set>
+#include <span>
 
 namespace launchsafe::scene {
 namespace {
@@ -125,12 +126,11 @@ struct CellsBetween {
   double shortest = 0, longest = 0;  ///< m
 };
 
-CellsBetween cells_between(const std::vector<double>& lines, double from, double to, double tolerance) {
-  const std::vector<double> own = cut(lines, from, to, 1, tolerance);
-  CellsBetween cells{static_cast<int>(own.size()) - 1, to - from, 0.0};
-  for (std::size_t i = 0; i + 1 < own.size(); ++i) {
-    cells.shortest = std::min(cells.shortest, own[i + 1] - own[i]);
-    cells.longest = std::max(cells.longest, own[i + 1] - own[i]);
+CellsBetween cells_between(std::span<const double> lines, double length) {
+  CellsBetween cells{static_cast<int>(lines.size()) - 1, length, 0.0};
+  for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
+    cells.shortest = std::min(cells.shortest, lines[i + 1] - lines[i]);
+    cells.longest = std::max(cells.longest, lines[i + 1] - lines[i]);
   }
   return cells;
 }
@@ -145,8 +145,10 @@ CellRange cells_within(const Scene& scene, const GridLines& lines, const Extent&
     return {nx, nr, mesh.dx, mesh.dx, mesh.dr, mesh.dr};
   }
   const double tolerance = length_tolerance(scene);
-  const CellsBetween x = cells_between(lines.x, part.x_begin, part.x_end, tolerance);
-  const CellsBetween r = cells_between(lines.r, part.r_begin, part.r_end, tolerance);
+  const CellsBetween x =
+      cells_between(cut(lines.x, part.x_begin, part.x_end, 1, tolerance), part.x_end - part.x_begin);
+  const CellsBetween r =
+      cells_between(cut(lines.r, part.r_begin, part.r_end, 1, tolerance), part.r_end - part.r_begin);
   return {x.count, r.count, x.shortest, x.longest, r.shortest, r.longest};
 }
 
@@ -169,6 +171,34 @@ ParticleCount particles_in(const Scene& scene, const Body& body, const CellRange
   const Mesh mesh = fit_mesh(scene);
   return {parts_of((body.x_end - body.x_begin) * per_cell, mesh.dx),
           parts_of((body.r_end - body.r_begin) * per_cell, mesh.dr)};
+}
+
+/// Where a body begins or ends along one direction.
+using Edge = double Body::*;
+
+std::vector<GridInterval> intervals(const Scene& scene, const char* along, const std::vector<double>& lines,
+                                    Edge begin, Edge end) {
+  std::set<std::size_t> ends{0, lines.size() - 1};
+  if (scene.numerics.formulation == Formulation::total_lagrangian)
+    for (const Body& body : scene.bodies)
+      ends.insert({nearest_line(lines, body.*begin), nearest_line(lines, body.*end)});
+  std::vector<GridInterval> all;
+  for (auto last = std::next(ends.begin()); last != ends.end(); ++last) {
+    const std::size_t first = *std::prev(last);
+    const double from = lines[first], to = lines[*last];
+    const auto [count, shortest, longest] =
+        cells_between(std::span(lines).subspan(first, *last - first + 1), to - from);
+    GridInterval& interval =
+        all.emplace_back(GridInterval{along, from, to, count, shortest, longest, {}, {}});
+    for (const Body& body : scene.bodies) {
+      const auto is_at = [&, near = 1e-3 * shortest](double place) {
+        return std::min(std::abs(body.*begin - place), std::abs(body.*end - place)) < near;
+      };
+      if (is_at(from)) interval.edge_before.push_back(body.name);
+      if (is_at(to)) interval.edge_behind.push_back(body.name);
+    }
+  }
+  return all;
 }
 
 /// Radii between which bodies of the charge reach its bottom.
@@ -268,6 +298,19 @@ MeshSize mesh_size(const Scene& scene) {
     size.particles.push_back(particles_in(scene, body, size.cells.back()).total());
   }
   return size;
+}
+
+std::size_t nearest_line(const std::vector<double>& lines, double place) {
+  auto nearest = std::ranges::lower_bound(lines, place);
+  if (nearest == lines.end()) --nearest;
+  if (nearest != lines.begin() && std::abs(*(nearest - 1) - place) < std::abs(*nearest - place)) --nearest;
+  return static_cast<std::size_t>(nearest - lines.begin());
+}
+
+GridIntervals grid_intervals(const Scene& scene) {
+  const GridLines lines = lines_at_rest(scene);
+  return {intervals(scene, "x", lines.x, &Body::x_begin, &Body::x_end),
+          intervals(scene, "r", lines.r, &Body::r_begin, &Body::r_end)};
 }
 
 std::int64_t counted(double count) {

@@ -13,12 +13,6 @@ struct LawKey {
   KeyDescription description;
 };
 
-std::vector<std::string> words_of_laws() {
-  std::vector<std::string> words;
-  for (const Material& material : usual_materials()) words.push_back(material.name);
-  return words;
-}
-
 std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
   std::vector<LawKey> keys;
   materials::for_each_law([&]<class Law>(const Law&) {
@@ -69,16 +63,14 @@ Expected<NamedMaterial> read_material(const std::string& name, const toml::table
   material.sources = std::move(*sources);
   for (Source& source : material.sources)
     for (std::string& key : source.keys)
-      for (const LawKey& each : law_keys)
-        if (each.description.name == key) {
-          key = each.scene_key;
-          break;
-        }
+      key = std::ranges::find(law_keys, key, [](const LawKey& each) {
+              return each.description.name;
+            })->scene_key;
   return material;
 }
 
-std::optional<InputError> check_name(const toml::node& node, const std::string& name, const std::string& file,
-                                     const std::vector<NamedMaterial>& known) {
+Fault check_name(const toml::node& node, const std::string& name, const std::string& file,
+                 const std::vector<NamedMaterial>& known) {
   const bool is_law = find_named(usual_materials(), name) != nullptr;
   const bool plain = !name.empty() && std::ranges::all_of(name, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
@@ -115,7 +107,7 @@ void take_over(NamedMaterial& material, const NamedMaterial& from) {
   if (!taken.keys.empty()) material.sources.push_back(std::move(taken));
 }
 
-std::optional<InputError> check_complete(const NamedMaterial& material) {
+Fault check_complete(const NamedMaterial& material) {
   const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
   for (const LawKey& key : keys) {
     if (material.values.contains(key.scene_key) || is_settled(material, key, keys) ||
@@ -130,33 +122,24 @@ std::optional<InputError> check_complete(const NamedMaterial& material) {
 }
 
 /// Completes materials in the order in which they are like each other.
-class Completion {
- public:
-  Completion(std::vector<NamedMaterial>& materials, const std::vector<NamedMaterial>& known)
-      : materials_(materials), known_(known), done_(materials.size()) {}
-
-  std::optional<InputError> all() {
-    for (std::size_t i = 0; i < materials_.size(); ++i)
-      if (auto error = complete(i, 0)) return error;
-    return std::nullopt;
-  }
-
- private:
-  std::optional<InputError> complete(std::size_t i, std::size_t depth) {
-    if (done_[i]) return std::nullopt;
-    NamedMaterial& material = materials_[i];
+Fault complete_all(std::vector<NamedMaterial>& materials, const std::vector<NamedMaterial>& known) {
+  std::vector<bool> done(materials.size());
+  using Complete = std::function<Fault(std::size_t i, std::size_t depth)>;
+  const Complete complete = [&](std::size_t i, std::size_t depth) -> Fault {
+    if (done[i]) return std::nullopt;
+    NamedMaterial& material = materials[i];
     if (!material.like.empty()) {
       const auto fault = [&](std::string found, std::string allowed) {
         return error_at(material.place, "material." + material.name + ".like", std::move(found),
                         std::move(allowed));
       };
-      if (depth > materials_.size())
+      if (depth > materials.size())
         return fault(fmt::format("\"{}\", which is like this material", material.like),
                      "a material with numbers of its own");
-      const NamedMaterial* other = find_named(known_, material.like);
-      const NamedMaterial* own = find_named(materials_, material.like);
+      const NamedMaterial* other = find_named(known, material.like);
+      const NamedMaterial* own = find_named(materials, material.like);
       if (other == nullptr && own != nullptr) {
-        if (auto error = complete(static_cast<std::size_t>(own - materials_.data()), depth + 1)) return error;
+        if (auto error = complete(static_cast<std::size_t>(own - materials.data()), depth + 1)) return error;
         other = own;
       }
       if (other == nullptr || other->law != material.law)
@@ -164,14 +147,13 @@ class Completion {
                      fmt::format("the name of a material of law \"{}\"", material.law));
       take_over(material, *other);
     }
-    done_[i] = true;
+    done[i] = true;
     return check_complete(material);
-  }
-
-  std::vector<NamedMaterial>& materials_;
-  const std::vector<NamedMaterial>& known_;
-  std::vector<bool> done_;
-};
+  };
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (auto error = complete(i, 0)) return error;
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -180,7 +162,7 @@ const std::vector<Key<NamedMaterial>>& material_keys() {
     Key<NamedMaterial> law = required(text_key("law", Standing::input, "Law whose numbers the table gives.",
                                                "charge", &NamedMaterial::law));
     law.kind = KeyKind::word;
-    law.words = words_of_laws();
+    for (const Material& material : usual_materials()) law.words.push_back(material.name);
     return std::vector<Key<NamedMaterial>>{
         always_plausible(law, "the numbers are judged"),
         always_plausible(text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
@@ -214,7 +196,7 @@ std::string key_in_material(std::string_view law, std::string_view scene_key) {
 Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
                                                     const std::vector<NamedMaterial>& known) {
   std::vector<NamedMaterial> materials;
-  const auto read = [&](const std::string& name, const toml::table& table) -> std::optional<InputError> {
+  const auto read = [&](const std::string& name, const toml::table& table) -> Fault {
     if (auto error = check_name(table, name, file, known)) return error;
     auto material = read_material(name, table, file);
     if (!material) return within("material." + name, material.error());
@@ -222,7 +204,7 @@ Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, con
     return std::nullopt;
   };
   if (auto error = visit_tables(root, "material", "that bodies refer to", file, read)) return *error;
-  if (auto error = Completion(materials, known).all()) return *error;
+  if (auto error = complete_all(materials, known)) return *error;
   return materials;
 }
 

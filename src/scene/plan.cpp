@@ -2,7 +2,6 @@
 
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/scene/selective_inertia.hpp"
 
 #include <fmt/format.h>
 

@@ -13,10 +13,6 @@
 namespace launchsafe::scene {
 namespace {
 
-std::string row(std::string_view name, const std::string& value) {
-  return fmt::format("  {:<22}{}\n", name, value);
-}
-
 /// A charge that shrank away from its base as it cooled, held at its nose.
 std::string cooling_text(const Scene& scene) {
   const Extent charge = charge_extent(scene);
@@ -34,37 +30,38 @@ std::string bodies_text(const Scene& scene) {
   std::string text = "Bodies\n";
   for (const Body& body : scene.bodies) {
     const ParticleCount count = particles_of(scene, body);
-    text += row(body.name, fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
-                                       material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
-                                       100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
+    text +=
+        labelled(body.name, fmt::format("{}, x {:.6g} to {:.6g} cm, r {:.6g} to {:.6g} cm, {} x {} particles",
+                                        material_text(scene, body), 100 * body.x_begin, 100 * body.x_end,
+                                        100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
   }
   const char* unit = scene.symmetry == Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
   std::string parts;
   for (const Material& material : used_materials(scene))
     parts +=
         fmt::format("{}{} {:.6g}", parts.empty() ? "" : ", ", material.name, mass_of(scene, material.name));
-  text += row("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
+  text += labelled("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
   if (has_charge(scene) && (scene.surface.opens_by_cooling || scene.surface.model == GapModel::closing))
-    text += row("a charge that cooled", cooling_text(scene));
+    text += labelled("a charge that cooled", cooling_text(scene));
   return text;
 }
 
 std::string load_text(const Scene& scene) {
   const double peak = PressureHistory(scene.load).peak();
   std::string text = "Load\n";
-  text += row("shape", scene.load.curve_time.empty()
-                           ? word_of(scene.load.shape)
-                           : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
-                                         scene.load.rescale_to_peak ? ", rescaled" : ""));
-  text += row("peak", pressure_text(peak));
-  text += row("acts", chamber_text(scene, peak));
-  if (const std::string exit = exit_text(scene); !exit.empty()) text += row("muzzle exit", exit);
-  text += row("end", end_text(scene));
+  text += labelled("shape", scene.load.curve_time.empty()
+                                ? word_of(scene.load.shape)
+                                : fmt::format("measured, {} points{}", scene.load.curve_time.size(),
+                                              scene.load.rescale_to_peak ? ", rescaled" : ""));
+  text += labelled("peak", pressure_text(peak));
+  text += labelled("acts", chamber_text(scene, peak));
+  if (const std::string exit = exit_text(scene); !exit.empty()) text += labelled("muzzle exit", exit);
+  text += labelled("end", end_text(scene));
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
-    text += row("measurement", measured);
-  text += row("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
+    text += labelled("measurement", measured);
+  text += labelled("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
   if (has_charge(scene)) {
-    text += row("setback pressure", pressure_text(setback_pressure(scene)));
+    text += labelled("setback pressure", pressure_text(setback_pressure(scene)));
   }
   return text;
 }
@@ -73,7 +70,7 @@ std::string physics_text(const Plan& plan) {
   std::string text = "Physics\n";
   for (const NamedTerm& each : plan_terms) {
     const Term& term = plan.*each.term;
-    text += row(each.title, fmt::format("{:<4}{}", term.in ? "in" : "out", term.reason));
+    text += labelled(each.title, fmt::format("{:<4}{}", term.in ? "in" : "out", term.reason));
   }
   return text;
 }
@@ -81,7 +78,7 @@ std::string physics_text(const Plan& plan) {
 std::string interfaces_text(const Scene& scene) {
   std::string text;
   for (const InterfaceText& each : describe_interfaces(scene))
-    text += row(each.body, each.condition + ": " + each.assumes);
+    text += labelled(each.body, each.condition + ": " + each.assumes);
   return text.empty() ? text : "Interfaces of the charge\n" + text + "\n";
 }
 
@@ -106,25 +103,29 @@ std::string mesh_text(const Scene& scene, const Plan& plan) {
 
 std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) {
   std::string text = "Cost\n";
-  text += row("mesh", mesh_text(scene, plan));
+  text += labelled("mesh", mesh_text(scene, plan));
   if (const std::string edges = charge_edges_off_grid(scene); !edges.empty())
-    text +=
-        row("charge off the grid", edges + "; calibrated constants do not carry over from a grid that fits");
-  text += row("time step", fmt::format("{} at rest, sound at {:.2f} m/s", time_text(plan.time_step),
-                                       longitudinal_speed(scene)));
-  text += row("steps", plan.steps < most_counted ? fmt::format("{}", plan.steps) : "too many to count");
-  text += row("memory", fmt::format("about {:.3g} MB", plan.memory / 1e6));
+    text += labelled("charge off the grid",
+                     edges + "; calibrated constants do not carry over from a grid that fits");
+  text += labelled("time step", fmt::format("{} at rest, sound at {:.2f} m/s", time_text(plan.time_step),
+                                            longitudinal_speed(scene)));
+  text += labelled("steps", plan.steps < most_counted ? fmt::format("{}", plan.steps) : "too many to count");
+  text += labelled("memory", fmt::format("about {:.3g} MB", plan.memory / 1e6));
   if (update_rate > 0.0) {
-    text += row("time", fmt::format("about {} at {:.3g} particle updates per second",
-                                    duration_text(predicted_time(plan, update_rate)), update_rate));
+    text += labelled("time", fmt::format("about {} at {:.3g} particle updates per second",
+                                         duration_text(predicted_time(plan, update_rate)), update_rate));
     if (plan.coupling.in)
-      text += row("through ignition", fmt::format("about {} more, at most, for every gap that ignites",
-                                                  duration_text(plan.coupled_work / update_rate)));
+      text += labelled("through ignition", fmt::format("about {} more, at most, for every gap that ignites",
+                                                       duration_text(plan.coupled_work / update_rate)));
   }
   return text;
 }
 
 }  // namespace
+
+std::string labelled(std::string_view label, const std::string& value) {
+  return fmt::format("  {:<22}{}\n", label, value);
+}
 
 std::string to_text(const Plan& plan, const Scene& scene, double update_rate) {
   std::string text = scene.title.empty() ? std::string{} : scene.title + "\n\n";

@@ -21,27 +21,11 @@ bool is_plausible_word(const Plausible& plausible, const std::string& word) {
   return plausible.words.empty() || std::ranges::find(plausible.words, word) != plausible.words.end();
 }
 
-class Judge {
- public:
-  explicit Judge(const Scene& scene) : scene_(scene) {}
-
-  void key(const KeyDescription& key, const std::string& name, const Value& value) {
-    if (!is_plausible(key, value)) add(key, name, value, plausible_text(key));
-  }
-  void add(const KeyDescription& key, const std::string& name, const Value& value, std::string range) {
-    found_.push_back(implausible(scene_.accepted, key, name, value, std::move(range)));
-  }
-  /// The value of a key of the scene.
-  void add(const std::string& name, std::string range) {
-    const Key<Scene>& key = *find_key(scene_keys(), name);
-    add(key, name, key.get(scene_), std::move(range));
-  }
-  std::vector<Implausible> take() { return std::move(found_); }
-
- private:
-  const Scene& scene_;
-  std::vector<Implausible> found_;
-};
+/// The value of a key of the scene, which something else than its range makes implausible.
+Implausible of_key(const Scene& scene, const std::string& name, std::string range) {
+  const Key<Scene>& key = *find_key(scene_keys(), name);
+  return implausible(scene.accepted, key, name, key.get(scene), std::move(range));
+}
 
 /// A key of a table, its name in the whole scene, and its value if the scene has one.
 using VisitKey = std::function<void(const KeyDescription&, const std::string&, const std::optional<Value>&)>;
@@ -70,11 +54,11 @@ void visit_keys_of_tables(const Scene& scene, const VisitKey& visit) {
 }
 
 /// Physics that the plan would have in.
-void judge_switches(const Scene& scene, Judge& judge) {
+void judge_switches(const Scene& scene, std::vector<Implausible>& found) {
   Scene free = scene;
   free.physics.conduction = free.physics.bulk_reaction = Switch::automatic;
-  const auto forced_off = [&judge](Switch user, const Term& term, const char* key) {
-    if (user == Switch::off && term.in) judge.add(key, "auto, because " + term.reason);
+  const auto forced_off = [&](Switch user, const Term& term, const char* key) {
+    if (user == Switch::off && term.in) found.push_back(of_key(scene, key, "auto, because " + term.reason));
   };
   if (scene.physics.conduction != Switch::off && scene.physics.bulk_reaction != Switch::off) return;
   const Plan plan = make_plan(free);
@@ -83,12 +67,12 @@ void judge_switches(const Scene& scene, Judge& judge) {
 }
 
 /// Cracks that begin beyond the bound of their growth never grow.
-void judge_crack_bound(const Scene& scene, Judge& judge) {
+void judge_crack_bound(const Scene& scene, std::vector<Implausible>& found) {
   const materials::ViscoScramParameters& strength = scene.charge().strength;
   if (strength.largest_crack_radius > strength.initial_crack_radius) return;
-  judge.add("charge.largest_crack_radius",
-            fmt::format("more than {}, because cracks of charge.crack_radius could not grow",
-                        length_text(strength.initial_crack_radius)));
+  found.push_back(of_key(scene, "charge.largest_crack_radius",
+                         fmt::format("more than {}, because cracks of charge.crack_radius could not grow",
+                                     length_text(strength.initial_crack_radius))));
 }
 
 using Number = std::optional<double>;
@@ -119,7 +103,7 @@ Number pressure_at_exit(const Scene& scene) {
 Number calibres_to_exit(const Scene& scene, const RigidMotion& launch) {
   const auto exit = exit_time(scene.load);
   if (!exit) return std::nullopt;
-  return *exit == read_time(scene.load) ? calibres_of(scene, launch) : calibres_until(scene, *exit);
+  return calibres_of(scene, *exit == read_time(scene.load) ? launch : rigid_motion(scene, *exit));
 }
 
 /// Of an isotropic solid.
@@ -130,16 +114,8 @@ double poisson_ratio(const Law& law) {
 }
 
 /// A quantity that only a scene with a charge has.
-std::function<Number(const Scene&)> of_charge(double (*value)(const Scene&)) {
+auto of_charge(double (*value)(const Scene&)) {
   return [value](const Scene& scene) { return has_charge(scene) ? Number(value(scene)) : std::nullopt; };
-}
-
-double bulk_sound_speed(const Scene& scene) {
-  return std::sqrt(scene.charge().bulk_modulus() / scene.charge().initial_density());
-}
-
-double heat_capacity(const Scene& scene) {
-  return 1e-6 * scene.charge().density * scene.charge().specific_heat;
 }
 
 /// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the
@@ -162,34 +138,21 @@ double explosion_temperature(const Scene& scene) {
   return upper;
 }
 
-double gas_law_of_air(const Scene& scene) {
-  const materials::AirParameters& air = scene.surface.air;
-  return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;
-}
-
-double heat_of_ideal_air(const Scene& scene) {
-  const materials::AirParameters& air = scene.surface.air;
-  return air.specific_heat * (air.heat_ratio - 1.0) / (air.heat_ratio * gas_constant_of_air);
-}
-
-using OfLaunch = std::function<Number(const Scene& scene, const RigidMotion& launch)>;
-
+/// `value`: of a scene, or of it and its motion.
+template <class ValueOf>
 DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
-                         std::string because, OfLaunch value) {
-  return {{.name = std::move(name),
-           .dimension = dimension,
-           .standing = Standing::derived,
-           .sentence = std::move(sentence),
-           .plausible = {.limits = plausible, .because = std::move(because)}},
-          std::move(value)};
-}
-
-/// Of a quantity that does not ask for the motion.
-DerivedQuantity quantity(std::string name, Dimension dimension, std::string sentence, Limits plausible,
-                         std::string because, std::function<Number(const Scene&)> value) {
-  return quantity(
-      std::move(name), dimension, std::move(sentence), plausible, std::move(because),
-      OfLaunch([value = std::move(value)](const Scene& scene, const RigidMotion&) { return value(scene); }));
+                         std::string because, ValueOf value) {
+  DerivedQuantity described{{.name = std::move(name),
+                             .dimension = dimension,
+                             .standing = Standing::derived,
+                             .sentence = std::move(sentence),
+                             .plausible = {.limits = plausible, .because = std::move(because)}},
+                            {}};
+  if constexpr (std::is_invocable_v<ValueOf, const Scene&>)
+    described.value = [value](const Scene& scene, const RigidMotion&) { return Number(value(scene)); };
+  else
+    described.value = value;
+  return described;
 }
 
 }  // namespace
@@ -214,20 +177,21 @@ std::vector<Implausible> implausible_values(const Scene& scene) {
 }
 
 std::vector<Implausible> implausible_values(const Scene& scene, const RigidMotion& launch) {
-  Judge judge(scene);
-  for (const Key<Scene>& key : scene_keys()) {
-    if (key.is_used(scene)) judge.key(key, key.name, key.get(scene));
-  }
-  judge_crack_bound(scene, judge);
-  judge_switches(scene, judge);
+  std::vector<Implausible> found;
+  const auto judge = [&](const KeyDescription& key, const std::string& name, const Value& value) {
+    if (!is_plausible(key, value))
+      found.push_back(implausible(scene.accepted, key, name, value, plausible_text(key)));
+  };
+  for (const Key<Scene>& key : scene_keys())
+    if (key.is_used(scene)) judge(key, key.name, key.get(scene));
+  judge_crack_bound(scene, found);
+  judge_switches(scene, found);
   visit_keys_of_tables(scene, [&](const auto& key, const std::string& name, const auto& value) {
-    if (value) judge.key(key, name, *value);
+    if (value) judge(key, name, *value);
   });
-  for (const DerivedQuantity& quantity : derived_quantities()) {
-    if (const auto value = quantity.value(scene, launch))
-      judge.key(quantity.description, quantity.description.name, Value(*value));
-  }
-  return judge.take();
+  for (const auto& [description, value_of] : derived_quantities())
+    if (const auto value = value_of(scene, launch)) judge(description, description.name, Value(*value));
+  return found;
 }
 
 std::vector<KeyDescription> acceptable_keys(const Scene& scene) {
@@ -292,10 +256,14 @@ const std::vector<DerivedQuantity>& derived_quantities() {
                "explosives have 0.2 to 0.45",
                of_charge([](const Scene& scene) { return poisson_ratio(scene.charge()); })),
       quantity("charge.bulk_sound_speed", Dimension::speed, "Bulk sound speed, from the JWL and the density.",
-               between(1.5e3, 5e3), "explosives have 2 to 3 km/s", of_charge(bulk_sound_speed)),
+               between(1.5e3, 5e3), "explosives have 2 to 3 km/s", of_charge([](const Scene& scene) {
+                 return std::sqrt(scene.charge().bulk_modulus() / scene.charge().initial_density());
+               })),
       quantity("charge.heat_capacity", Dimension::number,
                "Density times specific heat of the charge, in MJ/(m3 K).", between(1.2, 3.6),
-               "explosives have 1.6 to 2.5, the published model 3.1", of_charge(heat_capacity)),
+               "explosives have 1.6 to 2.5, the published model 3.1", of_charge([](const Scene& scene) {
+                 return 1e-6 * scene.charge().density * scene.charge().specific_heat;
+               })),
       quantity("kinetics.explosion_temperature", Dimension::temperature,
                "Temperature at which self-heating runs away within a second, from Q, Z, E/R and specific "
                "heat.",
@@ -308,10 +276,17 @@ const std::vector<DerivedQuantity>& derived_quantities() {
       quantity("gap.gas_law", Dimension::number,
                "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
                "temperature before launch.",
-               between(0.9, 1.1), "air at rest obeys the law within a percent", of_charge(gas_law_of_air)),
+               between(0.9, 1.1), "air at rest obeys the law within a percent",
+               of_charge([](const Scene& scene) {
+                 const materials::AirParameters& air = scene.surface.air;
+                 return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;
+               })),
       quantity("gap.heat_law", Dimension::number,
                "Specific heat over that of an ideal gas of air's molar mass and the given heat ratio.",
-               between(0.9, 1.1), "air obeys the law within some percent", of_charge(heat_of_ideal_air)),
+               between(0.9, 1.1), "air obeys the law within some percent", of_charge([](const Scene& scene) {
+                 const materials::AirParameters& air = scene.surface.air;
+                 return air.specific_heat * (air.heat_ratio - 1.0) / (air.heat_ratio * gas_constant_of_air);
+               })),
       quantity("shell.length", Dimension::length, "Length of all bodies together.", between(0.02, 2.5),
                "the longest shells have 2 m",
                [](const Scene& scene) { return Number(extent_of(scene).x_end - extent_of(scene).x_begin); }),

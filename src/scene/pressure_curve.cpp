@@ -122,7 +122,7 @@ bool is_named(const Column& column, std::string_view word) {
 }
 
 /// The error of a column whose unit is none of its dimension.
-std::optional<InputError> check_unit(const Column& column, const Place& place) {
+Fault check_unit(const Column& column, const Place& place) {
   if (parse_quantity("1 " + column.unit, column.dimension)) return std::nullopt;
   const auto units = units_of(column.dimension);
   return error_at(
@@ -155,38 +155,26 @@ Expected<Column> chosen_column(const std::vector<Column>& columns, Dimension dim
                   nearest_of(wanted, names));
 }
 
-Expected<Header> read_gauge_header(const std::vector<std::string>& cells, const Place& place,
-                                   const std::string& wanted) {
-  std::vector<Column> columns;
-  for (std::size_t i = 0; i < cells.size(); ++i) columns.push_back(column_of(cells[i], i));
-  Header header;
-  header.columns = columns.size();
-  const auto time = chosen_column(columns, Dimension::time, place, {});
-  if (!time) return time.error();
-  const auto pressure = chosen_column(columns, Dimension::pressure, place, wanted);
-  if (!pressure) return pressure.error();
-  header.time = *time;
-  header.pressure = *pressure;
-  return header;
-}
-
+/// `gauge`: the pressure's column in a gauge's record, or nullptr.
 Expected<Header> read_header(std::string_view line, const Place& place, const std::string* gauge) {
-  const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
-  Header header;
   const char separator = separator_of(line);
   const auto cells = cells_of(line, separator);
-  if (!cells || cells->size() < 2 || (cells->size() > 2 && gauge == nullptr)) return wrong();
+  std::vector<Column> columns;
+  for (std::size_t i = 0; cells && i < cells->size(); ++i) columns.push_back(column_of((*cells)[i], i));
+  const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
+  if (columns.size() < 2 || (columns.size() > 2 && gauge == nullptr)) return wrong();
+  Header header{separator, columns.size(), columns[0], columns[1]};
   if (gauge != nullptr) {
-    auto read = read_gauge_header(*cells, place, *gauge);
-    if (!read) return read.error();
-    header = std::move(*read);
+    const auto time = chosen_column(columns, Dimension::time, place, {}),
+               pressure = chosen_column(columns, Dimension::pressure, place, *gauge);
+    if (!time) return time.error();
+    if (!pressure) return pressure.error();
+    header.time = *time;
+    header.pressure = *pressure;
   } else {
-    header.time = column_of((*cells)[0], 0);
-    header.pressure = column_of((*cells)[1], 1);
     if (!is_named(header.time, "time")) std::swap(header.time, header.pressure);
     if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) return wrong();
   }
-  header.separator = separator;
   header.pressure.dimension = Dimension::pressure;
   if (auto error = check_unit(header.time, place)) return *error;
   if (auto error = check_unit(header.pressure, place)) return *error;
@@ -216,7 +204,7 @@ class DecimalMark {
   }
 
   /// The fault of commas none of which can only be that of decimals.
-  std::optional<InputError> ambiguity() const {
+  Fault ambiguity() const {
     if (sure_ || !ambiguous_) return std::nullopt;
     return error_at(
         ambiguous_->place, ambiguous_->key,
@@ -250,7 +238,7 @@ class CurveReader {
       : header_(std::move(header)), lowest_(lowest), curve_(curve) {}
 
   /// Adds the point of one line, which must come later than the last one.
-  std::optional<InputError> add(std::string_view line, const Place& place) {
+  Fault add(std::string_view line, const Place& place) {
     const auto cells = cells_of(line, header_.separator);
     if (!cells) return error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
     if (cells->size() != header_.columns) return wrong_count(cells->size(), place);
@@ -280,7 +268,7 @@ class CurveReader {
     return std::nullopt;
   }
 
-  std::optional<InputError> ambiguity() const { return decimal_mark_.ambiguity(); }
+  Fault ambiguity() const { return decimal_mark_.ambiguity(); }
 
  private:
   InputError wrong_count(std::size_t count, const Place& place) const {

@@ -124,23 +124,21 @@ double share_of_peak(const Load& load, double time) {
 }  // namespace
 
 PressureHistory::PressureHistory(const Load& load) : load_(load) {
-  join_points();
+  if (load_.curve_time.size() >= 2) {
+    curve_ = interpolant(load_.curve_time, load_.curve_pressure);
+    const bool smoothed = load_.smoothing > 0.0;
+    if (smoothed) curve_ = MovingAverage(load_.curve_time, std::move(curve_), load_.smoothing);
+    if (load_.rescale_to_peak) {
+      const auto marks = marks_between(load_, load_.curve_time.front(), load_.curve_time.back());
+      const double largest = largest_at(marks, curve_, smoothed).second;
+      if (largest > 0.0) scale_ = load_.peak / largest;
+    }
+  }
   const std::optional<double> exit = exit_time(load_);
   if (!exit) return;
   exit_ = *exit;
   exit_pressure_ = in_the_barrel(exit_);
   pressure_outside_ = load_.curve_time.empty() ? load_.base : 0.0;
-}
-
-void PressureHistory::join_points() {
-  if (load_.curve_time.size() < 2) return;
-  curve_ = interpolant(load_.curve_time, load_.curve_pressure);
-  const bool smoothed = load_.smoothing > 0.0;
-  if (smoothed) curve_ = MovingAverage(load_.curve_time, std::move(curve_), load_.smoothing);
-  if (!load_.rescale_to_peak) return;
-  const auto marks = marks_between(load_, load_.curve_time.front(), load_.curve_time.back());
-  const double largest = largest_at(marks, curve_, smoothed).second;
-  if (largest > 0.0) scale_ = load_.peak / largest;
 }
 
 double PressureHistory::at(double time) const {
@@ -167,14 +165,13 @@ std::vector<double> PressureHistory::marks() const {
   return marks;
 }
 
-PressureHistory::State PressureHistory::largest() const {
+std::pair<double, double> PressureHistory::largest() const {
   if (load_.curve_time.empty()) {
     const double time = std::min({load_.peak_time, end_time(load_), exit_});
     return {time, at(time)};
   }
-  const auto [time, pressure] = largest_at(
+  return largest_at(
       marks(), [this](double t) { return at(t); }, load_.smoothing > 0.0);
-  return {time, pressure};
 }
 
 double PressureHistory::stated_peak() const {

@@ -162,11 +162,11 @@ std::string kind_of_unit(std::string_view name, Dimension wanted) {
   return fmt::format("with the unknown unit \"{}\"", name);
 }
 
-QuantityFault fault(std::string found, Dimension dimension, std::string suggestion = {}) {
+InputError fault(std::string found, Dimension dimension, std::string suggestion = {}) {
   const DimensionInfo& info = info_of(dimension);
   std::string allowed = fmt::format("a {}, such as {}", info.name, info.example);
   if (!info.units.empty()) allowed += fmt::format(" (units: {})", fmt::join(units_of(dimension), ", "));
-  return {std::move(found), std::move(allowed), std::move(suggestion)};
+  return {{}, 0, 0, {}, std::move(found), std::move(allowed), std::move(suggestion)};
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -227,7 +227,7 @@ std::string with_commas_as(std::string_view replacement, std::string_view text,
   return result += text.substr(begin);
 }
 
-QuantityFault comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
+InputError comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
   return fault(fmt::format("\"{}\", where a comma may be a decimal point or divide thousands", whole),
                dimension, std::move(suggestion));
 }
@@ -238,7 +238,7 @@ struct Token {
   std::string_view unit;
 };
 
-Expected<Token, QuantityFault> split(std::string_view text, std::string_view whole, Dimension dimension) {
+Expected<Token> split(std::string_view text, std::string_view whole, Dimension dimension) {
   text = without_blanks_around(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
@@ -277,15 +277,7 @@ double scaled(std::string_view number, int power) {
   return value;
 }
 
-/// A number as written to SI.
-double value_in_si(std::string_view number, const Unit& unit) {
-  if (unit.decimal) return scaled(number, unit.power);
-  long double value = 0;
-  std::from_chars(number.data(), number.data() + number.size(), value);
-  return static_cast<double>((value + unit.shift) * unit.factor);
-}
-
-Expected<double, QuantityFault> convert(const Token& token, std::string_view whole, Dimension dimension) {
+Expected<double> convert(const Token& token, std::string_view whole, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   if (info.units.empty()) {
     if (!token.unit.empty())
@@ -302,15 +294,22 @@ Expected<double, QuantityFault> convert(const Token& token, std::string_view who
     return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
                  near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
   }
-  const double value = value_in_si(token.number, *unit);
+  double value = 0.0;
+  if (unit->decimal) {
+    value = scaled(token.number, unit->power);
+  } else {
+    long double number = 0;
+    std::from_chars(token.number.data(), token.number.data() + token.number.size(), number);
+    value = static_cast<double>((number + unit->shift) * unit->factor);
+  }
   if (!std::isfinite(value))
     return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   return value;
 }
 
 /// Parts joined by a separator, each a number with its unit or with that of the next part that has one.
-Expected<std::vector<double>, QuantityFault> convert_all(const std::vector<std::string_view>& parts,
-                                                         std::string_view whole, Dimension dimension) {
+Expected<std::vector<double>> convert_all(const std::vector<std::string_view>& parts, std::string_view whole,
+                                          Dimension dimension) {
   std::vector<double> values(parts.size());
   std::string_view unit;
   for (std::size_t i = parts.size(); i-- > 0;) {
@@ -344,7 +343,7 @@ std::vector<std::string> units_of(Dimension dimension) {
   return names;
 }
 
-Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension dimension) {
+Expected<double> parse_quantity(std::string_view text, Dimension dimension) {
   const auto token = split(text, text, dimension);
   if (!token) return token.error();
   return convert(*token, text, dimension);
@@ -352,10 +351,10 @@ Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension 
 
 bool is_range(std::string_view text) { return text.find(between_ends) != std::string_view::npos; }
 
-Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension) {
+Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension) {
   const std::size_t separator = text.find(between_ends);
   const auto two_values = [&](std::string found) {
-    QuantityFault result = fault(std::move(found), dimension);
+    InputError result = fault(std::move(found), dimension);
     const DimensionInfo& info = info_of(dimension);
     result.allowed =
         fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}{}\"", info.name,
@@ -369,7 +368,7 @@ Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, 
   return values;
 }
 
-Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension) {
+Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
   if (const auto commas = ambiguous_commas(text); !commas.empty()) {
     const std::string pointed = with_commas_as(".", text, commas), list = with_commas_as(", ", text, commas);
     const bool may_be_points = parse_list(pointed, dimension).has_value();
@@ -401,17 +400,10 @@ double in_unit(double value_si, Dimension dimension, std::string_view unit_name)
   return unit->power > 0 ? value_si / factor : value_si * factor;
 }
 
-int power_of(Dimension dimension, std::string_view unit_name) {
+double as_written(double value_si, Dimension dimension, std::string_view unit_name) {
   const std::optional<Unit> unit = find_unit(dimension, unit_name);
-  return unit ? unit->power : 0;
-}
-
-double shifted_point(double value, int power) {
-  return std::isfinite(value) && power != 0 ? scaled(fmt::format("{}", value), power) : value;
-}
-
-double as_written(double value_si, Dimension dimension, std::string_view unit) {
-  return shifted_point(value_si, -power_of(dimension, unit));
+  const bool moves = unit && unit->power != 0 && std::isfinite(value_si);
+  return moves ? scaled(fmt::format("{}", value_si), -unit->power) : value_si;
 }
 
 }  // namespace launchsafe::scene

@@ -1,10 +1,10 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/scene/selective_inertia.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
@@ -19,9 +19,8 @@ const std::vector<std::string> read_apart{"body",     "observation_point", "acce
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
-std::optional<InputError> read_named(const toml::table& root, const std::string& name,
-                                     const std::vector<Key<Owner>>& keys, const std::string& file,
-                                     std::vector<Owner>& owners, std::map<std::string, Place>& places) {
+Fault read_named(const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
+                 const std::string& file, std::vector<Owner>& owners, std::map<std::string, Place>& places) {
   auto tables = read_tables(root, name, keys, file, fmt::format("tables, each written [[{}]]", name));
   if (!tables) return tables.error();
   for (auto& [owner, own_places] : *tables) {
@@ -33,7 +32,7 @@ std::optional<InputError> read_named(const toml::table& root, const std::string&
   return std::nullopt;
 }
 
-std::optional<InputError> read_curve_file(SceneFile& file) {
+Fault read_curve_file(SceneFile& file) {
   Load& load = file.scene.load;
   if (load.curve_file.empty()) return std::nullopt;
   const std::filesystem::path path = file.folder / load.curve_file;
@@ -54,7 +53,7 @@ std::optional<InputError> read_curve_file(SceneFile& file) {
 
 /// The scene from its bodies, its points and the given keys, applied in the order of their declaration. The
 /// file of a measured curve is read unless the scene has it already.
-std::optional<InputError> rebuild(SceneFile& file, bool has_curve) {
+Fault rebuild(SceneFile& file, bool has_curve) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
@@ -168,10 +167,9 @@ std::vector<std::string> names_of_values(const SceneFile& file) {
 }
 
 /// The materials and contacts of a scene file, and of the file of materials that it names.
-std::optional<InputError> read_own_materials(const toml::table& table, SceneFile& file,
-                                             std::vector<NamedContact>& contacts) {
+Fault read_own_materials(const toml::table& table, SceneFile& file, std::vector<NamedContact>& contacts) {
   std::vector<NamedMaterial> known = shipped_materials();
-  const auto add = [&](const toml::table& from, const std::string& name) -> std::optional<InputError> {
+  const auto add = [&](const toml::table& from, const std::string& name) -> Fault {
     auto materials = read_materials(from, name, known);
     if (!materials) return materials.error();
     for (std::vector<NamedMaterial>* list : {&known, &file.materials})
@@ -198,6 +196,46 @@ std::optional<InputError> read_own_materials(const toml::table& table, SceneFile
     if (auto error = add(*content, path.string())) return error;
   }
   return add(table, file.file);
+}
+
+template <class Owner>
+std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& keys,
+                          const std::vector<Owner>& owners) {
+  std::string text = fmt::format("{} = [\n", name);
+  for (const Owner& owner : owners) {
+    std::string_view before = "  { ";
+    for (const Key<Owner>& key : keys) {
+      text += fmt::format("{}{} = {}", before, key.name, exact_toml(key, key.get(owner)));
+      before = ", ";
+    }
+    text += " },\n";
+  }
+  return text + "]\n";
+}
+
+/// Materials under other names than their law's. Where their numbers come from is among the scene's sources.
+std::string own_materials(const Scene& scene) {
+  std::string text;
+  for (const Material& material : scene.materials) {
+    std::visit(
+        [&]<class Law>(const Law& law) {
+          if (material.name == Law::name) return;
+          text += fmt::format("material.\"{}\".law = '{}'\n", material.name, Law::name);
+          if (!material.title.empty())
+            text += fmt::format("material.\"{}\".title = {}\n", material.name,
+                                exact_toml({.kind = KeyKind::text}, material.title));
+          for (const Key<Law>& key : Law::parameters()) {
+            const std::string name = key_in_material(Law::name, key.name);
+            if (!is_of_use(key, scene) &&
+                source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) == nullptr)
+              continue;
+            text +=
+                fmt::format("material.\"{}\".{} = {}\n", material.name, name, exact_toml(key, key.get(law)));
+          }
+        },
+        material.law);
+  }
+  return text;
 }
 
 }  // namespace
@@ -291,18 +329,13 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
   return changed;
 }
 
-Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
-                             const Place& place) {
-  return with_keys(file, {{name, value, place}});
-}
-
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
                                      const Place& place) {
   const auto description = describe_key(file, name, place);
   if (!description) return description.error();
   const auto value = parse_value(written, *description, place);
   if (!value) return value.error();
-  return with_key(file, name, *value, place);
+  return with_keys(file, {{name, *value, place}});
 }
 
 std::vector<ListedKey> list_keys(const SceneFile& file) {
@@ -318,50 +351,6 @@ std::vector<ListedKey> list_keys(const SceneFile& file) {
   }
   return listed;
 }
-
-namespace {
-
-template <class Owner>
-std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& keys,
-                          const std::vector<Owner>& owners) {
-  std::string text = fmt::format("{} = [\n", name);
-  for (const Owner& owner : owners) {
-    std::string_view before = "  { ";
-    for (const Key<Owner>& key : keys) {
-      text += fmt::format("{}{} = {}", before, key.name, exact_toml(key, key.get(owner)));
-      before = ", ";
-    }
-    text += " },\n";
-  }
-  return text + "]\n";
-}
-
-/// Materials under other names than their law's. Where their numbers come from is among the scene's sources.
-std::string own_materials(const Scene& scene) {
-  std::string text;
-  for (const Material& material : scene.materials) {
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          if (material.name == Law::name) return;
-          text += fmt::format("material.\"{}\".law = '{}'\n", material.name, Law::name);
-          if (!material.title.empty())
-            text += fmt::format("material.\"{}\".title = {}\n", material.name,
-                                exact_toml({.kind = KeyKind::text}, material.title));
-          for (const Key<Law>& key : Law::parameters()) {
-            const std::string name = key_in_material(Law::name, key.name);
-            if (!is_of_use(key, scene) &&
-                source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) == nullptr)
-              continue;
-            text +=
-                fmt::format("material.\"{}\".{} = {}\n", material.name, name, exact_toml(key, key.get(law)));
-          }
-        },
-        material.law);
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string to_toml(const Scene& scene) {
   std::string text;

@@ -33,6 +33,18 @@ Extent extent_where(const Scene& scene, Choose&& choose) {
   return extent.x_end < extent.x_begin ? Extent{} : extent;
 }
 
+/// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
+void settle_band(Scene& scene) {
+  const std::optional<double> stated = std::exchange(scene.load.obturation, std::nullopt);
+  const Chamber usual = chamber_of(scene);
+  scene.load.obturation = stated;
+  const Chamber chamber = stated ? chamber_of(scene) : usual;
+  if (!chamber.unclear.empty()) return;
+  const bool says_nothing =
+      usual.unclear.empty() && usual.band == chamber.band && acts_on_rear_alone(scene, usual);
+  scene.load.obturation = says_nothing ? std::nullopt : std::optional(chamber.band);
+}
+
 }  // namespace
 
 std::vector<Material> usual_materials() {
@@ -196,22 +208,6 @@ std::string rigid_motion_text(const Scene& scene, double time) {
   const RigidMotion motion = rigid_motion(scene, time);
   return fmt::format("{:.4g} m/s after {:.3g} m of travel", motion.velocity, motion.travel);
 }
-
-namespace {
-
-/// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
-void settle_band(Scene& scene) {
-  const std::optional<double> stated = std::exchange(scene.load.obturation, std::nullopt);
-  const Chamber usual = chamber_of(scene);
-  scene.load.obturation = stated;
-  const Chamber chamber = stated ? chamber_of(scene) : usual;
-  if (!chamber.unclear.empty()) return;
-  const bool says_nothing =
-      usual.unclear.empty() && usual.band == chamber.band && acts_on_rear_alone(scene, usual);
-  scene.load.obturation = says_nothing ? std::nullopt : std::optional(chamber.band);
-}
-
-}  // namespace
 
 void settle_load(Scene& scene) {
   settle_band(scene);

@@ -23,12 +23,10 @@ const NamedMaterial* find_named_material(const SceneFile& file, const std::strin
 /// else the first body's; the others keep their names and numbers. Of explosives there may be one. Faults: a
 /// name that no material has, a second explosive, and keys of a law of which no body says which material they
 /// mean.
-std::optional<InputError> use_materials(SceneFile& file, Scene& scene);
+Fault use_materials(SceneFile& file, Scene& scene);
 
 /// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
 std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
-
-using Fault = std::optional<InputError>;
 
 /// A fault of a scene, at the place where the user gave the key.
 inline InputError fault_at(const SceneFile& file, const std::string& key, std::string_view found,
@@ -38,15 +36,15 @@ inline InputError fault_at(const SceneFile& file, const std::string& key, std::s
 
 /// Edges of bodies, or a bore around the axis, that nearly but not quite lie at one place: closer than a
 /// tenth of a cell, which no grid shows. The message has the value that makes them one.
-std::optional<InputError> fault_of_near_edges(const SceneFile& file);
+Fault fault_of_near_edges(const SceneFile& file);
 
 /// A charge whose bottom does not bear on a body all over, bodies that nothing holds, and a chamber that the
 /// drawing leaves unclear.
-std::optional<InputError> fault_of_support(const SceneFile& file);
+Fault fault_of_support(const SceneFile& file);
 
 /// The first fault of a measured curve, of what stands beside it, or of the end of the load.
-std::optional<InputError> fault_of_load(const SceneFile& file);
+Fault fault_of_load(const SceneFile& file);
 /// Gaps twice, or without a charge; and what does not go with the model of the gap.
-std::optional<InputError> fault_of_gap(const SceneFile& file);
+Fault fault_of_gap(const SceneFile& file);
 
 }  // namespace launchsafe::scene

@@ -1,7 +1,7 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
@@ -22,17 +22,6 @@ Key<Scene> title_key() {
           [](const Scene& scene) { return !scene.material<Law>().title.empty(); }),
       "it is for people", remark);
 }
-
-}  // namespace
-
-bool is_of_use(const KeyDescription& number, const Scene& scene) {
-  if (number.dimension == Dimension::expansion) return scene.surface.opens_by_cooling.has_value();
-  const bool of_melting =
-      number.name == "charge.melting_temperature" || number.name == "charge.heat_of_melting";
-  return !of_melting || scene.surface.melts;
-}
-
-namespace {
 
 /// The keys of a law as those of the scene's first material of it.
 template <class Law>
@@ -281,16 +270,6 @@ Keys written_combustion_keys() {
   return keys;
 }
 
-Keys all_scene_keys() {
-  using keys::in_role, keys::keys_of_part;
-  return keys::joined(
-      {general_keys(),
-       keys_of_part("load.", &Scene::load, in_role({ActsOn::mechanics, Part::load_shape}, load_keys())),
-       keys_of_laws(), surface_keys(), keys_of_part("numerics.", &Scene::numerics, numerics_keys()),
-       keys_of_part("output.", &Scene::output, output_keys()),
-       keys_of_part("physics.", &Scene::physics, physics_keys()), written_combustion_keys()});
-}
-
 template <class Owner>
 void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owner>>& keys,
               const std::string& prefix) {
@@ -306,6 +285,13 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
 
 }  // namespace
 
+bool is_of_use(const KeyDescription& number, const Scene& scene) {
+  if (number.dimension == Dimension::expansion) return scene.surface.opens_by_cooling.has_value();
+  const bool of_melting =
+      number.name == "charge.melting_temperature" || number.name == "charge.heat_of_melting";
+  return !of_melting || scene.surface.melts;
+}
+
 const std::vector<std::string>& event_words() {
   static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",
                                               "largest-slip",       "ignition",    "burnt"};
@@ -313,7 +299,13 @@ const std::vector<std::string>& event_words() {
 }
 
 const std::vector<Key<Scene>>& scene_keys() {
-  static const Keys keys = all_scene_keys();
+  using keys::in_role, keys::keys_of_part;
+  static const Keys keys = keys::joined(
+      {general_keys(),
+       keys_of_part("load.", &Scene::load, in_role({ActsOn::mechanics, Part::load_shape}, load_keys())),
+       keys_of_laws(), surface_keys(), keys_of_part("numerics.", &Scene::numerics, numerics_keys()),
+       keys_of_part("output.", &Scene::output, output_keys()),
+       keys_of_part("physics.", &Scene::physics, physics_keys()), written_combustion_keys()});
   return keys;
 }
 

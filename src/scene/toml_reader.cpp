@@ -36,11 +36,6 @@ struct Leaf {
   const toml::node* node = nullptr;
 };
 
-bool is_prefix(const std::string& table, const std::vector<const KeyDescription*>& keys) {
-  return std::ranges::any_of(keys,
-                             [&](const KeyDescription* key) { return key->name.starts_with(table + "."); });
-}
-
 void collect_leaves(const toml::table& table, const std::string& prefix,
                     const std::vector<std::string>& elsewhere, std::vector<Leaf>& leaves) {
   for (const auto& [key, node] : table) {
@@ -55,19 +50,13 @@ void collect_leaves(const toml::table& table, const std::string& prefix,
   }
 }
 
-bool stands_before(const Leaf& a, const Leaf& b) {
-  const auto& first = a.node->source().begin;
-  const auto& second = b.node->source().begin;
-  return first.line != second.line ? first.line < second.line : first.column < second.column;
-}
-
 InputError error_for(const Place& place, const KeyDescription& key, std::string found,
                      std::string suggestion = {}) {
   return error_at(place, key.name, std::move(found), allowed_text(key), std::move(suggestion));
 }
 
-std::optional<InputError> check_limits(const std::vector<double>& numbers, const std::string& found,
-                                       const KeyDescription& key, const Place& place) {
+Fault check_limits(const std::vector<double>& numbers, const std::string& found, const KeyDescription& key,
+                   const Place& place) {
   for (const double number : numbers) {
     if (!key.limits.contain(number)) return error_for(place, key, found);
   }
@@ -165,7 +154,7 @@ Expected<Value> checked_text(const std::string& text, const KeyDescription& key,
 }
 
 /// More tables of one name than anybody writes; each is compared with all the others.
-std::optional<InputError> check_counts(const toml::table& table, const std::string& file) {
+Fault check_counts(const toml::table& table, const std::string& file) {
   constexpr std::size_t most_tables = 10'000;
   for (const auto& [key, node] : table) {
     const toml::array* array = node.as_array();
@@ -344,9 +333,8 @@ InputError within(const std::string& table, InputError error) {
   return error;
 }
 
-std::optional<InputError> visit_tables(const toml::table& root, const std::string& table,
-                                       std::string_view meaning, const std::string& file,
-                                       const VisitTable& visit) {
+Fault visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
+                   const std::string& file, const VisitTable& visit) {
   const toml::node* node = root.get(table);
   if (node == nullptr) return std::nullopt;
   const auto no_table = [&](const toml::node& found, const std::string& key) {
@@ -366,7 +354,10 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
                                     const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<Leaf> leaves;
   collect_leaves(table, "", elsewhere, leaves);
-  std::ranges::stable_sort(leaves, stands_before);
+  std::ranges::stable_sort(leaves, {}, [](const Leaf& leaf) {
+    const auto& begin = leaf.node->source().begin;
+    return std::pair(begin.line, begin.column);
+  });
   std::vector<std::string> known = elsewhere;
   for (const KeyDescription* key : keys) known.push_back(key->name);
 
@@ -375,7 +366,8 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
     const Place place = place_of(*leaf.node, file);
     const auto key = std::ranges::find_if(keys, [&](const auto* k) { return k->name == leaf.name; });
     if (key == keys.end()) {
-      if (!is_prefix(leaf.name, keys)) return unknown_key(place, leaf.name, known);
+      const auto is_in_it = [&](const auto* each) { return each->name.starts_with(leaf.name + "."); };
+      if (std::ranges::none_of(keys, is_in_it)) return unknown_key(place, leaf.name, known);
       if (leaf.node->is_table()) continue;
       return error_at(place, leaf.name, found_text(*leaf.node),
                       fmt::format("a table, written [{}]", leaf.name));

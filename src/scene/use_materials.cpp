@@ -83,8 +83,7 @@ void add_beside(const NamedMaterial& material, Scene& scene) {
   }
 }
 
-std::optional<InputError> check_one_explosive(const SceneFile& file, const Scene& scene,
-                                              const std::vector<std::string>& names) {
+Fault check_one_explosive(const SceneFile& file, const Scene& scene, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (file.body_materials[i] != names[1]) continue;
     const std::string key = "body." + scene.bodies[i].name + ".material";
@@ -96,8 +95,8 @@ std::optional<InputError> check_one_explosive(const SceneFile& file, const Scene
 }
 
 /// Keys of a law of whose materials none has the law's name.
-std::optional<InputError> check_unambiguous(const SceneFile& file, const std::string& law,
-                                            const std::vector<std::string>& names) {
+Fault check_unambiguous(const SceneFile& file, const std::string& law,
+                        const std::vector<std::string>& names) {
   for (const auto& [key, given] : file.given) {
     if (given.of_material || !key.starts_with(law + ".")) continue;
     return error_at(given.place, key,
@@ -107,15 +106,10 @@ std::optional<InputError> check_unambiguous(const SceneFile& file, const std::st
   return std::nullopt;
 }
 
-/// The material as the file's own, which may have other numbers than the shipped one.
-NamedMaterial& own_material(SceneFile& file, const std::string& name) {
-  for (NamedMaterial& each : file.materials)
-    if (each.name == name) return each;
-  return file.materials.emplace_back(*find_named_material(file, name));
-}
-
+/// Of the file's own material, which may have other numbers than the shipped one.
 void set_number(SceneFile& file, const std::string& name, const KeyDescription& key, const Value& value) {
-  NamedMaterial& material = own_material(file, name);
+  if (find_named(file.materials, name) == nullptr) file.materials.push_back(*find_named_material(file, name));
+  NamedMaterial& material = *std::ranges::find(file.materials, name, &NamedMaterial::name);
   for (const std::string& overridden : key.overrides) material.values.erase(overridden);
   Given& given = material.values[key.name];
   if (given.value != value) forget_source(material.sources, key.name);
@@ -157,7 +151,7 @@ std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
   return keys;
 }
 
-std::optional<InputError> use_materials(SceneFile& file, Scene& scene) {
+Fault use_materials(SceneFile& file, Scene& scene) {
   std::erase_if(file.given, [](const auto& each) { return each.second.of_material; });
   scene.sources = file.sources;
   const auto by_law = names_by_law(file, scene);

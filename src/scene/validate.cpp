@@ -304,7 +304,7 @@ Fault check_output(const SceneFile& file) {
 
 }  // namespace
 
-std::optional<InputError> validate(const SceneFile& file) {
+Fault validate(const SceneFile& file) {
   for (const auto check :
        {check_names,          fault_of_near_edges, check_charge_fits,        check_overlaps,
         fault_of_support,     check_interfaces,    check_stations,           check_cell_size,

@@ -20,50 +20,42 @@ std::string exact_range(double begin, double end) {
 }
 
 /// The extent of a body along one axis.
-struct Span {
-  const char* axis = "x";
-  double begin = 0, end = 0;  ///< m
+struct Axis {
+  const char* name;
+  double Body::*begin;
+  double Body::*end;
 };
-Span span_x(const Body& body) { return {"x", body.x_begin, body.x_end}; }
-Span span_r(const Body& body) { return {"r", body.r_begin, body.r_end}; }
+constexpr Axis axis_x{"x", &Body::x_begin, &Body::x_end}, axis_r{"r", &Body::r_begin, &Body::r_end};
 
-/// How far two spans overlap, m; less than 0 for a distance.
-double overlap(const Span& a, const Span& b) { return std::min(a.end, b.end) - std::max(a.begin, b.begin); }
-
-/// An edge of a body where it begins or ends, beside a place that it nearly lies at.
-struct NearEdge {
-  const Body& body;
-  Span span;
-  bool at_end;
-  double place;      ///< m
-  std::string what;  ///< that lies there
-};
-
-InputError fault_of(const SceneFile& file, const NearEdge& near) {
-  const double edge = near.at_end ? near.span.end : near.span.begin, distance = std::abs(edge - near.place);
-  const std::string meant =
-      near.at_end ? exact_range(near.span.begin, near.place) : exact_range(near.place, near.span.end);
-  return fault_at(
-      file, fmt::format("body.{}.{}", near.body.name, near.span.axis),
-      fmt::format("\"{}\", which {} {:.3g} mm from {}, {}", exact_range(near.span.begin, near.span.end),
-                  near.at_end ? "ends" : "begins", 1e3 * distance, near.what, centimetres(near.place)),
-      fmt::format("that place, or one at least {} away: a tenth of numerics.cell_size",
-                  length_text(least_distance * file.scene.numerics.cell_size)),
-      fmt::format("{} = \"{}\"", near.span.axis, meant));
+/// How far two bodies overlap along an axis, m; less than 0 for a distance.
+double overlap(const Body& a, const Body& b, const Axis& along) {
+  return std::min(a.*along.end, b.*along.end) - std::max(a.*along.begin, b.*along.begin);
 }
 
-Fault fault_of_pair(const SceneFile& file, const Body& body, const Span& own, const Body& other,
-                    const Span& others) {
+/// Of a body that begins or ends near a place (m); `what` lies there.
+InputError fault_of(const SceneFile& file, const Body& body, const Axis& along, bool at_end, double place,
+                    const std::string& what) {
+  const double begin = body.*along.begin, end = body.*along.end;
+  const std::string meant = at_end ? exact_range(begin, place) : exact_range(place, end);
+  return fault_at(file, fmt::format("body.{}.{}", body.name, along.name),
+                  fmt::format("\"{}\", which {} {:.3g} mm from {}, {}", exact_range(begin, end),
+                              at_end ? "ends" : "begins", 1e3 * std::abs((at_end ? end : begin) - place),
+                              what, centimetres(place)),
+                  fmt::format("that place, or one at least {} away: a tenth of numerics.cell_size",
+                              length_text(least_distance * file.scene.numerics.cell_size)),
+                  fmt::format("{} = \"{}\"", along.name, meant));
+}
+
+Fault fault_of_pair(const SceneFile& file, const Body& body, const Body& other, const Axis& along) {
   const double tolerance = length_tolerance(file.scene),
                least = least_distance * file.scene.numerics.cell_size;
   for (const bool at_end : {false, true})
     for (const bool others_end : {false, true}) {
-      const double edge = at_end ? own.end : own.begin, place = others_end ? others.end : others.begin;
-      const double distance = std::abs(edge - place);
+      const double place = other.*(others_end ? along.end : along.begin);
+      const double distance = std::abs(body.*(at_end ? along.end : along.begin) - place);
       if (distance <= tolerance || distance >= least - tolerance) continue;
-      return fault_of(file,
-                      {body, own, at_end, place,
-                       fmt::format("the {} of the body \"{}\"", others_end ? "end" : "begin", other.name)});
+      return fault_of(file, body, along, at_end, place,
+                      fmt::format("the {} of the body \"{}\"", others_end ? "end" : "begin", other.name));
     }
   return std::nullopt;
 }
@@ -73,7 +65,7 @@ double borne_length(const Scene& scene, const Body& charge) {
   double length = 0.0;
   for (const Body& body : scene.bodies)
     if (!is_charge(scene, body) && std::abs(body.x_begin - charge.x_end) <= length_tolerance(scene))
-      length += std::max(0.0, overlap(span_r(body), span_r(charge)));
+      length += std::max(0.0, overlap(body, charge, axis_r));
   return length;
 }
 
@@ -81,7 +73,7 @@ double borne_length(const Scene& scene, const Body& charge) {
 const Body* next_behind(const Scene& scene, const Body& charge) {
   const Body* next = nullptr;
   for (const Body& body : scene.bodies) {
-    const bool behind = body.x_begin > charge.x_end && overlap(span_r(body), span_r(charge)) > 0.0;
+    const bool behind = body.x_begin > charge.x_end && overlap(body, charge, axis_r) > 0.0;
     if (behind && (next == nullptr || body.x_begin < next->x_begin)) next = &body;
   }
   return next;
@@ -156,13 +148,12 @@ Fault fault_of_near_edges(const SceneFile& file) {
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     const Body& body = bodies[j];
     if (body.r_begin > tolerance && body.r_begin < least)
-      return fault_of(file, {body, span_r(body), false, 0.0, "the axis"});
+      return fault_of(file, body, axis_r, false, 0.0, "the axis");
     for (std::size_t i = 0; i < j; ++i) {
       const Body& other = bodies[i];
-      if (overlap(span_x(body), span_x(other)) < -least || overlap(span_r(body), span_r(other)) < -least)
-        continue;
-      if (Fault fault = fault_of_pair(file, body, span_x(body), other, span_x(other))) return fault;
-      if (Fault fault = fault_of_pair(file, body, span_r(body), other, span_r(other))) return fault;
+      if (overlap(body, other, axis_x) < -least || overlap(body, other, axis_r) < -least) continue;
+      for (const Axis& along : {axis_x, axis_r})
+        if (Fault fault = fault_of_pair(file, body, other, along)) return fault;
     }
   }
   return std::nullopt;

@@ -209,7 +209,7 @@ Fault fault_of_load(const SceneFile& file) {
   return fault_of_end(file);
 }
 
-std::optional<InputError> check_expected_velocity(const SceneFile& file) {
+Fault check_expected_velocity(const SceneFile& file) {
   const std::optional<double> expected = file.scene.load.expected_velocity;
   if (!expected) return std::nullopt;
   Scene whole = file.scene;

@@ -16,8 +16,9 @@ namespace {
 constexpr std::string_view partial_suffix = ".partial";
 constexpr std::size_t digits = 8;
 
-std::string check_of(std::string_view name, std::string_view number) {
-  return sha256(fmt::format("{} {} is being written by launchsafe", number, name)).substr(0, digits);
+std::string partial_name(std::string_view name, std::string_view number) {
+  const std::string check = sha256(fmt::format("{} {} is being written by launchsafe", number, name));
+  return fmt::format(".{}.{}{:.{}}{}", name, number, check, digits, partial_suffix);
 }
 
 /// Leaves nothing behind on a failure; false with errno set.
@@ -39,32 +40,18 @@ std::error_code publish(const std::filesystem::path& from, const std::filesystem
   return ::rename(from.c_str(), to.c_str()) == 0 ? std::error_code() : last_error();
 }
 
-constexpr std::string_view no_plain_file = "is no plain file";
-constexpr std::string_view several_names =
-    "has several names (hard links), and writing under one would change the other";
-
-/// What keeps a file of this status from being written in place; empty for nothing.
-std::string_view fault_of(const struct stat& status) {
-  if (!S_ISREG(status.st_mode)) return no_plain_file;
-  return status.st_nlink > 1 ? several_names : std::string_view{};
-}
-
 }  // namespace
 
 std::string temporary_name(std::string_view name) {
-  const std::string number = fmt::format("{:08x}", std::random_device{}());
-  return fmt::format(".{}.{}{}{}", name, number, check_of(name, number), partial_suffix);
+  return partial_name(name, fmt::format("{:08x}", std::random_device{}()));
 }
 
 std::optional<std::string> name_behind(std::string_view temporary) {
   constexpr std::size_t tail = 2 * digits + 1 + partial_suffix.size();
-  if (temporary.size() < tail + 2 || !temporary.starts_with(".") || !temporary.ends_with(partial_suffix))
-    return {};
+  if (temporary.size() < tail + 2) return {};
   const std::string_view name = temporary.substr(1, temporary.size() - tail - 1);
-  if (temporary[name.size() + 1] != '.') return {};
   const std::string_view number = temporary.substr(name.size() + 2, digits);
-  if (temporary.substr(name.size() + 2 + digits, digits) != check_of(name, number)) return {};
-  return std::string(name);
+  return temporary == partial_name(name, number) ? std::optional<std::string>(name) : std::nullopt;
 }
 
 void remove_leftover(const std::filesystem::path& file) {
@@ -138,7 +125,9 @@ MaybeError obstacle_in_place(const std::filesystem::path& path,
                              const std::function<bool(std::string_view content)>& is_ours) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) return {};
-  if (const std::string_view fault = fault_of(status); !fault.empty()) return refusal(path, fault);
+  if (!S_ISREG(status.st_mode)) return refusal(path, "is no plain file");
+  if (status.st_nlink > 1)
+    return refusal(path, "has several names (hard links), and writing under one would change the other");
   if (!is_ours) return {};
   const Result<std::string> content = read_file(path);
   if (!content) return content.error();

@@ -1,6 +1,7 @@
 #include "launchsafe/store/case_file.hpp"
 
 #include "case_layout.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
@@ -55,14 +56,8 @@ Result<std::string_view> checked_image(std::string_view file) {
 
 // --- the parts that only writing knows ---
 
-constexpr std::array symmetry_names{
-    Named{scene::Symmetry::axisymmetric, "axisymmetric"},
-    Named{scene::Symmetry::plane_strain, "plane_strain"},
-};
-constexpr std::array frame_names{
-    Named{scene::Frame::co_moving, "co_moving"},
-    Named{scene::Frame::lab, "lab"},
-};
+constexpr std::array symmetry_names{"axisymmetric", "plane_strain"};
+constexpr std::array frame_names{"co_moving", "lab"};
 
 void write_bodies(Hdf5Writer& writer, const std::vector<scene::Body>& bodies) {
   using scene::Body;
@@ -111,13 +106,9 @@ MaybeError read_image(std::string_view bytes, Body body) {
 
 using trace::BottomTrace;
 
-bool are_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-}
-
 /// Whether times are finite and each is later than the one before.
 bool increase(const std::vector<double>& times) {
-  return are_finite(times) && std::ranges::adjacent_find(times, std::greater_equal<>()) == times.end();
+  return math::all_finite(times) && std::ranges::adjacent_find(times, std::greater_equal<>()) == times.end();
 }
 
 std::string fault_in_trace(const BottomTrace& trace, bool completed) {
@@ -126,10 +117,10 @@ std::string fault_in_trace(const BottomTrace& trace, bool completed) {
   for (const auto* history : {&trace.chamber_pressure, &trace.bottom_pressure, &trace.mean_chamber_pressure,
                               &trace.mean_bottom_pressure, &trace.steps}) {
     if (history->size() != trace.samples()) return "a history of the completed run is cut short";
-    if (!are_finite(*history)) return "a history of the completed run holds what is no number";
+    if (!math::all_finite(*history)) return "a history of the completed run holds what is no number";
   }
   for (const auto& friction : trace.friction) {
-    if (!are_finite(friction)) return "the friction of the completed run holds what is no number";
+    if (!math::all_finite(friction)) return "the friction of the completed run holds what is no number";
   }
   return {};
 }
@@ -180,6 +171,14 @@ Result<Value> read_with(const std::filesystem::path& path, Result<Value> (*parse
   return value ? value : of_file(path, value.error());
 }
 
+Result<Manifest> manifest_of(std::string_view bytes) {
+  Manifest manifest;
+  const MaybeError error =
+      read_image(bytes, [&manifest](Hdf5Reader& reader) { lay_out_manifest(reader, manifest); });
+  if (error) return *error;
+  return manifest;
+}
+
 }  // namespace
 
 Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,
@@ -206,14 +205,6 @@ Result<StoredCase> case_of(std::string_view bytes) {
   });
   if (error) return *error;
   return stored;
-}
-
-Result<Manifest> manifest_of(std::string_view bytes) {
-  Manifest manifest;
-  const MaybeError error =
-      read_image(bytes, [&manifest](Hdf5Reader& reader) { lay_out_manifest(reader, manifest); });
-  if (error) return *error;
-  return manifest;
 }
 
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,

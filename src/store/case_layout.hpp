@@ -11,34 +11,18 @@ namespace launchsafe::store {
 
 /// The file format's own words; they stay when the program's messages change.
 inline constexpr std::array run_status_names{
-    Named{run::RunStatus::completed, "completed"},
-    Named{run::RunStatus::non_finite, "non_finite"},
-    Named{run::RunStatus::energy_drift, "energy_drift"},
-    Named{run::RunStatus::time_step_collapse, "time_step_collapse"},
-    Named{run::RunStatus::particles_left_grid, "particles_left_grid"},
-    Named{run::RunStatus::interrupted, "interrupted"},
-    Named{run::RunStatus::timed_out, "timed_out"},
-    Named{run::RunStatus::cells_distorted, "cells_distorted"},
-    Named{run::RunStatus::outside_gas_law, "outside_gas_law"},
-    Named{run::RunStatus::flame_beyond_sound, "flame_beyond_sound"},
-};
-inline constexpr std::array ignition_cause_names{
-    Named{surface::IgnitionCause::trigger, "trigger"},
-    Named{surface::IgnitionCause::arrhenius, "arrhenius"},
-};
-inline constexpr std::array combustion_end_names{
-    Named{run::CombustionEnd::time, "time"},
-    Named{run::CombustionEnd::pressure, "pressure"},
-    Named{run::CombustionEnd::broke_off, "broke_off"},
-    Named{run::CombustionEnd::burnt_through, "burnt_through"},
-};
+    "completed",   "non_finite", "energy_drift",    "time_step_collapse", "particles_left_grid",
+    "interrupted", "timed_out",  "cells_distorted", "outside_gas_law",    "flame_beyond_sound"};
+static_assert(run_status_names.size() == static_cast<std::size_t>(run::last_status) + 1);
+inline constexpr std::array ignition_cause_names{"trigger", "arrhenius"};
+inline constexpr std::array combustion_end_names{"time", "pressure", "broke_off", "burnt_through"};
 
 template <class Archive, class Value>
 void lay_out_manifest(Archive& archive, Value& manifest) {
   archive.group("manifest", "Where this result came from", [&] {
     archive.value("input", manifest.input_text, {"none", "all that determines the case"});
     archive.value("input_sha256", manifest.input_sha256, {"none", "SHA-256 of the input"});
-    if (is_stored(archive, "model_version"))
+    if (is_there(archive, "model_version"))
       integer(archive, "model_version", manifest.model_version,
               {"1", "version of the model; others give other numbers"});
     archive.value("program_version", manifest.program_version, {"none", "version of launchsafe"});
@@ -98,7 +82,7 @@ void lay_out_energy(Archive& archive, Rows& rows) {
   energy("external_work", &EnergyBalance::external, "work of the chamber pressure");
   energy("body_force_work", &EnergyBalance::body_force, "work of the accelerating frame's body force");
   energy("damping_loss", &EnergyBalance::damping, "taken out by damping and the PIC share");
-  if (is_stored(archive, "contact_loss"))
+  if (is_there(archive, "contact_loss"))
     energy("contact_loss", &EnergyBalance::contact,
            "taken out by friction between bodies, where their faces close, and by gas between them");
   energy("plastic_dissipation", &EnergyBalance::plastic, "dissipated in steel");
@@ -143,7 +127,7 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     archive.value("reason", mechanics.reason, {"none", "when and where, if not completed"});
     archive.value("end_time", mechanics.end_time, {"s", "time reached"});
     archive.value("steps", mechanics.steps, {"1", "time steps"});
-    if (is_stored(archive, "steps_before"))
+    if (is_there(archive, "steps_before"))
       archive.value("steps_before", mechanics.steps_before,
                     {"1", "of them, up to the checkpoint from which the run went on"});
     archive.value("particles", mechanics.particles, {"1", "particles"});
@@ -163,7 +147,7 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
       archive.value("hugoniot_guard", limiters.hugoniot_guard,
                     {"1", "particles at the guarded Hugoniot pole"});
     });
-    if (is_stored(archive, "interfaces"))
+    if (is_there(archive, "interfaces"))
       list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
            [&](auto& faces) { lay_out_interface(archive, faces); });
     archive.group("monitor", "History of the energy balance and of stability",
@@ -224,7 +208,7 @@ void lay_out_combustion(Archive& archive, auto& combustion, const trace::BottomT
                 {"J", "heat above the initial temperature that the burnt part had before"});
         archive.table("reaction_degree", c.reaction_degree, {count, trace.stations.size()},
                       {"1", "of the skin; rows are times, columns stations"});
-        if (is_recorded(archive, "snapshots", c.snapshots))
+        if (is_there(archive, "snapshots", !c.snapshots.empty()))
           list(archive, "snapshots", "Particle fields at one time", c.snapshots,
                [&](auto& snapshot) { lay_out_snapshot(archive, snapshot); });
       });
@@ -291,7 +275,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
   lay_out_ignition(archive, skin.ignition, trace);
   lay_out_closing(archive, gap.closing);
   lay_out_combustion(archive, gap.combustion, trace);
-  if (is_stored(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
+  if (is_there(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
     archive.value("energy_residual", skin.energy_residual,

@@ -1,11 +1,13 @@
 #include "launchsafe/store/case_store.hpp"
 
 #include "case_store_files.hpp"
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <cassert>
+#include <cerrno>
 
 namespace launchsafe::store {
 namespace {
@@ -80,8 +82,9 @@ CaseIdentity::CaseIdentity(std::string input)
     : input_(std::move(input)), hash_(sha256(input_).substr(0, hash_digits)) {}
 
 Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& folder,
-                                                   const StoreOptions& options) {
-  StoreNames names{folder, options.part};
+                                                   const std::string& part,
+                                                   std::function<void(const Error&)> on_failure) {
+  StoreNames names{folder, part};
   if (const MaybeError error = obstacle_in(names)) return *error;
   for (const std::filesystem::path& each : {folder, names.cases()}) {
     if (const MaybeError error = make_folder(each)) return *error;
@@ -90,17 +93,17 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
   if (!database) return told_who_writes(database.error(), names.results());
   std::vector<std::filesystem::path> others = results_files_in(folder);
   std::erase_if(others, [&](const std::filesystem::path& each) {
-    return each == names.results() || (!options.part.empty() && each != StoreNames{folder, {}}.results());
+    return each == names.results() || (!part.empty() && each != StoreNames{folder, {}}.results());
   });
-  std::unique_ptr<CaseStore> store(new CaseStore(std::move(names), options, std::move(*database), true));
+  std::unique_ptr<CaseStore> store(
+      new CaseStore(std::move(names), std::move(on_failure), std::move(*database), true));
   if (const MaybeError error = store->take_over(others)) return *error;
   remove_leftovers_of(store->names_);
   store->write_status();
   return store;
 }
 
-Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder,
-                                                           int model_version) {
+Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder) {
   if (const MaybeError error = obstacle_of_older(folder)) return *error;
   std::error_code status;
   list_folder(folder, status);
@@ -112,15 +115,15 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem
                                             : Database::copy_of(files.front());
   if (!database) return told_who_writes(database.error(), files.empty() ? folder : files.front());
   if (!files.empty()) files.erase(files.begin());
-  std::unique_ptr<CaseStore> store(
-      new CaseStore({folder, {}}, {{}, model_version, {}}, std::move(*database), false));
+  std::unique_ptr<CaseStore> store(new CaseStore({folder, {}}, {}, std::move(*database), false));
   if (const MaybeError error = store->take_over(files)) return *error;
   return store;
 }
 
-CaseStore::CaseStore(StoreNames names, StoreOptions options, Database database, bool writes)
+CaseStore::CaseStore(StoreNames names, std::function<void(const Error&)> on_failure, Database database,
+                     bool writes)
     : names_(std::move(names)),
-      options_(std::move(options)),
+      on_failure_(std::move(on_failure)),
       manifest_(common_manifest()),
       host_(host_name()),
       writes_(writes),
@@ -134,7 +137,7 @@ CaseStore::~CaseStore() {
 
 std::vector<RunRecord> CaseStore::records() const {
   const std::lock_guard lock(using_);
-  auto found = run_table().select(database_, {});
+  auto found = records_in(database_);
   return found ? std::move(*found) : std::vector<RunRecord>{};
 }
 
@@ -159,10 +162,10 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
 }
 
 Result<std::string> CaseStore::input_of(const std::string& hash) {
-  Result<CheckedFile> file = read_checked(names_.case_file(hash), hash);
-  if (file) return std::move(file->manifest.input_text);
-  if (file.error().kind != Error::Kind::corrupt) return file.error();
-  return give_up(hash, file.error());
+  Result<Manifest> manifest = read_checked(names_.case_file(hash), hash);
+  if (manifest) return std::move(manifest->input_text);
+  if (manifest.error().kind != Error::Kind::corrupt) return manifest.error();
+  return give_up(hash, manifest.error());
 }
 
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,
@@ -180,7 +183,19 @@ void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, ru
     record.processor_time = result.mechanics.processor_time;
   }
   result.mechanics.wall_time = result.mechanics.processor_time = 0;
-  keep(case_bytes(scene, result, manifest), std::move(record));
+  const Result<std::string> bytes = case_bytes(scene, result, manifest);
+  const std::filesystem::path path = names_.case_file(record.hash);
+  const std::lock_guard one_at_a_time(naming_);
+  if (failure()) return;
+  if (!bytes) return fail(of_file(path, bytes.error()));
+  if (const MaybeError error = write_file(record.hash, *bytes)) return fail(*error);
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return fail(write_error(path, errno));
+  record.file_size = size_of(file);
+  record.file_time = time_of(file);
+  put(record);
+  const std::lock_guard lock(using_);
+  damaged_.erase(record.hash);
 }
 
 void CaseStore::note(RunRecord record) {
@@ -229,16 +244,16 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
       continue;
     }
     const std::filesystem::path path = theirs.case_file(hash);
-    const Result<CheckedFile> file = read_checked(path, hash);
-    if (!file && file.error().kind != Error::Kind::corrupt) return file.error();
-    if (!file) {
-      remark(file.error().message + "; it was left there");
+    const Result<Manifest> manifest = read_checked(path, hash);
+    if (!manifest && manifest.error().kind != Error::Kind::corrupt) return manifest.error();
+    if (!manifest) {
+      remark(manifest.error().message + "; it was left there");
       continue;
     }
-    if (file->manifest.model_version != options_.model_version)
+    if (manifest->model_version != run::model_version)
       return Error{Error::Kind::conflict,
                    fmt::format("{} is a result of model version {}, this program's is {}", path.string(),
-                               file->manifest.model_version, options_.model_version)};
+                               manifest->model_version, run::model_version)};
     if (const MaybeError error = take_file(path, hash)) return *error;
     ++imported.cases;
   }

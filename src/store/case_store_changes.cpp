@@ -1,9 +1,11 @@
 #include "case_store_files.hpp"
+#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/store_status.hpp"
 
 #include <array>
 #include <cerrno>
+#include <tuple>
 
 namespace launchsafe::store {
 namespace {
@@ -11,51 +13,82 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto batch_time = std::chrono::seconds(1);  ///< of changes that can be made again
 
-constexpr std::array<std::pair<CaseState, const char*>, 4> states{{{CaseState::done, "done"},
-                                                                   {CaseState::failed, "failed"},
-                                                                   {CaseState::timed_out, "timed-out"},
-                                                                   {CaseState::interrupted, "interrupted"}}};
+constexpr std::array states{"done", "failed", "timed-out", "interrupted"};  // in the order of CaseState
 
-SqlColumn<RunRecord> state_column() {
-  return {"state", "TEXT NOT NULL", [](const RunRecord& record) { return SqlValue(to_string(record.state)); },
-          [](RunRecord& record, const SqlValue& stored) {
-            const auto found = std::ranges::find_if(
-                states, [&](const auto& each) { return SqlValue(std::string(each.second)) == stored; });
-            if (found != states.end()) record.state = found->first;
-            return found != states.end();
-          }};
+}  // namespace
+
+static SqlValue to_sql(CaseState state) { return to_string(state); }
+
+static bool from_sql(const SqlValue& stored, CaseState& state) {
+  const auto* found = std::ranges::find(states, stored, [](const char* word) { return SqlValue(word); });
+  if (found != states.end()) state = static_cast<CaseState>(found - states.begin());
+  return found != states.end();
+}
+
+namespace {
+
+constexpr const char* make_table =
+    "CREATE TABLE IF NOT EXISTS stored_runs (hash TEXT, state TEXT NOT NULL, label TEXT, reason TEXT, "
+    "model_version INTEGER, wall_time_s REAL, processor_time_s REAL, predicted_updates REAL, time_limit_s "
+    "REAL, host INTEGER, end_time TEXT, file_bytes INTEGER, file_time_ns INTEGER, PRIMARY KEY (hash)) "
+    "STRICT, "
+    "WITHOUT ROWID";
+/// The members of a record in the order of its columns.
+constexpr std::tuple members{&RunRecord::hash,           &RunRecord::state,
+                             &RunRecord::label,          &RunRecord::reason,
+                             &RunRecord::model_version,  &RunRecord::wall_time,
+                             &RunRecord::processor_time, &RunRecord::predicted_updates,
+                             &RunRecord::time_limit,     &RunRecord::host,
+                             &RunRecord::end_time,       &RunRecord::file_size,
+                             &RunRecord::file_time};
+constexpr std::size_t columns = std::tuple_size_v<decltype(members)>;
+constexpr std::size_t host_column = 9;  ///< of texts that repeat
+
+MaybeError put_record(Database& database, const RunRecord& record) {
+  SqlRow row;
+  std::apply([&](auto... member) { (row.push_back(to_sql(record.*member)), ...); }, members);
+  const auto host = database.number_of_text(record.host);
+  if (!host) return host.error();
+  row[host_column] = *host;
+  const std::vector<std::string> marks(columns, "?");
+  return database.run(fmt::format("INSERT OR REPLACE INTO stored_runs VALUES ({})", fmt::join(marks, ", ")),
+                      row);
+}
+
+/// Errors: corrupt also where a value is none of its member's.
+Result<RunRecord> record_from(Database& database, SqlRow row) {
+  if (row.size() != columns) return Error{Error::Kind::corrupt, "stored_runs has other columns"};
+  const auto* number = std::get_if<std::int64_t>(&row[host_column]);
+  auto host = database.text_of_number(number != nullptr ? *number : -1);
+  if (!host) return host.error();
+  row[host_column] = std::move(*host);
+  RunRecord record;
+  std::size_t next = 0;
+  const auto read = [&](auto... member) { return (from_sql(row[next++], record.*member) && ...); };
+  if (!std::apply(read, members)) return Error{Error::Kind::corrupt, "a value in stored_runs cannot be"};
+  return record;
 }
 
 }  // namespace
 
-const SqlTable<RunRecord>& run_table() {
-  static const SqlTable<RunRecord> table{
-      "stored_runs",
-      {},
-      "hash",
-      {sql_column<RunRecord>("hash", &RunRecord::hash), state_column(),
-       sql_column<RunRecord>("label", &RunRecord::label), sql_column<RunRecord>("reason", &RunRecord::reason),
-       sql_column<RunRecord>("model_version", &RunRecord::model_version),
-       sql_column<RunRecord>("wall_time_s", &RunRecord::wall_time),
-       sql_column<RunRecord>("processor_time_s", &RunRecord::processor_time),
-       sql_column<RunRecord>("predicted_updates", &RunRecord::predicted_updates),
-       sql_column<RunRecord>("time_limit_s", &RunRecord::time_limit),
-       repeated_text<RunRecord>("host", &RunRecord::host),
-       sql_column<RunRecord>("end_time", &RunRecord::end_time),
-       sql_column<RunRecord>("file_bytes", &RunRecord::file_size),
-       sql_column<RunRecord>("file_time_ns", &RunRecord::file_time)}};
-  return table;
+Result<std::vector<RunRecord>> records_in(Database& database, const std::string& which,
+                                          const SqlRow& values) {
+  const auto rows = database.rows("SELECT * FROM stored_runs " + which + " ORDER BY hash", values);
+  if (!rows) return rows.error();
+  std::vector<RunRecord> records;
+  for (const SqlRow& row : *rows) {
+    auto record = record_from(database, row);
+    if (!record) return record.error();
+    records.push_back(std::move(*record));
+  }
+  return records;
 }
 
-std::string to_string(CaseState state) {
-  for (const auto& [each, word] : states)
-    if (each == state) return word;
-  return "unknown";
-}
+std::string to_string(CaseState state) { return states.at(static_cast<std::size_t>(state)); }
 
 MaybeError CaseStore::take_over(const std::vector<std::filesystem::path>& others) {
-  if (!database_.has_table(run_table().name)) {
-    if (MaybeError error = database_.run(run_table().create_statement())) return error;
+  if (!database_.has_table("stored_runs")) {
+    if (MaybeError error = database_.run(make_table)) return error;
   }
   for (const std::filesystem::path& other : others)
     if (MaybeError error = database_.take_rows_of(other)) return told_who_writes(*error, other);
@@ -78,7 +111,7 @@ void CaseStore::fail(const Error& error) {
     failure_ = error;
     if (database_.in_transaction()) database_.roll_back();
   }
-  if (options_.on_failure) options_.on_failure(error);
+  if (on_failure_) on_failure_(error);
 }
 
 MaybeError CaseStore::make_change(bool at_once, const std::function<MaybeError()>& make) {
@@ -113,13 +146,13 @@ MaybeError CaseStore::flush() {
 
 std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
   const std::lock_guard lock(using_);
-  auto found = run_table().select(database_, {hash});
+  auto found = records_in(database_, "WHERE hash = ?", {hash});
   if (!found || found->empty()) return std::nullopt;
   return std::move(found->front());
 }
 
 void CaseStore::put(const RunRecord& record) {
-  change(true, [&] { return run_table().put(database_, {}, record); });
+  change(true, [&] { return put_record(database_, record); });
 }
 
 bool CaseStore::is_given_up(const std::string& hash) const {
@@ -137,7 +170,7 @@ bool CaseStore::adopt(const std::string& hash) {
   const std::filesystem::path path = names_.case_file(hash);
   struct stat file {};
   if (::stat(path.c_str(), &file) != 0) return false;
-  const Result<CheckedFile> checked = read_checked(path, hash);
+  const Result<Manifest> checked = read_checked(path, hash);
   if (!checked) {
     if (checked.error().kind == Error::Kind::corrupt) give_up(hash, checked.error());
     if (checked.error().kind == Error::Kind::unreadable) remark(checked.error().message);
@@ -153,7 +186,7 @@ bool CaseStore::adopt(const std::string& hash) {
     record.host = host_;
     record.end_time = utc_now();
   }
-  record.model_version = checked->manifest.model_version;
+  record.model_version = checked->model_version;
   record.file_size = size_of(file);
   record.file_time = time_of(file);
   put(record);
@@ -162,7 +195,7 @@ bool CaseStore::adopt(const std::string& hash) {
 
 Error CaseStore::give_up(const std::string& hash, const Error& damage) {
   const std::lock_guard no_new_names(naming_);
-  const Result<CheckedFile> again = read_checked(names_.case_file(hash), hash);
+  const Result<Manifest> again = read_checked(names_.case_file(hash), hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;
   {
     const std::lock_guard lock(using_);
@@ -188,21 +221,6 @@ MaybeError CaseStore::write_file(const std::string& hash, std::string_view bytes
   return write_file_atomically(path, bytes, IfExists::refuse, name);
 }
 
-void CaseStore::keep(const Result<std::string>& bytes, RunRecord record) {
-  const std::lock_guard one_at_a_time(naming_);
-  if (failure()) return;
-  if (!bytes) return fail(of_file(names_.case_file(record.hash), bytes.error()));
-  if (const MaybeError error = write_file(record.hash, *bytes)) return fail(*error);
-  struct stat file {};
-  if (::stat(names_.case_file(record.hash).c_str(), &file) != 0)
-    return fail(write_error(names_.case_file(record.hash), errno));
-  record.file_size = size_of(file);
-  record.file_time = time_of(file);
-  put(record);
-  const std::lock_guard lock(using_);
-  damaged_.erase(record.hash);
-}
-
 MaybeError CaseStore::take_file(const std::filesystem::path& file, const std::string& hash) {
   const std::lock_guard one_at_a_time(naming_);
   if (::link(file.c_str(), names_.case_file(hash).c_str()) == 0)
@@ -212,7 +230,7 @@ MaybeError CaseStore::take_file(const std::filesystem::path& file, const std::st
 }
 
 void CaseStore::fill_in(RunRecord& record) const {
-  if (record.model_version == 0) record.model_version = options_.model_version;
+  if (record.model_version == 0) record.model_version = run::model_version;
   record.host = host_;
   record.end_time = utc_now();
 }

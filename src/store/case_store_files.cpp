@@ -9,12 +9,13 @@ namespace {
 
 constexpr std::string_view stem = "study", ending = ".db";
 
-/// Whether a name is STEM + ENDING or STEM.PART + ENDING, where a part is "1-of-4".
-bool is_of_any_part(std::string_view name, std::string_view begin, std::string_view end) {
-  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size())
-    return false;
+/// The part of a name that is BEGIN + END, which is empty, or BEGIN.PART + END, where a part is "1-of-4".
+std::optional<std::string> part_in(std::string_view name, std::string_view begin, std::string_view end) {
+  if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size()) return {};
   const std::string_view part = name.substr(begin.size(), name.size() - begin.size() - end.size());
-  return part.empty() || (part.starts_with('.') && part.find("-of-") != std::string_view::npos);
+  if (part.empty()) return std::string();
+  if (!part.starts_with('.') || part.find("-of-") == std::string_view::npos) return {};
+  return std::string(part.substr(1));
 }
 
 /// Whatever has the name of a case but is no file.
@@ -64,22 +65,17 @@ std::string time_in(const StoreStatus& status) { return status.members.value("ti
 }  // namespace
 
 bool is_store_name(std::string_view name) {
-  return name == "cases" || name == StoreNames{}.page() || is_of_any_part(name, stem, ending) ||
-         is_of_any_part(name, stem, ".db-journal") || part_of_status(name).has_value();
+  return name == "cases" || name == StoreNames{}.page() || part_in(name, stem, ending) ||
+         part_in(name, stem, ".db-journal") || part_of_status(name);
 }
 
-std::optional<std::string> part_of_status(std::string_view name) {
-  constexpr std::string_view begin = "status", end = ".json";
-  if (!is_of_any_part(name, begin, end)) return std::nullopt;
-  const std::string_view part = name.substr(begin.size(), name.size() - begin.size() - end.size());
-  return std::string(part.substr(part.empty() ? 0 : 1));
-}
+std::optional<std::string> part_of_status(std::string_view name) { return part_in(name, "status", ".json"); }
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code status;
   for (const std::string& name : list_folder(folder, status))
-    if (is_of_any_part(name, stem, ending)) files.push_back(folder / name);
+    if (part_in(name, stem, ending)) files.push_back(folder / name);
   return files;
 }
 
@@ -96,7 +92,7 @@ MaybeError obstacle_of_older(const std::filesystem::path& folder) {
   if (!results_files_in(folder).empty()) return {};
   std::error_code status;
   for (const std::string& name : list_folder(folder, status)) {
-    if (!is_of_any_part(name, "journal", ".jsonl")) continue;
+    if (!part_in(name, "journal", ".jsonl")) continue;
     return Error{
         Error::Kind::conflict,
         fmt::format("{} holds results of an earlier version of launchsafe ({}), which this one does not "
@@ -123,9 +119,8 @@ MaybeError obstacle_in(const StoreNames& names) {
 
 Error told_who_writes(const Error& error, const std::filesystem::path& results) {
   if (error.kind != Error::Kind::held) return error;
-  std::string part = results.stem().string().substr(stem.size());
-  if (!part.empty()) part.erase(0, 1);
-  const StoreNames names{results.parent_path(), part};
+  const StoreNames names{results.parent_path(),
+                         part_in(results.filename().string(), stem, ending).value_or("")};
   return {Error::Kind::conflict,
           fmt::format("{} is in use by {}", names.folder.string(), writer_in(names.status()))};
 }
@@ -150,13 +145,10 @@ Error of_another_case(const std::filesystem::path& path) {
   return {Error::Kind::corrupt, fmt::format("{}: it is the result of another case", path.string())};
 }
 
-Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash) {
-  Result<std::string> bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  Result<Manifest> manifest = manifest_of(*bytes);
-  if (!manifest) return of_file(path, manifest.error());
-  if (!belongs_to(*manifest, hash)) return of_another_case(path);
-  return CheckedFile{std::move(*bytes), std::move(*manifest)};
+Result<Manifest> read_checked(const std::filesystem::path& path, const std::string& hash) {
+  Result<Manifest> manifest = read_manifest(path);
+  if (manifest && !belongs_to(*manifest, hash)) return of_another_case(path);
+  return manifest;
 }
 
 bool began_as_case(const std::filesystem::path& path) {

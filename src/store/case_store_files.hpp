@@ -20,17 +20,17 @@ Error told_who_writes(const Error& error, const std::filesystem::path& results);
 /// Deletes what writers that were killed left half written. Those of living parts are not ours to judge.
 void remove_leftovers_of(const StoreNames& names);
 
-/// The bytes of the case file at `path`, and what they are. Errors: missing, unreadable, corrupt (also when
-/// it is the result of another case than `hash` says).
-struct CheckedFile {
-  std::string bytes;
-  Manifest manifest;
-};
-Result<CheckedFile> read_checked(const std::filesystem::path& path, const std::string& hash);
+/// The manifest of the case file at `path`, all of which is checked. Errors: missing, unreadable, corrupt
+/// (also when it is the result of another case than `hash` says).
+Result<Manifest> read_checked(const std::filesystem::path& path, const std::string& hash);
 bool belongs_to(const Manifest& manifest, const std::string& hash);
 /// Whether a regular file begins as case files do.
 bool began_as_case(const std::filesystem::path& path);
 Error of_another_case(const std::filesystem::path& path);
+
+/// The newest attempts on all cases, or on those that a condition selects, in the order of their hashes.
+Result<std::vector<RunRecord>> records_in(Database& database, const std::string& which = {},
+                                          const SqlRow& values = {});
 
 /// Whether the content of a file is that of a page of status.
 bool is_page(std::string_view content);

@@ -5,8 +5,6 @@
 
 #include <sqlite3.h>
 
-#include <bit>
-
 namespace launchsafe::store {
 namespace {
 
@@ -63,18 +61,6 @@ SqlValue column_of(sqlite3_stmt* statement, int place) {
 }
 
 }  // namespace
-
-void append_bytes(std::string& bytes, const SqlValue& value) {
-  bytes += static_cast<char>('0' + value.index());
-  if (const auto* text = std::get_if<std::string>(&value)) {
-    bytes += fmt::format("{}:{}", text->size(), *text);
-  } else if (!std::holds_alternative<std::monostate>(value)) {
-    const auto* number = std::get_if<double>(&value);
-    const auto bits = number != nullptr ? std::bit_cast<std::uint64_t>(*number)
-                                        : static_cast<std::uint64_t>(std::get<std::int64_t>(value));
-    for (int shift = 0; shift < 64; shift += 8) bytes += static_cast<char>(bits >> shift & 0xff);
-  }
-}
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 void Database::Finalize::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }

@@ -13,13 +13,6 @@
 
 namespace launchsafe::store {
 
-/// An enumerator and its word in files.
-template <class Enumeration>
-struct Named {
-  Enumeration value;
-  const char* name;
-};
-
 /// A number of any integral type.
 template <class Archive, class Number>
 void integer(Archive& archive, const std::string& name, Number& value, const Label& label) {
@@ -31,20 +24,16 @@ void integer(Archive& archive, const std::string& name, Number& value, const Lab
   }
 }
 
-/// An enumerator by its name.
+/// An enumerator by its name, of names in the order of the enumerators.
 template <class Archive, class Value, class Names>
 void choice(Archive& archive, const std::string& name, Value& value, const Names& names, const Label& label) {
-  std::string text;
-  for (const auto& each : names)
-    if (each.value == value) text = each.name;
+  std::string text = names.at(static_cast<std::size_t>(value));
   archive.value(name, text, label);
   if constexpr (Archive::reading) {
-    for (const auto& each : names)
-      if (text == each.name) {
-        value = each.value;
-        return;
-      }
-    archive.fail(name + " is '" + text + "', which this program does not know");
+    const auto* found = std::ranges::find(names, text);
+    if (found == names.end())
+      return archive.fail(name + " is '" + text + "', which this program does not know");
+    value = static_cast<Value>(found - names.begin());
   }
 }
 
@@ -123,18 +112,11 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
   }
 }
 
-/// Whether to lay out what older files lack: written always, read where it is.
+/// Whether to lay out what older files, or some results, lack: written where there is any, read where it is.
 template <class Archive>
-bool is_stored(Archive& archive, const std::string& name) {
+bool is_there(Archive& archive, const std::string& name, bool any = true) {
   if constexpr (Archive::reading) return archive.has(name);
-  return true;
-}
-
-/// Whether to lay out what some results lack: written where there is any, read where it is.
-template <class Archive, class Values>
-bool is_recorded(Archive& archive, const std::string& name, const Values& values) {
-  if constexpr (Archive::reading) return archive.has(name);
-  return !values.empty();
+  return any;
 }
 
 /// Whether snapshots hold the cells of their particles.
@@ -245,10 +227,10 @@ void lay_out_events(Archive& archive, Value& snapshot) {
 template <class Archive, class Value>
 void lay_out_snapshot(Archive& archive, Value& snapshot) {
   archive.value("time", snapshot.time, {"s", "time of the snapshot"});
-  if (is_stored(archive, "events")) lay_out_events(archive, snapshot);
-  if (is_recorded(archive, "bottom", snapshot.bottom_x))
+  if (is_there(archive, "events")) lay_out_events(archive, snapshot);
+  if (is_there(archive, "bottom", !snapshot.bottom_x.empty()))
     archive.group("bottom", "The charge's bottom", [&] { lay_out_bottom(archive, snapshot); });
-  if (is_recorded(archive, "faces", snapshot.faces))
+  if (is_there(archive, "faces", !snapshot.faces.empty()))
     list(archive, "faces", "A face of the charge on which a body can slide", snapshot.faces,
          [&](auto& face) { lay_out_face(archive, face); });
   std::vector<std::int64_t> body(snapshot.body.begin(), snapshot.body.end());
@@ -260,7 +242,8 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
                 {"m/s", "axial, radial, 0; relative to the frame"});
   for (const run::SnapshotField& field : run::snapshot_fields()) {
     const std::string name(field.name);
-    if (!field.always && !is_recorded(archive, name, values_of(std::as_const(snapshot), field))) continue;
+    if (!field.always && !is_there(archive, name, !values_of(std::as_const(snapshot), field).empty()))
+      continue;
     history(archive, name, values_of(snapshot, field), count,
             {std::string(field.unit),
              std::string(field.description.empty() ? field.meaning : field.description)});

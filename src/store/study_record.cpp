@@ -18,35 +18,6 @@ nlohmann::ordered_json files_json(const std::vector<WrittenFile>& files) {
   return list;
 }
 
-}  // namespace
-
-nlohmann::ordered_json to_json(const StudyRecord& record) {
-  const Manifest& manifest = record.manifest;
-  nlohmann::ordered_json libraries;
-  for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
-  nlohmann::ordered_json object{{"input_sha256", manifest.input_sha256},
-                                {"model_version", manifest.model_version},
-                                {"program_version", manifest.program_version},
-                                {"commit", manifest.commit},
-                                {"compiler", manifest.compiler},
-                                {"compiler_flags", manifest.compiler_flags},
-                                {"build_type", manifest.build_type},
-                                {"libraries", libraries},
-                                {"host", manifest.host},
-                                {"threads", manifest.threads},
-                                {"start_time", manifest.start_time},
-                                {"wall_time_s", manifest.wall_time},
-                                {"study", record.study},
-                                {"complete", record.complete},
-                                {"files", files_json(record.files)},
-                                {"failures_sha256", record.failures},
-                                {"input", manifest.input_text}};
-  if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
-  return object;
-}
-
-namespace {
-
 std::vector<WrittenFile> files_from(const nlohmann::json& list) {
   std::vector<WrittenFile> files;
   for (const auto& each : list) {
@@ -119,6 +90,31 @@ std::vector<WrittenFile> known_files(const StudyRecord& record) {
 
 }  // namespace
 
+nlohmann::ordered_json to_json(const StudyRecord& record) {
+  const Manifest& manifest = record.manifest;
+  nlohmann::ordered_json libraries;
+  for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
+  nlohmann::ordered_json object{{"input_sha256", manifest.input_sha256},
+                                {"model_version", manifest.model_version},
+                                {"program_version", manifest.program_version},
+                                {"commit", manifest.commit},
+                                {"compiler", manifest.compiler},
+                                {"compiler_flags", manifest.compiler_flags},
+                                {"build_type", manifest.build_type},
+                                {"libraries", libraries},
+                                {"host", manifest.host},
+                                {"threads", manifest.threads},
+                                {"start_time", manifest.start_time},
+                                {"wall_time_s", manifest.wall_time},
+                                {"study", record.study},
+                                {"complete", record.complete},
+                                {"files", files_json(record.files)},
+                                {"failures_sha256", record.failures},
+                                {"input", manifest.input_text}};
+  if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
+  return object;
+}
+
 std::vector<std::string> StudyRecord::names() const {
   std::set<std::string> all;
   for (const auto* list : {&files, &unfinished})
@@ -179,11 +175,10 @@ MaybeError write_study_record(const fs::path& folder, const StudyRecord& record)
 Result<fs::path> set_aside(const fs::path& folder, const std::vector<std::string>& names) {
   if (names.empty()) return fs::path{};
   fs::path target;
+  std::error_code failed;
   for (int number = 1; target.empty() || is_there(target); ++number)
     target = folder / fmt::format("earlier-{}", number);
-  std::error_code failed;
-  fs::create_directory(target, failed);
-  if (failed) return write_error(target, failed.value());
+  if (!fs::create_directory(target, failed) && failed) return write_error(target, failed.value());
   for (const std::string& name : names) {
     failed = move_to_free_name(folder / name, target / name);
     // Another shard may be moving the same files.

@@ -38,6 +38,12 @@ std::string attribute(std::string_view name, std::string_view kind, std::string_
                      name, kind, centre, data);
 }
 
+/// Numbers that have one dimension.
+std::string scalar(std::string_view name, std::string_view centre, std::size_t count,
+                   const std::string& address) {
+  return attribute(name, "Scalar", centre, item("Float", fmt::format("{}", count), address));
+}
+
 /// Each particle a quadrilateral with corners of its own; a point where the cells are not known.
 std::string mesh_of(const Stored& stored) {
   const std::size_t count = stored.snapshot.body.size();
@@ -86,8 +92,7 @@ std::string particles_of(const Stored& stored) {
     text += attribute("stress", "Tensor6", centre, item("Float", one + " 6", group + "/stress"));
   for (const run::SnapshotField& field : run::snapshot_fields()) {
     if (values_of(snapshot, field).empty()) continue;
-    text +=
-        attribute(field.name, "Scalar", centre, item("Float", one, fmt::format("{}/{}", group, field.name)));
+    text += scalar(field.name, centre, count, fmt::format("{}/{}", group, field.name));
   }
   return text;
 }
@@ -95,17 +100,14 @@ std::string particles_of(const Stored& stored) {
 std::string bottom_of(const Stored& stored) {
   const std::string group = stored.group + "/bottom";
   const std::size_t stations = stored.snapshot.bottom_x.size() / 2;
-  const std::string one = fmt::format("{}", stations);
   std::string text = lines_between(2 * stations, stations, group + "/lines", group + "/points");
   for (std::size_t i = 0; i < stored.snapshot.skins.size(); ++i) {
     const run::BottomSkin& skin = stored.snapshot.skins[i];
     const std::string gap = fmt::format("{:.6g} cm", 100.0 * skin.gap),
                       place = fmt::format("{}/gaps/{:04}/", group, i);
-    text += attribute("skin temperature, gap " + gap, "Scalar", "Cell",
-                      item("Float", one, place + "temperature"));
+    text += scalar("skin temperature, gap " + gap, "Cell", stations, place + "temperature");
     if (!skin.reaction_degree.empty())
-      text += attribute("reaction degree, gap " + gap, "Scalar", "Cell",
-                        item("Float", one, place + "reaction_degree"));
+      text += scalar("reaction degree, gap " + gap, "Cell", stations, place + "reaction_degree");
   }
   return text;
 }
@@ -115,7 +117,7 @@ std::string face_of(const Stored& stored, std::size_t index) {
   const std::size_t nodes = stored.snapshot.faces[index].slip.size();
   std::string text = lines_between(nodes, nodes - 1, group + "/lines", group + "/position");
   for (const char* name : {"slip", "contact_pressure", "shear", "opening"})
-    text += attribute(name, "Scalar", "Node", item("Float", fmt::format("{}", nodes), group + "/" + name));
+    text += scalar(name, "Node", nodes, group + "/" + name);
   return text;
 }
 

@@ -10,8 +10,6 @@
 
 namespace launchsafe::study {
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Limits that two values point to are as far off as three times their difference (see math::Extrapolation).
 constexpr double widening = 3.0;
 
@@ -64,7 +62,7 @@ template <class Quantity>
 double inexactness_of(const std::vector<InexactKey>& inexact, Quantity quantity) {
   double sum = 0.0;
   for (const InexactKey& each : inexact) {
-    double largest = each.pairs.empty() ? not_known : 0.0;
+    double largest = each.pairs.empty() ? math::not_a_number : 0.0;
     for (const auto& [one, other] : each.pairs)
       largest = larger_bound(largest, std::abs(quantity(*one) - quantity(*other)));
     sum += widening * largest;
@@ -88,7 +86,7 @@ ReferenceValue reference_value_of(const AccuracyRecord& record, const std::vecto
 
 /// The least of the reference meshes: errors that belong to it grow the soonest.
 double rise_of(const AccuracyRecord& record) {
-  double rise = std::numeric_limits<double>::infinity();
+  double rise = math::infinity;
   for (const RecordedSetting& each : record.settings) {
     if (!each.reference || each.temperature.empty()) continue;
     const double hottest = *std::ranges::max_element(each.temperature);
@@ -96,8 +94,6 @@ double rise_of(const AccuracyRecord& record) {
   }
   return std::isfinite(rise) ? rise : 0.0;
 }
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // How far a record is carried; argued in the header.
 constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0;
@@ -130,7 +126,7 @@ double air_heating_of(const scene::Scene& scene, double peak) {
 /// Case over record; 1 where both are 0, infinite where the record alone is.
 double ratio_of(double value, double recorded) {
   if (value <= 0.0) return value == recorded ? 1.0 : 0.0;
-  return recorded > 0.0 ? value / recorded : infinity;
+  return recorded > 0.0 ? value / recorded : math::infinity;
 }
 
 bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0 && launch.flaw_size > 0.0; }
@@ -138,7 +134,7 @@ bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0
 /// In crack radii and in crack radii over flaw sizes, whichever is larger.
 double crack_ratio(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
   if (!has_cracks(launch)) return 0.0;
-  if (!has_cracks(recorded)) return infinity;
+  if (!has_cracks(recorded)) return math::infinity;
   const double radii = launch.crack_radius / recorded.crack_radius;
   return std::max(radii, radii * recorded.flaw_size / launch.flaw_size);
 }
@@ -189,7 +185,7 @@ std::string beyond(double recorded, double value, const char* unit, const char* 
 /// uncertainty of the limit, and that within its inexactness of the truth. NaN where one of them is not
 /// known.
 double bound_against(const ReferenceValue& reference, double value) {
-  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (reference.values.empty()) return math::not_a_number;
   return std::abs(value - reference.values.front()) + reference.limit.uncertainty + reference.inexactness;
 }
 
@@ -197,19 +193,18 @@ double bound_against(const ReferenceValue& reference, double value) {
 
 ReferenceValue reference_value(std::vector<double> values, const std::vector<double>& sizes) {
   ReferenceValue reference;
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) values.clear();
+  if (!math::all_finite(values)) values.clear();
   reference.values = std::move(values);
   if (!reference.values.empty()) reference.limit = math::extrapolate(reference.values, sizes);
   return reference;
 }
 
 double error_against(const ReferenceValue& reference, double value) {
-  if (reference.values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return value - reference.limit.value;
+  return reference.values.empty() ? math::not_a_number : value - reference.limit.value;
 }
 
 double larger_bound(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : std::max(a, b);
+  return std::isnan(a) || std::isnan(b) ? math::not_a_number : std::max(a, b);
 }
 
 bool belongs_to_setting(const scene::KeyDescription& key) {
@@ -295,19 +290,17 @@ const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scen
 
 const RecordedSetting* cheapest_within(const AccuracyRecord& record, double tolerance) {
   const RecordedSetting* best = nullptr;
-  for (const RecordedSetting& each : record.settings) {
-    if (!(each.temperature_bound <= tolerance)) continue;
-    if (best == nullptr || each.processor_time < best->processor_time) best = &each;
-  }
+  for (const RecordedSetting& each : record.settings)
+    if (each.temperature_bound <= tolerance && !(best && best->processor_time <= each.processor_time))
+      best = &each;
   return best;
 }
 
 const RecordedSetting* most_accurate(const AccuracyRecord& record) {
   const RecordedSetting* best = nullptr;
-  for (const RecordedSetting& each : record.settings) {
-    if (std::isnan(each.temperature_bound)) continue;
-    if (best == nullptr || each.temperature_bound < best->temperature_bound) best = &each;
-  }
+  for (const RecordedSetting& each : record.settings)
+    if (!std::isnan(each.temperature_bound) && !(best && best->temperature_bound <= each.temperature_bound))
+      best = &each;
   return best;
 }
 
@@ -338,7 +331,7 @@ Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launc
   Coverage coverage;
   const double widest = recorded.gaps.empty() ? 0.0 : std::ranges::max(recorded.gaps);
   const double heating = most_heating * widest * recorded.air_heating;
-  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : infinity;
+  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : math::infinity;
   const double growth =
       std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);
   // What grows without bound is not known: the reason says so.

@@ -22,14 +22,6 @@ constexpr double smallest_bound = 1e-4;
 constexpr double longest_processor_time = 1e9;  ///< s, some thirty years
 constexpr double widest_gap = 0.01;             ///< m, as in studies
 
-ordered_json json_of(const Setting& setting) {
-  ordered_json object = ordered_json::object();
-  for (const auto& entry : setting) {
-    std::visit([&](const auto& value) { object[entry.first] = value; }, entry.second);
-  }
-  return object;
-}
-
 /// Whether a key may have a value that no reader of scenes has checked.
 bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   if (const auto* word = std::get_if<std::string>(&value))
@@ -50,7 +42,7 @@ Setting setting_from(const ordered_json& object, const std::string& path, const 
   if (!reader.has_keys(object, path, keys)) return setting;
   for (const std::string& key : keys) {
     const ordered_json& given = object[key];
-    scene::Value value = std::numeric_limits<double>::quiet_NaN();
+    scene::Value value = math::not_a_number;
     if (given.is_boolean()) value = given.get<bool>();
     if (given.is_number()) value = given.get<double>();
     if (given.is_string()) value = given.get<std::string>();
@@ -81,10 +73,14 @@ void describe_setting(RecordObject& object, RecordedSetting& each, const Accurac
   object.value("temperature_K", each.temperature,
                between(record.scene.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
   object.value("critical_gap_m", each.critical_gap, OrNone{between(0, widest_gap)});
-  if (object.reading())
-    each.setting = setting_from(object["setting"], object.path_of("setting"), record.scene, object.reader());
-  else
-    object["setting"] = json_of(each.setting);
+  ordered_json& setting = object["setting"];
+  if (object.reading()) {
+    each.setting = setting_from(setting, object.path_of("setting"), record.scene, object.reader());
+    return;
+  }
+  setting = ordered_json::object();
+  for (const auto& entry : each.setting)
+    std::visit([&](const auto& value) { setting[entry.first] = value; }, entry.second);
 }
 
 /// What single values do not show.
@@ -141,7 +137,7 @@ void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
 
 void describe_accuracy(RecordObject& object, AccuracyRecord& record) {
   object.value("title", record.title);
-  object.model_version(record.model_version, "make it anew");
+  object.model_version("make it anew");
   object.scene(record.scene, "the scene of the accuracy study");
   const std::vector<double>& gaps = record.scene.surface.gaps;
   if (object.reading() && std::set<double>(gaps.begin(), gaps.end()).size() != gaps.size())

@@ -1,6 +1,7 @@
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/study/scheduler.hpp"
 
-#include <sched.h>
+#include <tbb/info.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,21 +31,13 @@ std::vector<fs::path> control_groups() {
   return groups;
 }
 
-int cores_by_affinity() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) != 0)
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return std::max(1, CPU_COUNT(&set));
-}
-
 /// Cores that a quota per period allows, rounded up; `cores` where there is no quota.
 int limited(int cores, double quota, double period) {
   if (!(quota > 0) || !(period > 0)) return cores;
   return std::min(cores, std::max(1, static_cast<int>(std::ceil(quota / period - 1e-9))));
 }
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double unlimited = math::infinity;
 
 /// The number in a file; infinity where there is none ("max", no such file).
 double number_in(const fs::path& file) {
@@ -122,7 +115,7 @@ int threads_for_one_run(std::int64_t particles) {
 }
 
 int available_cores() {
-  int cores = cores_by_affinity();
+  int cores = std::max(1, tbb::info::default_concurrency());  // by affinity
   double quota = 0, period = 0;
   // cpu.max of a control group (version 2): "max 100000" or "200000 100000".
   for (const fs::path& group : control_groups())

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace launchsafe::study {
@@ -26,8 +25,6 @@ double combined(const std::vector<GapShare>& shares, Move move) {
 /// A length that is not negative; NaN stays NaN.
 double not_negative(double length) { return length < 0.0 ? 0.0 : length; }
 
-using State = std::function<GapState(double)>;
-
 /// Intervals of the scan; a change and back again within one of them stays unseen.
 constexpr int scan_intervals = 32;
 /// The bisection goes this much further than the tolerance before the bracket is centred on the change.
@@ -44,28 +41,28 @@ struct Bracket {
 };
 
 /// Halves a bracket down to `width`. Nothing, and the gap in `undefined`, where a state is undefined.
-std::optional<Bracket> bisect(const State& state, Bracket bracket, double width, double& undefined) {
+std::optional<Bracket> bisect(const Ignites& ignites, Bracket bracket, double width, double& undefined) {
   while (bracket.upper - bracket.lower > width) {
     const double middle = 0.5 * (bracket.lower + bracket.upper);
     if (middle <= bracket.lower || middle >= bracket.upper) break;
-    const GapState here = state(middle);
-    if (here == GapState::undefined) {
+    const std::optional<bool> here = ignites(middle);
+    if (!here) {
       undefined = middle;
       return std::nullopt;
     }
-    (here == GapState::ignites ? bracket.upper : bracket.lower) = middle;
+    (*here ? bracket.upper : bracket.lower) = middle;
   }
   return bracket;
 }
 
 /// A bracket of nearly the tolerance with the change in its middle, so that a confirmation stands clear of it
 /// on both sides. Sides that do not hold keep the narrow bracket's.
-Bracket centred(const State& state, const Bracket& narrow, double tolerance) {
+Bracket centred(const Ignites& ignites, const Bracket& narrow, double tolerance) {
   const double middle = 0.5 * (narrow.lower + narrow.upper);
   const double half = 0.5 * tolerance * (1.0 - 1e-9);
   Bracket wide{std::max(0.0, middle - half), middle + half};
-  if (wide.lower > narrow.lower || state(wide.lower) != GapState::safe) wide.lower = narrow.lower;
-  if (wide.upper < narrow.upper || state(wide.upper) != GapState::ignites) wide.upper = narrow.upper;
+  if (wide.lower > narrow.lower || ignites(wide.lower) != false) wide.lower = narrow.lower;
+  if (wide.upper < narrow.upper || ignites(wide.upper) != true) wide.upper = narrow.upper;
   return wide;
 }
 
@@ -113,19 +110,19 @@ std::string to_string(CriticalGapKind kind) {
 GapOrBound gap_or_bound(const CriticalGap& gap) {
   if (gap.kind == CriticalGapKind::value) return gap.value;
   if (gap.kind == CriticalGapKind::all_safe) return no_ignition;
-  return gap.kind == CriticalGapKind::all_ignite ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  return gap.kind == CriticalGapKind::all_ignite ? 0.0 : math::not_a_number;
 }
 
-CriticalGap find_critical_gap(const State& state, double largest, double tolerance) {
+CriticalGap find_critical_gap(const Ignites& ignites, double largest, double tolerance) {
   std::vector<double> gaps;
-  std::vector<GapState> states;
+  std::vector<std::optional<bool>> states;
   for (int i = 0; i <= scan_intervals; ++i) {
     gaps.push_back(largest * i / scan_intervals);
-    states.push_back(state(gaps.back()));
-    if (states.back() == GapState::undefined) return undefined_at(gaps.back());
+    states.push_back(ignites(gaps.back()));
+    if (!states.back()) return undefined_at(gaps.back());
   }
   CriticalGap result;
-  const auto first = std::ranges::find(states, GapState::ignites);
+  const auto first = std::ranges::find(states, true);
   const auto index = static_cast<std::size_t>(first - states.begin());
   if (first == states.end()) {
     result.kind = CriticalGapKind::all_safe;
@@ -133,7 +130,7 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
     result.reason = {GapReason::Code::none_ignites, largest};
     return result;
   }
-  const auto again = std::find(first, states.end(), GapState::safe);
+  const auto again = std::find(first, states.end(), false);
   if (again != states.end())
     result.reason = {GapReason::Code::not_monotone, gaps[static_cast<std::size_t>(again - states.begin())]};
   if (index == 0) {
@@ -143,9 +140,9 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
     return result;
   }
   double undefined = 0;
-  const auto narrow = bisect(state, {gaps[index - 1], gaps[index]}, tolerance / refinement, undefined);
+  const auto narrow = bisect(ignites, {gaps[index - 1], gaps[index]}, tolerance / refinement, undefined);
   if (!narrow) return undefined_at(undefined);
-  const Bracket bracket = centred(state, *narrow, tolerance);
+  const Bracket bracket = centred(ignites, *narrow, tolerance);
   result.kind = again == states.end() ? CriticalGapKind::value : CriticalGapKind::several_crossings;
   result.lower = bracket.lower;
   result.upper = bracket.upper;
@@ -153,22 +150,22 @@ CriticalGap find_critical_gap(const State& state, double largest, double toleran
   return result;
 }
 
-GapOrBound smallest_igniting_gap(const State& state, double begin, double end, double tolerance) {
+GapOrBound smallest_igniting_gap(const Ignites& ignites, double begin, double end, double tolerance) {
   constexpr int intervals = 8;
   double safe = begin;
   for (int i = 0; i <= intervals; ++i) {
     const double gap = begin + (end - begin) * i / intervals;
-    const GapState here = state(gap);
-    if (here == GapState::undefined) return std::numeric_limits<double>::quiet_NaN();
-    if (here == GapState::safe) {
+    const std::optional<bool> here = ignites(gap);
+    if (!here) return math::not_a_number;
+    if (!*here) {
       safe = gap;
       continue;
     }
     if (i == 0) return begin;
     double undefined = 0;
-    const auto bracket = bisect(state, {safe, gap}, tolerance, undefined);
+    const auto bracket = bisect(ignites, {safe, gap}, tolerance, undefined);
     // The lower end, so that no share towards ignition is told smaller than it is.
-    return bracket ? bracket->lower : std::numeric_limits<double>::quiet_NaN();
+    return bracket ? bracket->lower : math::not_a_number;
   }
   return no_ignition;
 }

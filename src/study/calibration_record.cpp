@@ -27,7 +27,6 @@ constexpr RecordFormat calibration_format{"launchsafe calibration record 3", "ca
 
 /// What a calibration without a failure has.
 void describe_numbers(RecordObject& object, CalibrationRecord& record) {
-  using scene::above_to, scene::between;
   const OrNone temperature_or_none{between(0, 1e4)};
   CalibrationEvidence& evidence = record.calibration.evidence;
   object.value("friction_rise_K", evidence.friction_rise, above_to(0, 5000));
@@ -48,7 +47,7 @@ void describe_numbers(RecordObject& object, CalibrationRecord& record) {
 
 void describe_calibration(RecordObject& object, CalibrationRecord& record) {
   object.value("title", record.title);
-  object.model_version(record.model_version, "make the calibration anew");
+  object.model_version("make the calibration anew");
   object.value("failure", record.failure);
   object.scene(record.calibration.scene, "the calibrated scene");
   object.value("load_fitted", record.load_fitted);
@@ -102,9 +101,9 @@ void describe_evidence(RecordObject& object, FiringEvidence& evidence) {
   object.part("posterior_of_doubled_prior", evidence.of_doubled_prior, describe_posterior);
 }
 
-void describe_record(RecordObject& object, FiringRecord& record) {
+void describe_record(RecordObject& object, CalibrationRecord& record) {
   object.value("title", record.title);
-  object.model_version(record.model_version, "make the calibration anew");
+  object.model_version("make the calibration anew");
   object.scene(record.calibration.scene, "the calibrated scene");
   CalibrationEvidence& evidence = record.calibration.evidence;
   object.value("friction_rise_K", evidence.friction_rise, above_to(0, 5000));
@@ -165,14 +164,7 @@ Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) 
 
 /// The record of a calibration of either sort. On firings none fits the load.
 scene::Expected<CalibrationRecord> parse_either(const std::string& text, const std::string& file) {
-  if (!is_firing_record(text)) return parse_calibration_record(text, file);
-  auto record = parse_firing_record(text, file);
-  if (!record) return record.error();
-  CalibrationRecord own;
-  own.title = std::move(record->title);
-  own.model_version = record->model_version;
-  own.calibration = std::move(record->calibration);
-  return own;
+  return is_firing_record(text) ? parse_firing_record(text, file) : parse_calibration_record(text, file);
 }
 
 /// The record that a key names, noted as one that the study rests on.
@@ -216,7 +208,7 @@ double calibrated_gap(const std::vector<Firing>& firings, double pressure, doubl
   const auto at_least = [](double value, double other) {
     return value >= other * (1.0 - round_off_of_units);
   };
-  double ignites = std::numeric_limits<double>::infinity();
+  double ignites = math::infinity;
   for (const Firing& each : firings)
     if (each.ignited && at_least(pressure, each.pressure) && at_least(temperature, each.temperature))
       ignites = std::min(ignites, each.gap);
@@ -259,7 +251,9 @@ bool StationConvergence::converges() const {
 }
 
 std::string to_json_text(const CalibrationRecord& record) {
-  return record_text(content_by(calibration_format, describe_calibration, record));
+  return record_text(record.calibration.firings
+                         ? content_by(firing_format, describe_record, record)
+                         : content_by(calibration_format, describe_calibration, record));
 }
 
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text,
@@ -270,17 +264,11 @@ scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& t
   return parse_record<CalibrationRecord>(text, file, calibration_format, describe_calibration);
 }
 
-std::string to_json_text(const FiringRecord& record) {
-  return record_text(content_by(firing_format, describe_record, record));
-}
-
 bool is_firing_record(const std::string& text) { return text.find(firing_format.name) != std::string::npos; }
 
-scene::Expected<FiringRecord> parse_firing_record(const std::string& text, const std::string& file) {
-  return parse_record<FiringRecord>(text, file, firing_format, describe_record);
+scene::Expected<CalibrationRecord> parse_firing_record(const std::string& text, const std::string& file) {
+  return parse_record<CalibrationRecord>(text, file, firing_format, describe_record);
 }
-
-std::string to_text(const FiringEvidence& evidence) { return json_by(describe_evidence, evidence).dump(); }
 
 Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;

@@ -100,12 +100,9 @@ std::string digest_of_analysis(const Study& study) {
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
   }
-  const CalibrationEvidence& evidence = study.calibration.evidence;
-  text += fmt::format("{} {} {} {}\n", evidence.friction_rise, evidence.air_rise, evidence.largest_gap,
-                      evidence.fit_uncertainty) +
-          scene::to_toml(study.calibration.scene);
-  if (study.calibration.firings) text += to_text(*study.calibration.firings);
-  text += fmt::format("{}\n", study.model_form_uncertainty);
+  CalibrationRecord record;
+  record.calibration = study.calibration;
+  text += fmt::format("{}\n{}\n", to_json_text(record), study.model_form_uncertainty);
   if (study.model_form) text += to_json_text(*study.model_form);
   for (const scene::Implausible& each : study.implausible)
     text += fmt::format("{} {} {}\n", each.key, each.value, each.because);
@@ -216,23 +213,17 @@ class AnswerRunner {
       tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
         if (answers_[members[i]]) return;
         const FinishedRun* lacking = run_without_result(runs);
-        answers_[members[i]] = lacking != nullptr && is_of_no_report(*lacking)
-                                   ? without_rows(*lacking)
-                                   : answer(study_.cases[members[i]], runs);
+        // A study that was stopped, and a shard, report nothing: there may be a million such cases.
+        if (lacking == nullptr ||
+            !(lacking->outcome == RunOutcome::other_shard || stop_requested(options_))) {
+          answers_[members[i]] = answer(study_.cases[members[i]], runs);
+          return;
+        }
+        CaseAnswer& without_rows = answers_[members[i]].emplace();
+        without_rows.outcome = lacking->outcome;
+        without_rows.failure = lacking->failure;
       });
     });
-  }
-
-  /// A study that was stopped, and a shard, report nothing: there may be a million such cases.
-  bool is_of_no_report(const FinishedRun& lacking) const {
-    return lacking.outcome == RunOutcome::other_shard || stop_requested(options_);
-  }
-
-  static CaseAnswer without_rows(const FinishedRun& lacking) {
-    CaseAnswer answer;
-    answer.outcome = lacking.outcome;
-    answer.failure = lacking.failure;
-    return answer;
   }
 
   CaseAnswer answer(const StudyCase& input, const std::vector<FinishedRun>& runs) {

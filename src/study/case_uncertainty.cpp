@@ -134,8 +134,7 @@ double heat_factor(const Study& study, const scene::Scene& scene, const trace::B
   for (const double each : {0.0, gap}) {
     for (const Posterior* posterior : {&evidence.posterior, &evidence.of_doubled_prior}) {
       const auto boundary = boundary_for(*posterior, model, trace, each);
-      const double factor =
-          boundary ? heat_factor(*posterior, *boundary, constants) : std::numeric_limits<double>::infinity();
+      const double factor = boundary ? heat_factor(*posterior, *boundary, constants) : math::infinity;
       largest = std::max(largest, factor);
     }
   }

@@ -24,15 +24,7 @@ const std::vector<Key<CitedLimit>>& cited_limit_keys() {
 }
 
 Fault read_cited_limits(const toml::table& root, StudyFile& study) {
-  const auto tables = tables_of(root, "cited_limit", study.file);
-  if (!tables) return tables.error();
-  for (const toml::table* table : *tables) {
-    CitedLimit limit;
-    auto read = scene::read_table(*table, cited_limit_keys(), {}, study.file, limit);
-    if (!read) return in_table(read.error(), "cited_limit");
-    study.study.cited_limits.push_back(std::move(limit));
-  }
-  return std::nullopt;
+  return read_rows(root, "cited_limit", cited_limit_keys(), study.file, study, study.study.cited_limits);
 }
 
 namespace {
@@ -40,7 +32,7 @@ namespace {
 /// The cases whose peak pressure is nearest to one, Pa.
 std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count, double peak_pressure) {
   std::vector<std::size_t> nearest;
-  double least = std::numeric_limits<double>::infinity();
+  double least = math::infinity;
   for (std::size_t i = 0; i < count; ++i) {
     const double distance = std::abs(study.cases[i].peak_pressure - peak_pressure);
     const double slack = 1e-9 * peak_pressure;
@@ -73,7 +65,7 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
   const std::size_t count = std::min(study.cases.size(), critical.size());
   const std::vector<std::size_t> cases = with_own_defect(study, nearest_cases(study, count, pressure));
   comparison.cases = cases.size();
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = math::infinity;
   for (const std::size_t i : cases) {
     // In the order of the smallest that the critical gap may be.
     const GapOrBound known = gap_or_bound(*critical[i]), gap = std::isnan(known) ? -1.0 : known;

@@ -3,7 +3,7 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/selective_inertia.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
 #include <fmt/format.h>

@@ -30,15 +30,13 @@ std::vector<Node> nodes_of(int count) {
   return nodes;
 }
 
-double total_spread(double scatter, double log_heat_spread) { return std::hypot(scatter, log_heat_spread); }
-
 /// Of all rounds of a launch, whose heat has to grow by that margin until it ignites. A larger spread of
 /// pressure and temperature must not speak for safety. A round that did not ignite may have been an average
 /// or a cold one: the one that shows less counts. One that ignited counts as an average one.
 double log_likelihood(const FiredLaunch& launch, double log_heat_margin, double scatter) {
   const double as_average = log_heat_margin / scatter;
   if (launch.ignited) return launch.rounds * std::log(below(-as_average));
-  const double z = log_heat_margin / total_spread(scatter, launch.log_heat_spread);
+  const double z = log_heat_margin / std::hypot(scatter, launch.log_heat_spread);
   return launch.rounds * std::log(below(std::max(z, as_average)));
 }
 
@@ -133,7 +131,7 @@ std::vector<double> ignition_probabilities(const Posterior& posterior,
   std::vector<double> probabilities;
   for (const PosteriorPoint& each : posterior)
     probabilities.push_back(
-        below(-boundary.log_heat_margin(each.constants) / total_spread(each.scatter, log_heat_spread)));
+        below(-boundary.log_heat_margin(each.constants) / std::hypot(each.scatter, log_heat_spread)));
   return probabilities;
 }
 
@@ -149,7 +147,7 @@ double tail_probability(const std::vector<double>& probabilities, int ignited, i
 
 double heat_factor(const Posterior& posterior, const surface::IgnitionBoundary& boundary,
                    const surface::SurfaceConstants& constants) {
-  if (posterior.empty()) return std::numeric_limits<double>::infinity();
+  if (posterior.empty()) return math::infinity;
   std::vector<double> margins;
   for (const PosteriorPoint& each : posterior) margins.push_back(boundary.log_heat_margin(each.constants));
   // The share of rounds whose margin is below a value, over all points.
@@ -170,7 +168,7 @@ double heat_factor(const Posterior& posterior, const surface::IgnitionBoundary& 
 }
 
 double quantile_of(std::vector<double> values, double share) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return math::not_a_number;
   std::ranges::sort(values);
   const double place = share * static_cast<double>(values.size() - 1);
   const auto lower = static_cast<std::size_t>(place);

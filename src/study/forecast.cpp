@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <queue>
 #include <sstream>
 
 namespace launchsafe::study {
@@ -93,31 +92,24 @@ bool is_given_up(const std::string& hash, const StudyOptions& options) {
 void learn_rate(Forecast& forecast, const StudyOptions& options) {
   if (options.store == nullptr) return;
   double updates = 0, seconds = 0;
-  std::size_t runs = 0;
   for (const RunRecord& entry : options.store->records()) {
     if (entry.state != CaseState::done || !(entry.wall_time > 0)) continue;
     updates += entry.predicted_updates;
     seconds += entry.wall_time;
-    ++runs;
+    ++forecast.learned_from;
   }
-  if (runs == 0 || !(updates > 0)) return;
-  forecast.update_rate = updates / seconds;
-  forecast.learned_from = runs;
+  if (updates > 0)
+    forecast.update_rate = updates / seconds;
+  else
+    forecast.learned_from = 0;
 }
 
 /// Wall time of runs on several cores, the longest first.
 double time_on(std::vector<double> times, int jobs) {
-  std::sort(times.rbegin(), times.rend());
-  std::priority_queue<double, std::vector<double>, std::greater<>> ends;
-  for (int core = 0; core < jobs; ++core) ends.push(0.0);
-  double last = 0;
-  for (const double time : times) {
-    const double end = ends.top() + time;
-    ends.pop();
-    ends.push(end);
-    last = std::max(last, end);
-  }
-  return last;
+  std::ranges::sort(times, std::greater());
+  std::vector<double> ends(static_cast<std::size_t>(jobs), 0.0);
+  for (const double time : times) *std::ranges::min_element(ends) += time;
+  return std::ranges::max(ends);
 }
 
 ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, const Reasons& reasons,

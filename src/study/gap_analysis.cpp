@@ -56,7 +56,7 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
   const double gap = row.gap + raised.thicker;
   const surface::SkinModel skin = row.ignition ? without_reaction(raised.skin) : raised.skin;
   const auto history = surface::integrate_skin(skin, *raised.trace, gap);
-  if (history.ignition && !row.ignition) return std::numeric_limits<double>::infinity();
+  if (history.ignition && !row.ignition) return math::infinity;
   const double hotter = surface::maximum_at_stations(history, *raised.trace).temperature -
                         (row.ignition ? row.heated : row.maximum.temperature);
   return hotter < 0.0 ? 0.0 : hotter;  // NaN stays NaN
@@ -65,7 +65,7 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
 /// K, the random causes together, as independent ones are.
 double input_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
   double squares = outcome.raised ? 0.0 : std::pow(stated_input_share(study, outcome.input), 2);
-  for (const RaisedLaunch& each : raised_inputs(study, outcome, End::towards_ignition)) {
+  for (const RaisedLaunch& each : raised_launches(study, outcome, End::towards_ignition)) {
     const double share = raised_share(each, row);
     squares += share * share;
   }
@@ -143,12 +143,12 @@ GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, cons
                            End end) {
   if (launch.trace == nullptr) return not_a_number;
   const surface::IgnitionOfGaps ignites(launch.skin, *launch.trace);
-  const auto state = [&](double gap) { return state_of(ignites(std::max(0.0, gap + launch.thicker))); };
+  const auto thicker = [&](double gap) { return ignites(std::max(0.0, gap + launch.thicker)); };
   const bool towards = end == End::towards_ignition;
   const double from = towards ? 0.0 : critical.upper;
   const double to = towards ? (critical.kind == CriticalGapKind::value ? critical.upper : critical.lower)
                             : largest_gap(study);
-  return smallest_igniting_gap(state, from, to, study.tolerance);
+  return smallest_igniting_gap(thicker, from, to, study.tolerance);
 }
 
 /// The case at the gap next to its critical one that does not ignite, or where the search ended.
@@ -172,9 +172,9 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
     return;
   if (critical.kind == CriticalGapKind::all_ignite) return set_shares(critical, {});
   const GapVerdict row = row_at_critical_gap(study, outcome);
-  std::vector<RaisedLaunch> raised = raised_launches(study, outcome, row, End::towards_ignition);
+  std::vector<RaisedLaunch> raised = raised_launches(study, outcome, End::towards_ignition, &row);
   std::vector<RaisedLaunch> lowered;
-  if (critical.kind == CriticalGapKind::value) lowered = raised_launches(study, outcome, row, End::away);
+  if (critical.kind == CriticalGapKind::value) lowered = raised_launches(study, outcome, End::away, &row);
   std::vector<GapShare> shares(raised.size());
   // Cores that find no further run help here; a thread that waits for them must not start one.
   tbb::this_task_arena::isolate([&] {
@@ -222,7 +222,7 @@ std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
 
 /// Without a trace there is no heat, and a study without verdicts does not ask whether anything was launched.
 CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
-  constexpr double unasked = std::numeric_limits<double>::infinity();
+  constexpr double unasked = math::infinity;
   const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
   CaseStatements input = statements_of(study, outcome.input);
   if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
@@ -243,8 +243,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   }
   const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
   const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
-  outcome.critical = find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, largest_gap(study),
-                                       study.tolerance);
+  outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), study.tolerance);
   if (outcome.evidence->input.has_unaccepted()) {
     const GapOrBound indicative = gap_or_bound(outcome.critical);
     outcome.critical = indeterminate({.code = Code::unaccepted, .of_case = outcome.evidence});
@@ -280,11 +279,6 @@ void attach_references(const Study& study, const StudyCase& input, std::vector<G
   }
 }
 
-GapState state_of(std::optional<bool> ignites) {
-  if (!ignites) return GapState::undefined;
-  return *ignites ? GapState::ignites : GapState::safe;
-}
-
 double friction_share(const CaseOutcome& outcome) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const materials::Charge& charge = scene.charge();
@@ -299,13 +293,6 @@ double friction_share(const CaseOutcome& outcome) {
 double opening_at_base(const CaseOutcome& outcome) {
   return run::opening_at_bottom(outcome.result.mechanics,
                                 scene::charge_extent(outcome.input.scene.scene).x_end);
-}
-
-GapState state_of(const surface::SkinHistory& history) {
-  const bool finite =
-      std::ranges::all_of(history.temperature, [](double temperature) { return std::isfinite(temperature); });
-  if (history.temperature.empty() || !finite) return GapState::undefined;
-  return history.ignition ? GapState::ignites : GapState::safe;
 }
 
 double largest_gap(const Study& study) {

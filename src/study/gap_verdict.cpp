@@ -14,9 +14,7 @@ using keys::ActsOn;
 using Regressors = std::function<std::vector<double>(double)>;
 
 double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value * value;
-  return std::sqrt(sum / static_cast<double>(values.size()));
+  return std::sqrt(math::sum_of_squares(values) / static_cast<double>(values.size()));
 }
 
 Line line_through(double intercept, double slope, const std::vector<double>& gaps_cm,
@@ -80,10 +78,9 @@ bool is_of_skin(const std::string& key) {
 /// K from there to ignition with all skin_keys as calibrated; infinite where there are none, minus
 /// infinite where it ignites.
 double margin_as_calibrated(const std::vector<AsCalibrated>& all, double ignition_temperature) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const AsCalibrated& each : all)
-    if (each.key.empty()) return each.ignites ? -infinity : ignition_temperature - each.temperature;
-  return infinity;
+    if (each.key.empty()) return each.ignites ? -math::infinity : ignition_temperature - each.temperature;
+  return math::infinity;
 }
 
 }  // namespace
@@ -95,7 +92,10 @@ std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vecto
   for (const double gap : gaps) gaps_cm.push_back(100.0 * gap);
   const auto fitted = math::fit_line(gaps_cm, temperatures);
   if (!fitted) return std::nullopt;
-  GapFit fit{.gaps = gaps, .temperatures = temperatures, .least_squares = *fitted};
+  GapFit fit;
+  fit.gaps = gaps;
+  fit.temperatures = temperatures;
+  fit.least_squares = *fitted;
   const double slope = fitted->coefficients[1];
   fit.ordinary = line_through(fitted->coefficients[0], slope, gaps_cm, temperatures);
   for (std::size_t i = 0; i < gaps.size(); ++i) {

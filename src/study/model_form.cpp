@@ -1,6 +1,5 @@
 #include "launchsafe/study/model_form.hpp"
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
 
@@ -12,6 +11,7 @@
 namespace launchsafe::study {
 namespace {
 
+using namespace std::string_literals;
 using nlohmann::ordered_json;
 
 /// K; a model whose stations move by more from the scene's mesh to a finer one has no limit that is known.
@@ -26,8 +26,6 @@ std::string why_not_counted(const CalibrationRecord& calibration) {
     return fmt::format("no limit of meshes: a station changes by {:.3g} K", calibration.stations.finer);
   return {};
 }
-
-ModelFormOrError refused(std::string error) { return {std::nullopt, std::move(error)}; }
 
 /// Why a scene is not that of the calibrated model; empty where it is.
 std::string why_another(const ModelFormEntry& entry) {
@@ -70,20 +68,14 @@ std::optional<PressureInterval> interval_of(const std::vector<double>& pressures
   return PressureInterval{above - 1, above};
 }
 
-/// The shifts at one recorded pressure, m. NaN where they are not known: where the default has a bound alone,
-/// how far another one lies is not known, and where no other model counts, nothing was compared.
-struct Shift {
-  double sooner = std::nan(""), later = std::nan("");
-};
-
-/// Written so that either being NaN makes it NaN.
-double larger(double a, double b) { return a >= b ? a : b + 0.0 * a; }
-
-Shift shift_at(const ModelFormRecord& record, std::size_t pressure) {
+/// The shift at one recorded pressure. NaN where it is not known: where the default has a bound alone, how
+/// far another one lies is not known, and where no other model counts, nothing was compared.
+ModelFormShift shift_at(const ModelFormRecord& record, std::size_t pressure) {
+  const ModelFormShift unknown{math::not_a_number, math::not_a_number, {}};
   const GapOrBound own = record.critical_gap[pressure];
-  if (!(own > 0.0) || own == no_ignition) return {};
+  if (!(own > 0.0) || own == no_ignition) return unknown;
   bool compared = false;
-  Shift most{0.0, 0.0};
+  ModelFormShift most;
   for (const ModelAlternative& each : record.alternatives) {
     if (!each.not_counted.empty()) continue;
     compared = true;
@@ -92,10 +84,10 @@ Shift shift_at(const ModelFormRecord& record, std::size_t pressure) {
       most.later = no_ignition;
       continue;
     }
-    most.sooner = larger(most.sooner, own - other);
-    most.later = larger(most.later, other - own);
+    most.gap = larger_bound(most.gap, own - other);
+    most.later = larger_bound(most.later, other - own);
   }
-  return compared ? most : Shift{};
+  return compared ? most : unknown;
 }
 
 double peak_of(const scene::Scene& scene) { return scene::PressureHistory(scene.load).stated_peak(); }
@@ -156,7 +148,7 @@ void describe_alternative(RecordObject& object, ModelAlternative& each, std::siz
 }
 
 void describe_model_form(RecordObject& object, ModelFormRecord& record) {
-  object.model_version(record.model_version, "make it anew");
+  object.model_version("make it anew");
   object.scene(record.scene, "a scene");
   std::vector<double>& pressures = record.peak_pressures;
   object.value("peak_pressures_Pa", pressures, scene::above_to(0, 10e9), 1, most_pressures);
@@ -174,36 +166,34 @@ void describe_model_form(RecordObject& object, ModelFormRecord& record) {
 
 }  // namespace
 
-ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
-                                 std::vector<double> peak_pressures) {
-  if (entries.size() < 2) return refused("a record needs the default model and at least one alternative");
+scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<ModelFormEntry>& entries,
+                                                              std::vector<double> peak_pressures) {
+  if (entries.size() < 2) return "a record needs the default model and at least one alternative"s;
   const ModelFormEntry& own = entries.front();
   ModelFormRecord record;
-  record.model_version = run::model_version;
   record.scene = own.scene;
   record.peak_pressures = std::move(peak_pressures);
   record.critical_gap = own.critical_gap;
   if (!std::isfinite(own.calibration->stations.finer))
-    return refused(own.name +
-                   " cannot be the default: its calibration has no finer mesh to compare stations with");
+    return own.name + " cannot be the default: its calibration has no finer mesh to compare stations with";
   if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
-    return refused(fmt::format("{} cannot be the default: {}", own.name, reason));
+    return fmt::format("{} cannot be the default: {}", own.name, reason);
   for (const ModelFormEntry& each : entries) {
     if (const std::string reason = why_another(each); !reason.empty())
-      return refused(fmt::format("{}: {}", each.name, reason));
+      return fmt::format("{}: {}", each.name, reason);
     if (each.critical_gap.size() != record.peak_pressures.size())
-      return refused(fmt::format("{}: other peak pressures than {}", each.name, own.name));
+      return fmt::format("{}: other peak pressures than {}", each.name, own.name);
     if (&each == &own) continue;
     if (const std::string reason = why_no_alternative(own, each); !reason.empty())
-      return refused(fmt::format("{}: {}", each.name, reason));
+      return fmt::format("{}: {}", each.name, reason);
     ModelAlternative alternative{each.name, each.title, why_not_counted(*each.calibration),
                                  each.critical_gap};
     const auto unknown = [](double gap) { return std::isnan(gap); };
     if (alternative.not_counted.empty() && std::ranges::any_of(alternative.critical_gap, unknown))
-      return refused(fmt::format("{}: a critical gap is not known", each.name));
+      return fmt::format("{}: a critical gap is not known", each.name);
     record.alternatives.push_back(std::move(alternative));
   }
-  return {std::move(record), {}};
+  return record;
 }
 
 scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record) {
@@ -214,10 +204,10 @@ scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record) {
 
 ModelFormShift model_form_shift(const ModelFormRecord& record, const scene::Scene& scene) {
   if (std::string reason = why_outside(record, scene); !reason.empty())
-    return {std::nan(""), std::nan(""), std::move(reason)};
+    return {math::not_a_number, math::not_a_number, std::move(reason)};
   const PressureInterval around = *interval_of(record.peak_pressures, peak_of(scene));
-  const Shift below = shift_at(record, around.below), above = shift_at(record, around.above);
-  const double sooner = larger(below.sooner, above.sooner), later = larger(below.later, above.later);
+  const ModelFormShift below = shift_at(record, around.below), above = shift_at(record, around.above);
+  const double sooner = larger_bound(below.gap, above.gap), later = larger_bound(below.later, above.later);
   if (std::isnan(sooner))
     return {sooner, later,
             "it has no critical gap of the default model, or no other model that counts, there", around};

@@ -146,49 +146,46 @@ class Causes {
   std::vector<RaisedLaunch> raised_;
 };
 
+/// Whether all of a skin's temperatures are numbers and it does not ignite.
+bool is_safe(const surface::SkinHistory& history) {
+  return !history.ignition && !history.temperature.empty() && math::all_finite(history.temperature);
+}
+
 OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface::SkinModel& model,
                       const trace::BottomTrace& whole) {
   const trace::BottomTrace trace = trace::of_rings(whole);
   std::vector<double> gaps = gaps_of(study, input);
   gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());
-  std::vector<GapState> states(gaps.size());
+  std::vector<char> safe(gaps.size());
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
       const auto history = surface::integrate_skin(model, trace, gaps[i]);
       temperatures[i] =
           std::max(surface::maximum_at_stations(history, trace).temperature, history.hottest_depth);
-      states[i] = state_of(history);
+      safe[i] = is_safe(history);
     });
   });
   OtherAnswer answer;
   answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
   const surface::IgnitionOfGaps ignites(model, trace);
-  const bool all_safe = std::ranges::all_of(states, [](GapState state) { return state == GapState::safe; });
-  if (all_safe) {
+  if (std::ranges::count(safe, true) == std::ssize(safe)) {
     answer.critical.kind = CriticalGapKind::all_safe;
     answer.critical.lower = gaps.back();
     answer.critical.reason = {.code = GapReason::Code::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
   } else {
-    answer.critical =
-        find_critical_gap([&](double gap) { return state_of(ignites(gap)); }, gaps.back(), study.tolerance);
+    answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), study.tolerance);
   }
   return answer;
 }
 
 }  // namespace
 
-std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& outcome, End end) {
+std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome, End end,
+                                          const GapVerdict* row) {
   Causes causes(study, outcome, end);
   causes.add_inputs();
-  return causes.take();
-}
-
-std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome,
-                                          const GapVerdict& row, End end) {
-  Causes causes(study, outcome, end);
-  causes.add_inputs();
-  causes.add_knowledge(row);
+  if (row != nullptr) causes.add_knowledge(*row);
   return causes.take();
 }
 

@@ -1,5 +1,6 @@
 #include "launchsafe/study/record_reader.hpp"
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace launchsafe::study {
@@ -105,13 +105,13 @@ bool RecordReader::has_keys(const ordered_json& object, const std::string& path,
 
 void RecordReader::read(const ordered_json& value, const std::string& path, double& number,
                         const Limits& limits) {
-  number = value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  number = value.is_number() ? value.get<double>() : math::not_a_number;
   if (!std::isfinite(number) || !limits.contain(number)) refuse(path, found_in(value), allowed_by(limits));
 }
 
 void RecordReader::read(const ordered_json& value, const std::string& path, double& number,
                         const OrNone& allowed) {
-  number = std::numeric_limits<double>::quiet_NaN();
+  number = math::not_a_number;
   if (!value.is_null()) read(value, path, number, allowed.limits);
 }
 
@@ -145,7 +145,20 @@ void RecordReader::read(const ordered_json& value, const std::string& path, std:
   text = value.get<std::string>();
 }
 
-void RecordObject::model_version(int& version, const char* anew) {
+void RecordObject::numbers(const std::string& key, std::vector<double>& numbers, std::size_t count,
+                           const std::string& allowed, const Limits& limits) {
+  ordered_json& list = (*this)[key];
+  if (!reading()) {
+    list = numbers;
+    return;
+  }
+  if (!list.is_array() || list.size() != count) return reader_->refuse(path_of(key), found_in(list), allowed);
+  for (const ordered_json& each : list)
+    reader_->read(each, path_of(key), numbers.emplace_back(), OrNone{limits});
+}
+
+void RecordObject::model_version(const char* anew) {
+  int version = run::model_version;
   value("model_version", version, 1, 1'000'000);
   if (reading() && version != run::model_version) {
     reader_->refuse("model_version", fmt::format("{}", version),

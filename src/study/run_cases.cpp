@@ -1,8 +1,8 @@
 #include "launchsafe/study/run_cases.hpp"
 
 #include "launchsafe/run/model_version.hpp"
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -245,8 +245,6 @@ double memory_of(const CaseRun& run) {
   const run::Cost cost = run::cost_of(run.scene);
   return cost.memory() + (run.skin_gap ? cost.skins : 0.0);
 }
-
-Runners simulation_runners() { return {run::run_mechanics, run::run_with_skin}; }
 
 CaseRun mechanics_run(const scene::Scene& scene, std::string label) {
   return planned(scene::mechanical_part(scene), std::nullopt, std::move(label));

@@ -45,11 +45,6 @@ void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracke
 /// The tasks that wait, the most costly first, and the memory that is left for them.
 class Queue {
  public:
-  struct Taken {
-    std::size_t index = 0;
-    Task task;
-  };
-
   Queue(const std::vector<WaitingTask>& tasks, double memory)
       : tasks_(tasks), made_(tasks.size()), limit_(memory), free_(memory) {
     waiting_.resize(tasks.size());
@@ -62,7 +57,7 @@ class Queue {
 
   /// The next task that fits, its memory taken; waits for one to fit. Nothing when none is left or `stop` is
   /// set.
-  std::optional<Taken> take(const std::atomic<bool>* stop) {
+  std::optional<std::pair<std::size_t, Task>> take(const std::atomic<bool>* stop) {
     std::unique_lock lock(mutex_);
     while (!waiting_.empty() && !(stop != nullptr && stop->load(std::memory_order_relaxed))) {
       // One that is refused is taken at once.
@@ -73,11 +68,11 @@ class Queue {
       };
       const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
       if (found != waiting_.rend()) {
-        Taken taken{*found, std::move(*made_[*found])};
+        std::pair taken{*found, std::move(*made_[*found])};
         made_[*found].reset();
         waiting_.erase(std::next(found).base());
-        if (!is_refused(taken.task)) {
-          free_ -= taken.task.memory;
+        if (!is_refused(taken.second)) {
+          free_ -= taken.second.memory;
           ++running_;
         }
         return taken;

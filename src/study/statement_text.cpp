@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace launchsafe::study {
 namespace {
 
@@ -20,16 +22,50 @@ std::string margin_text(const char* relation, const Evidence& evidence) {
 /// A bound of the critical gap (m), to the digits that count.
 std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
 
+/// Of a rule its name in files, and its words where they are always the same.
+struct RuleWords {
+  const char *name, *text = "";
+};
+/// In the order of ReasonCode.
+constexpr std::array<RuleWords, 23> rules{{
+    {"not-judged", "nothing was judged"},
+    {"failed"},
+    {"no-temperature", "the temperature is not a number"},
+    {"validity-warning"},
+    {"ignition"},
+    {"closing-ignition", "ignition where the gap closes"},
+    {"unaccepted"},
+    {"no-margin", "no margin to the ignition temperature"},
+    {"optimistic"},
+    {"beyond-firings",
+     "no round with a gap as thick was fired without ignition at such a pressure and temperature"},
+    {"critical-gap-indeterminate"},
+    {"several-crossings"},
+    {"smaller-gaps-ignite", "no ignition here, but at smaller gaps"},
+    {"margin-within-uncertainty"},
+    {"calibrated-margin-within-uncertainty",
+     "with the constants of the surface as calibrated the margin is within the uncertainty"},
+    {"margin-over-uncertainty"},
+    {"no-lower-bound", "the critical gap has no lower bound"},
+    {"may-ignite-without-gap", "the launch may ignite without a gap"},
+    {"not-below-bound"},
+    {"closing-unknown", "what this gap does where it closes is not known"},
+    {"closing-without-corner",
+     "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) were not "
+     "computed, as in no study of many cases"},
+    {"closing-corner"},
+    {"below-bound"},
+}};
+const RuleWords& words_of(ReasonCode code) { return rules.at(static_cast<std::size_t>(code)); }
+
 }  // namespace
+
+std::string to_string(ReasonCode code) { return words_of(code).name; }
 
 std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
   switch (judgement.code) {
-    case ReasonCode::not_judged:
-      return "nothing was judged";
     case ReasonCode::failed:
       return evidence.of_case->failure.empty() ? "the run failed" : evidence.of_case->failure;
-    case ReasonCode::no_temperature:
-      return "the temperature is not a number";
     case ReasonCode::validity_warning: {
       const std::string unaccepted = unaccepted_text(evidence.of_case->input);
       return fmt::format("validity warning: {}{}{}", validity_warnings_text(evidence),
@@ -39,41 +75,22 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
       const std::string unaccepted = unaccepted_text(evidence.of_case->input);
       return unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted;
     }
-    case ReasonCode::closing_ignition:
-      return "ignition where the gap closes";
     case ReasonCode::unaccepted:
       return "validity warning: " + unaccepted_text(evidence.of_case->input);
-    case ReasonCode::no_margin:
-      return "no margin to the ignition temperature";
     case ReasonCode::optimistic:
       return to_string(evidence.of_case->input.optimistic
                            ? evidence.of_case->input.optimistic
                            : optimistic_by_run(evidence.of_case->friction_rise));
-    case ReasonCode::beyond_firings:
-      return "no round with a gap as thick was fired without ignition at such a pressure and temperature";
     case ReasonCode::critical_gap_indeterminate:
       return "the critical gap is indeterminate: " + to_string(judgement.critical_gap);
     case ReasonCode::several_crossings:
       return "ignition comes and goes with the gap: " + to_string(judgement.critical_gap);
-    case ReasonCode::smaller_gaps_ignite:
-      return "no ignition here, but at smaller gaps";
     case ReasonCode::margin_within_uncertainty:
       return margin_text("within the uncertainty,", evidence);
-    case ReasonCode::calibrated_margin_within_uncertainty:
-      return "with the constants of the surface as calibrated the margin is within the uncertainty";
     case ReasonCode::margin_over_uncertainty:
       return margin_text("over uncertainty", evidence);
-    case ReasonCode::no_lower_bound:
-      return "the critical gap has no lower bound";
-    case ReasonCode::may_ignite_without_gap:
-      return "the launch may ignite without a gap";
     case ReasonCode::not_below_bound:
       return "the critical gap may be as small as " + bound_text(judgement.at_least);
-    case ReasonCode::closing_unknown:
-      return "what this gap does where it closes is not known";
-    case ReasonCode::closing_without_corner:
-      return "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) "
-             "were not computed, as in no study of many cases";
     case ReasonCode::closing_corner:
       return "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) " +
              (std::isfinite(evidence.closing.corner_margin)
@@ -82,8 +99,9 @@ std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
                   : std::string("it ignites"));
     case ReasonCode::below_bound:
       return "below the lower bound of the critical gap, " + bound_text(judgement.at_least);
+    default:
+      return words_of(judgement.code).text;
   }
-  return {};
 }
 
 std::string validity_warnings_text(const Evidence& evidence) {

@@ -124,8 +124,7 @@ const std::vector<NamedAxis>& named_axes() {
 
 scene::Expected<KeyDescription> varied_key(const StudyFile& study, const std::string& name,
                                            const std::string& faulty_key, const Place& place) {
-  const auto named = std::find_if(named_axes().begin(), named_axes().end(),
-                                  [&](const NamedAxis& axis) { return axis.name == name; });
+  const auto named = std::ranges::find(named_axes(), name, &NamedAxis::name);
   const std::string& wanted = named == named_axes().end() ? name : named->key;
   auto key = scene::describe_key(study.scene, wanted, place);
   if (!key || key->kind != KeyKind::number) {

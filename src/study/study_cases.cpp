@@ -151,14 +151,7 @@ void Cases::replace(std::size_t index, StudyCase made) {
 
 bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
-bool same_value(const scene::Value& a, const scene::Value& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* number = std::get_if<double>(&a)) return same_number(*number, std::get<double>(b));
-  const auto* list = std::get_if<std::vector<double>>(&a);
-  if (list == nullptr) return a == b;
-  const auto& other = std::get<std::vector<double>>(b);
-  return std::equal(list->begin(), list->end(), other.begin(), other.end(), same_number);
-}
+bool same_value(const scene::Value& a, const scene::Value& b) { return scene::same_value(a, b, 1e-9); }
 
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
                                                const std::vector<Change>& changes, bool may_close) {

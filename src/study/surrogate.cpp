@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace launchsafe::study {
 namespace {
@@ -174,10 +173,9 @@ std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput ou
   return chosen;
 }
 
-std::vector<InputRange> ranges_of(const SurrogateRecord& record) {
+std::vector<math::Interval> ranges_of(const SurrogateRecord& record) {
   const std::size_t inputs = record.keys.size();
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::vector<InputRange> ranges(inputs, {infinity, -infinity});
+  std::vector<math::Interval> ranges(inputs, {math::infinity, -math::infinity});
   for (std::size_t row = 0; row < record.points.size() / inputs; ++row) {
     if (std::ranges::binary_search(record.held_out, row)) continue;
     const auto values = record.inputs.values_at(math::point_of_row(record.points, row, inputs));

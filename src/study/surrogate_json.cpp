@@ -12,13 +12,12 @@ constexpr RecordFormat surrogate_format{
     "launchsafe surrogate 2", "surrogate.json",
     "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with surrogate = true"};
 constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
-constexpr double infinite = std::numeric_limits<double>::infinity();
 const scene::Limits any_number = scene::between(-1e30, 1e30);
 const std::vector<std::string> kinds{"uniform", "log-uniform", "normal", "log-normal"};
 
 /// Infinite ends are null.
 void describe_end(RecordObject& object, const char* key, double& end, double without) {
-  double number = std::isfinite(end) ? end : std::numeric_limits<double>::quiet_NaN();
+  double number = std::isfinite(end) ? end : math::not_a_number;
   object.value(key, number, OrNone{any_number});
   end = std::isnan(number) ? without : number;
 }
@@ -36,8 +35,8 @@ void describe_input(RecordObject& object, Input& input) {
   object.value("distribution", kind);
   const auto found = std::ranges::find(kinds, kind);
   if (found != kinds.end()) distribution.kind = static_cast<math::Distribution::Kind>(found - kinds.begin());
-  describe_end(object, "lower", distribution.lower, -infinite);
-  describe_end(object, "upper", distribution.upper, infinite);
+  describe_end(object, "lower", distribution.lower, -math::infinity);
+  describe_end(object, "upper", distribution.upper, math::infinity);
   object.value("centre", distribution.centre, OrNone{any_number});
   object.value("deviation", distribution.deviation, OrNone{any_number});
   if (!object.reading() || object.reader().fault()) return;
@@ -88,19 +87,6 @@ void describe_term(RecordObject& object, math::ChaosTerm& term, std::size_t inpu
   object.value("coefficient", term.coefficient, any_number);
 }
 
-/// Launches without a number are null.
-void describe_values(RecordObject& object, std::vector<double>& values, std::size_t launches) {
-  nlohmann::ordered_json& list = object["values"];
-  if (!object.reading()) {
-    list = values;
-    return;
-  }
-  if (!list.is_array() || list.size() != launches)
-    return object.reader().refuse(object.path_of("values"), found_in(list), "a value for every launch");
-  for (const nlohmann::ordered_json& each : list)
-    object.reader().read(each, object.path_of("values"), values.emplace_back(), OrNone{any_number});
-}
-
 void describe_chaos(RecordObject& object, math::PolynomialChaos& chaos, std::size_t inputs) {
   object.value("degree", chaos.degree, 0, math::highest_chaos_degree);
   object.value("leave_one_out", chaos.leave_one_out, OrNone{any_number});
@@ -124,7 +110,8 @@ void describe_output(RecordObject& object, SurrogateOutput& output, const Surrog
   object.value("gap_m", output.gap, scene::between(0, 0.01));
   object.value("inert", output.inert);
   object.value("reason", output.reason);
-  describe_values(object, output.values, record.points.size() / inputs);
+  object.numbers("values", output.values, record.points.size() / inputs, "a value for every launch",
+                 any_number);
   auto& [chaos, process] = output.fit;
   chaos.inputs = process.inputs = record.inputs.bases();
   object.part("polynomial", chaos,
@@ -168,7 +155,7 @@ void check_points(RecordObject& object, const SurrogateRecord& record) {
 }
 
 void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
-  object.model_version(record.model_version, "run the study anew");
+  object.model_version("run the study anew");
   object.scene(record.scene, "the scene of the study");
   object.value("gap_m", record.gap, scene::between(0, 0.01));
   describe_inputs(object, record);

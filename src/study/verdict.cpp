@@ -199,33 +199,6 @@ std::string to_string(Verdict verdict) {
   return words.at(static_cast<std::size_t>(verdict));
 }
 
-std::string to_string(ReasonCode code) {
-  constexpr std::array words{"not-judged",
-                             "failed",
-                             "no-temperature",
-                             "validity-warning",
-                             "ignition",
-                             "closing-ignition",
-                             "unaccepted",
-                             "no-margin",
-                             "optimistic",
-                             "beyond-firings",
-                             "critical-gap-indeterminate",
-                             "several-crossings",
-                             "smaller-gaps-ignite",
-                             "margin-within-uncertainty",
-                             "calibrated-margin-within-uncertainty",
-                             "margin-over-uncertainty",
-                             "no-lower-bound",
-                             "may-ignite-without-gap",
-                             "not-below-bound",
-                             "closing-unknown",
-                             "closing-without-corner",
-                             "closing-corner",
-                             "below-bound"};
-  return words.at(static_cast<std::size_t>(code));
-}
-
 Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (evidence.of_case == nullptr) return {};
   const CaseEvidence& of_case = *evidence.of_case;

@@ -1,7 +1,6 @@
 #include "launchsafe/surface/air_energy.hpp"
 
-#include "intervals.hpp"
-#include "skin_equation.hpp"
+#include "launchsafe/surface/skin_equation.hpp"
 
 #include <algorithm>
 #include <cmath>

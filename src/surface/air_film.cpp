@@ -1,4 +1,4 @@
-#include "film_station.hpp"
+#include "launchsafe/surface/film_station.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,7 @@ void record(const std::vector<detail::FilmStation>& stations, const std::vector<
     // A station without area does not count, whatever it has.
     if (!(shares[s] > 0.0)) continue;
     air += shares[s] * stations[s].mean_air();
-    history.hottest_depth =
-        std::max({history.hottest_depth, stations[s].surface(), stations[s].hottest_depth()});
+    history.hottest_depth = std::max(history.hottest_depth, stations[s].hottest());
   }
   history.air_temperature.push_back(air);
 }

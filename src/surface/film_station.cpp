@@ -1,4 +1,4 @@
-#include "film_station.hpp"
+#include "launchsafe/surface/film_station.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
     const double left = length - at;
     double h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
     if (!fixed) h = shortened(pressure, lowest_pressure_, length, at, h);
-    column_.keep(kept_);
+    kept_ = column_.state();
     kept_melted_ = melted_;
     const bool finite = try_step(pressure, length, at, h, heating);
     const bool shortest = h <= shortest_share * length;

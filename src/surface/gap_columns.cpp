@@ -1,7 +1,6 @@
 #include "launchsafe/surface/gap_columns.hpp"
 
-#include "film_station.hpp"
-#include "launchsafe/materials/air_conductivity.hpp"
+#include "launchsafe/materials/ideal_gas.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,46 +22,29 @@ constexpr double same_volume = 1e-13;
 constexpr double same_place = 1e-9;
 constexpr int most_iterations = 20;
 
-/// A column at the begin of its interval, and since then.
-struct Interval {
-  double length = 0;     ///< s
-  double opening = 0;    ///< m, at the begin
-  double excess = 0;     ///< of the air's temperature over that of the walls, as a share of it, at the begin
-  EnclosedAir air = {};  ///< at the begin
-};
-
 }  // namespace
 
-struct GapColumns::Parts {
-  SkinModel model;
-  detail::FilmGrid grid;
-  std::vector<detail::FilmStation> columns;
-  std::vector<Interval> intervals;
+/// K, of the air over the walls that take its heat.
+double GapColumns::temperature_of_walls(const detail::FilmColumn& film) const {
+  const double charge = film.charge_surface();
+  return model_.base_conductivity > 0.0 ? 0.5 * (charge + film.base_surface()) : charge;
+}
 
-  /// K, of the air over the walls that take its heat.
-  double walls(const detail::FilmColumn& film) const {
-    const double charge = film.charge_surface();
-    return model.base_conductivity > 0.0 ? 0.5 * (charge + film.base_surface()) : charge;
-  }
-  /// m/s, of a film of even heating.
-  double usual_exchange(const detail::FilmColumn& film) const {
-    return (model.base_conductivity > 0.0 ? 12.0 : 3.0) *
-           materials::air_conductivity(0.5 * (walls(film) + film.mean_air())) / film.air_heat_capacity();
-  }
-  void move_air(const std::vector<double>& openings, const std::vector<double>& areas);
-};
+/// m/s, of a film of even heating.
+double GapColumns::usual_exchange(const detail::FilmColumn& film) const {
+  const double mean = 0.5 * (temperature_of_walls(film) + film.mean_air());
+  return (model_.base_conductivity > 0.0 ? 12.0 : 3.0) * materials::air_conductivity(mean) /
+         film.air_heat_capacity();
+}
 
 /// Of columns that are too full as much leaves as has no place, and is divided over the others by the place
 /// that they have: where their heat capacity is constant, all are full then.
-void GapColumns::Parts::move_air(const std::vector<double>& openings, const std::vector<double>& areas) {
-  const auto place = [&](std::size_t i) {
-    return openings[i] - columns[i].column().air_volume() - columns[i].column().covolume();
-  };
+void GapColumns::move_air(const std::vector<double>& openings, const std::vector<double>& areas) {
   double leaving = 0.0, enthalpy = 0.0, free = 0.0;
-  std::vector<double> more(columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const detail::FilmColumn& film = columns[i].column();
-    more[i] = place(i);
+  std::vector<double> more(columns_.size());
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const detail::FilmColumn& film = columns_[i].column();
+    more[i] = openings[i] - film.air_volume() - film.covolume();
     if (more[i] > 0.0) free += areas[i] * more[i];
     if (!(more[i] < 0.0)) continue;
     more[i] *= film.air_share() / (openings[i] - more[i]);
@@ -70,8 +52,8 @@ void GapColumns::Parts::move_air(const std::vector<double>& openings, const std:
     enthalpy -= areas[i] * more[i] * film.specific_enthalpy();
   }
   if (!(leaving > 0.0 && free > 0.0)) return;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    columns[i].take_air(more[i] > 0.0 ? leaving * more[i] / free : more[i], enthalpy / leaving);
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    columns_[i].take_air(more[i] > 0.0 ? leaving * more[i] / free : more[i], enthalpy / leaving);
 }
 
 FilmNumerics GapColumns::numerics_of(const scene::Surface& surface) {
@@ -84,29 +66,23 @@ FilmNumerics GapColumns::numerics_of(const scene::Surface& surface) {
 
 GapColumns::GapColumns(const SkinModel& model, std::size_t columns, double gap, double duration,
                        const FilmNumerics& numerics)
-    : parts_(
-          std::make_unique<Parts>(Parts{model, detail::film_grid(model, gap, duration, numerics), {}, {}})) {
+    : model_(model), grid_(detail::film_grid(model, gap, duration, numerics)), intervals_(columns) {
   const double rest = model.surface.air.initial_pressure;
-  parts_->columns.assign(
-      columns, detail::FilmStation(parts_->model, parts_->grid, numerics, rest, lowest_share * rest));
-  parts_->intervals.resize(columns);
+  columns_.assign(columns, detail::FilmStation(model_, grid_, numerics, rest, lowest_share * rest));
 }
-
-GapColumns::GapColumns(GapColumns&&) noexcept = default;
-GapColumns::~GapColumns() = default;
 
 void GapColumns::advance(std::size_t column, double length, double begin, double end, double mean,
                          double heating) {
-  parts_->columns[column].compress_to(begin);
-  parts_->columns[column].advance({begin, end, mean}, length, heating);
-  parts_->intervals[column].length = length;
+  columns_[column].compress_to(begin);
+  columns_[column].advance({begin, end, mean}, length, heating);
+  intervals_[column].length = length;
 }
 
 EnclosedAir GapColumns::fit(std::size_t column, double opening) {
-  detail::FilmStation& station = parts_->columns[column];
-  Interval& interval = parts_->intervals[column];
+  detail::FilmStation& station = columns_[column];
+  Interval& interval = intervals_[column];
   const detail::FilmColumn& film = station.column();
-  const double excess = 0.5 * (interval.excess + 1.0 - parts_->walls(film) / film.mean_air());
+  const double excess = 0.5 * (interval.excess + 1.0 - temperature_of_walls(film) / film.mean_air());
   // What conduction did to the volume, beside the isentropic change.
   const double conducted = std::log(film.air_volume() / interval.air.volume) +
                            std::log(film.pressure() / interval.air.pressure) / interval.air.exponent;
@@ -120,9 +96,9 @@ EnclosedAir GapColumns::fit(std::size_t column, double opening) {
   }
   now.pressure = film.pressure();
   if (station.ignited()) return now;
-  const double walls = parts_->walls(film), mean = film.mean_air();
+  const double walls = temperature_of_walls(film), mean = film.mean_air();
   now.volume_at_walls = now.volume * walls / mean;
-  const double usual = parts_->usual_exchange(film);
+  const double usual = usual_exchange(film);
   now.exchange = usual;
   if (interval.length > 0.0 && std::abs(excess) > least_excess)
     now.exchange = std::clamp(-conducted / excess * 0.5 * (interval.opening + opening) / interval.length,
@@ -133,18 +109,17 @@ EnclosedAir GapColumns::fit(std::size_t column, double opening) {
 
 EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>& openings,
                                      const std::vector<double>& areas) {
-  std::vector<detail::FilmStation>& columns = parts_->columns;
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   const auto mean = [&](auto of_column) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < columns.size(); ++i) sum += areas[i] * of_column(i, columns[i].column());
+    for (std::size_t i = 0; i < columns_.size(); ++i) sum += areas[i] * of_column(i, columns_[i].column());
     return sum / area;
   };
   const auto volume = [](std::size_t, const detail::FilmColumn& film) { return film.air_volume(); };
   const double opening = mean([&](std::size_t i, const auto&) { return openings[i]; });
   EnclosedAir now;
   now.volume = opening - mean([](std::size_t, const auto& film) { return film.covolume(); });
-  for (detail::FilmStation& column : columns) column.compress_to(pressure);
+  for (detail::FilmStation& column : columns_) column.compress_to(pressure);
   for (int count = 0; count < most_iterations; ++count) {
     const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto&film) {
                                           return std::abs(openings[i] - film.air_volume() - film.covolume());
@@ -153,32 +128,17 @@ EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>&
         filled / mean([](std::size_t, const auto& film) { return film.air_volume() / film.exponent(); });
     if (std::abs(filled / now.volume - 1.0) < same_volume && misplaced < same_place * opening) break;
     pressure *= std::pow(filled / now.volume, now.exponent);
-    for (detail::FilmStation& column : columns) column.compress_to(pressure);
-    parts_->move_air(openings, areas);
+    for (detail::FilmStation& column : columns_) column.compress_to(pressure);
+    move_air(openings, areas);
   }
   now.pressure = pressure;
   now.volume_at_walls = mean([&](std::size_t, const auto& film) {
-    return film.air_volume() * parts_->walls(film) / film.mean_air();
+    return film.air_volume() * temperature_of_walls(film) / film.mean_air();
   });
   now.exchange = opening / now.volume * mean([&](std::size_t i, const auto& film) {
-                   return film.air_volume() * parts_->usual_exchange(film) / openings[i];
+                   return film.air_volume() * usual_exchange(film) / openings[i];
                  });
   return now;
 }
-
-double GapColumns::hottest(std::size_t column) const {
-  const detail::FilmStation& station = parts_->columns[column];
-  return std::max(station.surface(), station.hottest_depth());
-}
-
-double GapColumns::mean_air(std::size_t column) const { return parts_->columns[column].mean_air(); }
-bool GapColumns::failed(std::size_t column) const { return parts_->columns[column].failed(); }
-bool GapColumns::ignited(std::size_t column) const { return parts_->columns[column].ignited(); }
-double GapColumns::ignition_time(std::size_t column) const { return parts_->columns[column].ignition_time(); }
-double GapColumns::chemical_share(std::size_t column) const {
-  return parts_->columns[column].chemical_share();
-}
-const FilmEnergy& GapColumns::energy(std::size_t column) const { return parts_->columns[column].energy(); }
-double GapColumns::covolume(std::size_t column) const { return parts_->columns[column].column().covolume(); }
 
 }  // namespace launchsafe::surface

@@ -1,9 +1,8 @@
 #include "launchsafe/surface/skin.hpp"
 
-#include "intervals.hpp"
 #include "launchsafe/math/pack.hpp"
 #include "launchsafe/surface/film.hpp"
-#include "skin_equation.hpp"
+#include "launchsafe/surface/skin_equation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -97,23 +96,6 @@ bool all_finite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// What is not known: a trace of another launch says nothing of a gap that closes.
-SkinHistory unknown(const trace::BottomTrace& trace) {
-  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  SkinHistory history;
-  history.air_temperature.assign(trace.samples(), not_a_number);
-  history.temperature.assign(trace.samples() * trace.stations.size(), not_a_number);
-  return history;
-}
-
-SkinHistory integrate(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  if (scene::closes(model.surface, gap)) return unknown(trace);
-  if (model.surface.model == scene::GapModel::closing) gap = 0.0;
-  if (gap > 0.0 && model.surface.air_model == scene::AirModel::film)
-    return integrate_film(model, trace, gap).skin;
-  return integrate_reservoir(model, trace, gap);
-}
-
 }  // namespace
 
 SkinModel skin_model(const scene::Scene& scene) {
@@ -143,7 +125,17 @@ double heat_capacity_ratio(const SkinModel& model, double gap) {
 }
 
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  SkinHistory history = integrate(model, trace, gap);
+  SkinHistory history;
+  const double open = model.surface.model == scene::GapModel::closing ? 0.0 : gap;
+  if (scene::closes(model.surface, gap)) {
+    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+    history.air_temperature.assign(trace.samples(), not_known);
+    history.temperature.assign(trace.samples() * trace.stations.size(), not_known);
+  } else if (open > 0.0 && model.surface.air_model == scene::AirModel::film) {
+    history = integrate_film(model, trace, open).skin;
+  } else {
+    history = integrate_reservoir(model, trace, open);
+  }
   history.gap = gap;
   history.time = trace.time;
   if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) {

@@ -9,20 +9,6 @@ namespace launchsafe::trace {
 
 namespace {
 
-/// Samples that a trace half as dense keeps: 0, 2, 4, ... and the last.
-std::vector<std::size_t> kept_samples(std::size_t count) {
-  std::vector<std::size_t> kept;
-  for (std::size_t sample = 0; sample < count; sample += 2) kept.push_back(sample);
-  if (count > 0 && kept.back() != count - 1) kept.push_back(count - 1);
-  return kept;
-}
-
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& kept) {
-  std::vector<double> result;
-  for (const std::size_t sample : kept) result.push_back(values[sample]);
-  return result;
-}
-
 /// Means over the longer intervals: the old means weighted by their lengths.
 std::vector<double> combined_means(const std::vector<double>& time, const std::vector<double>& means,
                                    const std::vector<std::size_t>& kept) {
@@ -53,23 +39,23 @@ std::vector<double> picked_rows(const std::vector<double>& values, std::size_t w
 }
 
 BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t>& kept) {
-  BottomTrace result;
-  result.stations = trace.stations;
-  result.time = picked(trace.time, kept);
-  result.chamber_pressure = picked(trace.chamber_pressure, kept);
-  result.bottom_pressure = picked(trace.bottom_pressure, kept);
-  result.mean_chamber_pressure = combined_means(trace.time, trace.mean_chamber_pressure, kept);
-  result.mean_bottom_pressure = combined_means(trace.time, trace.mean_bottom_pressure, kept);
-  result.steps = picked(trace.steps, kept);
-  for (std::size_t closure = 0; closure < traced_closures; ++closure) {
-    result.friction[closure] = picked_rows(trace.friction[closure], trace.stations.size(), kept);
-  }
+  BottomTrace result = trace;
+  for (auto* values : {&result.time, &result.chamber_pressure, &result.bottom_pressure, &result.steps})
+    *values = picked_rows(*values, 1, kept);
+  for (auto* means : {&result.mean_chamber_pressure, &result.mean_bottom_pressure})
+    *means = combined_means(trace.time, *means, kept);
+  for (auto& energy : result.friction) energy = picked_rows(energy, trace.stations.size(), kept);
   return result;
 }
 
 }  // namespace
 
-BottomTrace thinned(const BottomTrace& trace) { return with_samples(trace, kept_samples(trace.samples())); }
+BottomTrace thinned(const BottomTrace& trace) {
+  std::vector<std::size_t> kept;
+  for (std::size_t sample = 0; sample < trace.samples(); sample += 2) kept.push_back(sample);
+  if (trace.samples() % 2 == 0 && trace.samples() > 0) kept.push_back(trace.samples() - 1);
+  return with_samples(trace, kept);
+}
 
 BottomTrace of_rings(BottomTrace trace) {
   const std::vector<Station> stations = std::move(trace.stations);
@@ -130,10 +116,9 @@ std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace&
     for (std::size_t i = 0; same && i < values.size(); ++i)
       if (others[i] > 0.0) values[i] *= values[i] / others[i];
   };
-  mirror(result.chamber_pressure, other.chamber_pressure);
-  mirror(result.bottom_pressure, other.bottom_pressure);
-  mirror(result.mean_chamber_pressure, other.mean_chamber_pressure);
-  mirror(result.mean_bottom_pressure, other.mean_bottom_pressure);
+  for (const auto pressure : {&BottomTrace::chamber_pressure, &BottomTrace::bottom_pressure,
+                              &BottomTrace::mean_chamber_pressure, &BottomTrace::mean_bottom_pressure})
+    mirror(result.*pressure, other.*pressure);
   for (std::size_t closure = 0; closure < traced_closures; ++closure)
     mirror(result.friction[closure], other.friction[closure]);
   if (!same) return std::nullopt;

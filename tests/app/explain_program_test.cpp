@@ -61,6 +61,14 @@ TEST_F(ExplainedProgram, HasEveryKeyOfAReaderInItsSchemaWithUnitRangeAndExample)
   EXPECT_TRUE(faces["properties"].contains("shear_strength"));
 }
 
+TEST_F(ExplainedProgram, TellsTheEarliestAndTheLatestTimeOfAnExit) {
+  write("shell.toml", with(tiny_scene, "[load]\n",
+                           "[load]\nmuzzle_exit = \"0.08 ms\"\nmuzzle_exit_spread = \"0.01 ms\"\n"));
+  const Json exit = Json::parse(run({"explain", "shell.toml", "--json"}).out)["load"]["muzzle_exit"];
+  EXPECT_DOUBLE_EQ(exit["earliest_s"].get<double>(), 7e-5);
+  EXPECT_DOUBLE_EQ(exit["latest_s"].get<double>(), 9e-5);
+}
+
 TEST_F(ExplainedProgram, TellsAllStudiesInOneSchema) {
   const Json schema = Json::parse(run({"explain", "--schema", "study"}).out);
   EXPECT_EQ(schema["required"], Json({"kind", "scene"}));

@@ -1,7 +1,6 @@
 // Studies whose folders are looked into and compared.
 #pragma once
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "program.hpp"
@@ -172,7 +171,7 @@ class StoredStudy : public Program {
   /// The hashes of the cases that are done; of a folder where no study is running.
   std::set<std::string> done_cases(const std::string& name) const {
     std::set<std::string> done;
-    const auto opened = store::CaseStore::open_to_read(folder() / name, run::model_version);
+    const auto opened = store::CaseStore::open_to_read(folder() / name);
     EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
     if (!opened) return done;
     for (const store::RunRecord& record : (*opened)->records())

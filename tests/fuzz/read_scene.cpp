@@ -4,8 +4,6 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "fuzz_input.hpp"
-#include "launchsafe/scene/acceptance.hpp"
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"

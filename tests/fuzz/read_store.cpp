@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   folder.write("study.db", {reinterpret_cast<const char*>(data), size});
   auto database = store::Database::copy_of(folder.path() / "study.db");
   if (!database) return 0;
-  const auto keys = database->rows("SELECT key FROM stored_answers");
+  const auto keys = database->rows("SELECT key FROM stored_case_answers");
   if (!keys) return 0;
   for (const store::SqlRow& row : *keys) {
     const auto* key = std::get_if<std::string>(&row.front());

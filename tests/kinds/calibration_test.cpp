@@ -20,7 +20,7 @@ double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& tra
 }
 
 /// Rows as a shell with the given constants would have published them.
-std::string published(const Constants& truth, const trace::BottomTrace& trace) {
+std::string published(const surface::SurfaceConstants& truth, const trace::BottomTrace& trace) {
   surface::SkinModel model = surface::skin_model(study_of(critical_text + synthetic_constants).scene.scene);
   model.surface.friction = scene::FrictionClosure::total_strain_rate;
   model.surface.localisation = truth.localisation;
@@ -42,7 +42,7 @@ const std::string calibration_text = "kind = \"calibration\"\nscene = \"scene_15
 
 TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
-  const Constants truth{951.0, 4.2e-4, not_a_number};
+  const surface::SurfaceConstants truth{951.0, 4.2e-4, not_a_number};
   const CalibrationResult result = run_calibration(
       study_of(calibration_text + published(truth, trace) + synthetic_constants), synthetic_options());
   ASSERT_EQ(result.rows.size(), 3u);  // total strain rate, inelastic, none
@@ -71,7 +71,7 @@ TEST(Calibration, FitsNothingButItsThreeRows) {
         .rows[0]
         .calibrated.constants;
   };
-  const Constants a = constants(rows), b = constants(changed);
+  const surface::SurfaceConstants a = constants(rows), b = constants(changed);
   EXPECT_EQ(a.localisation, b.localisation);
   EXPECT_EQ(a.exchange_time, b.exchange_time);
   EXPECT_EQ(a.ignition_temperature, b.ignition_temperature);
@@ -235,11 +235,11 @@ TEST(CalibrationOfLoad, RecoversLoadAndConstantsOfASyntheticTruth) {
   ASSERT_TRUE(result.load->failure.empty()) << result.load->failure;
   EXPECT_EQ(result.load->numbers, 8u);
   EXPECT_LT(result.load->sum_of_squares, 1e-4);  // instants were found in steps of a microsecond
-  EXPECT_NEAR(result.load->peak_time, truth.scene.load.peak_time, 1e-3 * truth.scene.load.peak_time);
-  EXPECT_NEAR(result.load->width, truth.scene.load.width, 3e-3 * truth.scene.load.width);
-  EXPECT_NEAR(result.load->steepness, truth.scene.load.steepness, 3e-3 * truth.scene.load.steepness);
+  EXPECT_NEAR(result.load->bell->peak_time, truth.scene.load.peak_time, 1e-3 * truth.scene.load.peak_time);
+  EXPECT_NEAR(result.load->bell->width, truth.scene.load.width, 3e-3 * truth.scene.load.width);
+  EXPECT_NEAR(result.load->bell->steepness, truth.scene.load.steepness, 3e-3 * truth.scene.load.steepness);
   ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
-  const Constants& constants = result.recommended()->calibrated.constants;
+  const surface::SurfaceConstants& constants = result.recommended()->calibrated.constants;
   EXPECT_NEAR(constants.localisation, truth.localisation, 1e-3 * truth.localisation);
   EXPECT_NEAR(constants.exchange_time, truth.exchange_time, 3e-3 * truth.exchange_time);
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "launchsafe/study/surrogate.hpp"
@@ -109,7 +108,7 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
  protected:
   CriticalGapResult run(const StudyFile& study, Counting& counting, Shard shard = {},
                         double time_limit = std::numeric_limits<double>::infinity()) {
-    auto store = store::CaseStore::open(folder() / "results", {shard.part(), run::model_version, {}});
+    auto store = store::CaseStore::open(folder() / "results", shard.part());
     EXPECT_TRUE(store) << (store ? "" : store.error().message);
     StudyOptions options = counting.options();
     options.store = store->get();
@@ -121,7 +120,7 @@ class StoredSweep : public launchsafe::testing::TemporaryFolder {
     return result;
   }
   Forecast foresee_in_store(const StudyFile& study) {
-    auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+    auto store = store::CaseStore::open(folder() / "results");
     StudyOptions options;
     options.jobs = 2;
     options.store = store->get();

@@ -1,6 +1,5 @@
 // What a study costs besides simulating (opt-in: ctest -L slow).
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
@@ -51,7 +50,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 class StudyOverheadSlow : public launchsafe::testing::TemporaryFolder {
  protected:
   std::unique_ptr<store::CaseStore> open_store() {
-    auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+    auto store = store::CaseStore::open(folder() / "results");
     EXPECT_TRUE(store);
     return std::move(*store);
   }
@@ -69,7 +68,8 @@ class StudyOverheadSlow : public launchsafe::testing::TemporaryFolder {
     for (const store::RunRecord& record : store->records()) held += store->holds(record.hash) ? 1 : 0;
     fmt::print("and runs looked up in {:.2f} s\n", seconds_since(start));
     std::vector<store::SqlRow> keys;
-    store->read([&](store::Database& database) { keys = *database.rows("SELECT key FROM stored_answers"); });
+    store->read(
+        [&](store::Database& database) { keys = *database.rows("SELECT key FROM stored_case_answers"); });
     for (const store::SqlRow& key : keys)
       answers += read_answer(*store, std::get<std::string>(key[0])) ? 1 : 0;
     const double wall = seconds_since(start);

@@ -105,9 +105,9 @@ bool depends_on_study(const std::string& key) {
 TEST(QuantityKeys, EveryColumnHasAMeaningAndStandsInTheReferenceOfResults) {
   std::set<std::string> listed, files;
   for (const Kind& kind : kinds())
-    for (const ResultTable& table : kind.results()) {
+    for (const report::ReportTable& table : kind.results()) {
       files.insert(table.csv);
-      for (const report::Column& column : table.columns) {
+      for (const report::Column& column : table.table.columns) {
         EXPECT_FALSE(column.meaning.empty())
             << kind.traits.name << ", " << table.member << ": " << column.key();
         EXPECT_TRUE(column.meaning.ends_with(".")) << column.key() << ": " << column.meaning;

@@ -78,8 +78,8 @@ TEST(ReadVary, ACaseIsTheSceneWithItsKeys) {
       critical_kind + vary({{"gap.exchange_time", "0.2, 0.3 ms"}, {"initial_temperature", "290, 310 K"}}));
   const scene::Place place{"a.toml", 1, 1};
   for (const StudyCase& each : study.cases) {
-    const auto time = scene::with_key(study.scene, "gap.exchange_time", each.coordinates[0], place);
-    const auto both = scene::with_key(*time, "initial_temperature", each.coordinates[1], place);
+    const auto time = scene::with_keys(study.scene, {{"gap.exchange_time", each.coordinates[0], place}});
+    const auto both = scene::with_keys(*time, {{"initial_temperature", each.coordinates[1], place}});
     EXPECT_EQ(scene::to_toml(each.scene.scene), scene::to_toml(both->scene));
   }
 }

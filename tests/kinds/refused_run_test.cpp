@@ -1,7 +1,6 @@
 // Runs that fail before they begin are journaled like any other, whatever they were for.
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -16,7 +15,7 @@ using namespace launchsafe::study;
 class RefusedRun : public launchsafe::testing::TemporaryFolder {
  protected:
   std::unique_ptr<store::CaseStore> open_store() {
-    auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+    auto store = store::CaseStore::open(folder() / "results");
     EXPECT_TRUE(store) << (store ? "" : store.error().message);
     return std::move(*store);
   }

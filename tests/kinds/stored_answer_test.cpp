@@ -96,16 +96,15 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
 // Somebody, or a fault of the disk, changes a file that was written.
 TEST(StoredAnswer, ThatIsNotAsItWasWrittenIsNone) {
   for (const char* edit :
-       {"UPDATE stored_gaps SET maximum_temperature_K = 400, margin_K = 121 WHERE position = 3",
-        "UPDATE stored_gaps SET ignition_cause = NULL, ignition_time_s = NULL",
-        "UPDATE stored_gaps SET early_time_s = 1e-4", "UPDATE stored_answers SET validity_warnings = 0",
-        "UPDATE stored_answers SET friction_rise_K = 5", "DELETE FROM stored_gaps WHERE position = 3",
-        "DELETE FROM stored_shares WHERE position = 0", "DELETE FROM stored_texts",
-        "UPDATE stored_texts SET text = text || '.'",
-        "UPDATE stored_shares SET raised_m = lowered_m, lowered_m = raised_m",
-        "UPDATE stored_answers SET critical_gap_m = critical_gap_upper_m",
-        "UPDATE stored_answers SET steps = -1", "UPDATE stored_answers SET key = '0b'",
-        "UPDATE stored_answers SET check_sum = 0", "DROP TABLE stored_shares", "DELETE FROM stored_answers"})
+       {"UPDATE stored_case_answers SET answer = substr(answer, 1, length(answer) - 1)",
+        "UPDATE stored_case_answers SET answer = CAST(answer || x'00' AS BLOB)",
+        "UPDATE stored_case_answers SET answer = CAST(substr(answer, 1, 40) || x'00' || substr(answer, 42) "
+        "AS "
+        "BLOB)",
+        "UPDATE stored_case_answers SET answer = x''", "UPDATE stored_case_answers SET answer = NULL",
+        "UPDATE stored_case_answers SET key = '0b'", "UPDATE stored_case_answers SET check_sum = 0",
+        "UPDATE stored_case_answers SET check_sum = NULL", "DELETE FROM stored_case_answers",
+        "DROP TABLE stored_case_answers"})
     EXPECT_FALSE(accepted(some_answer(), edit)) << edit;
 }
 

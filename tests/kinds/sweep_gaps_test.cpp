@@ -102,7 +102,7 @@ TEST(Sweep, OfGapsThatOpenByCoolingIsRefusedWhereItCouldNotFollowThem) {
 TEST_F(StoredSweep, IsSafeNowhereWhereItsGapsClose) {
   Counting counting;
   EXPECT_GT(count_of(run(parting_sweep_of(""), counting), Verdict::safe), 0u);
-  auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+  auto store = store::CaseStore::open(folder() / "results");
   ASSERT_TRUE(store);
   StudyOptions options = closing_options(counting, [](const auto&, double) { return false; });
   options.store = store->get();

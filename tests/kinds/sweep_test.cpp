@@ -119,7 +119,7 @@ TEST_F(StoredSweep, WhereNothingMayBeComputedOnlyWhatIsStoredCounts) {
     return synthetic_mechanics(scene);
   };
   run(sweep_of("0 cm", {{"peak_pressure", "400, 496 MPa"}}), first);
-  auto store = store::CaseStore::open(folder() / "results", {"", run::model_version, {}});
+  auto store = store::CaseStore::open(folder() / "results");
   StudyOptions options = second.options();
   options.store = store->get();
   options.compute = false;

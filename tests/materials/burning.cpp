@@ -1,7 +1,7 @@
 // What a burnt charge becomes: the energy of the gas, the speed of the flame, and the mixture in a particle.
 #include "launchsafe/materials/burning_mixture.hpp"
 #include "launchsafe/materials/charge.hpp"
-#include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/materials/kinetics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -76,14 +76,7 @@ TEST(ProductGas, StatesOutsideOfTheLawAreMarked) {
   const ProductGas steam({{water(), 55.5}}, specific_heat);
   EXPECT_LT(steam.at(784.0, 1.0 / 1717.0).compressibility, 0.0);
   EXPECT_FALSE(steam.at(784.0, 1.0 / 1717.0).valid);
-  EXPECT_TRUE(std::isnan(steam.temperature_at(1e6, -1.0, 500.0)));
-}
-
-TEST(ProductGas, TemperatureBelongsToItsEnergy) {
-  for (const double temperature : {600.0, 784.0, 4000.0}) {
-    const double energy = products().at(temperature, 2e-3).energy;
-    EXPECT_NEAR(products().temperature_at(energy, 2e-3, 1000.0), temperature, 1e-9 * temperature);
-  }
+  EXPECT_FALSE(steam.at(500.0, -1.0).valid);
 }
 
 TEST(Deflagration, WavesOfKnownSpeedHaveIt) {
@@ -159,7 +152,12 @@ TEST(BurningMixture, BurntAtConstantVolumeEndsInTheClosedFormState) {
   const double volume = 0.98, fresh = specific_heat * 784.0;
   const double density = 1717.0 / volume;
   const double energy = fresh + law.solid_energy(volume) / 1717.0;
-  const double temperature = products().temperature_at(energy, 1.0 / density, 800.0);
+  // The energy rises with the temperature.
+  double temperature = 500.0, above = 5000.0;
+  while (above - temperature > 1e-10 * above) {
+    const double middle = 0.5 * (temperature + above);
+    (products().at(middle, 1.0 / density).energy < energy ? temperature : above) = middle;
+  }
   const double pressure = products().at(temperature, 1.0 / density).pressure;
   for (const int steps : {1, 10, 1000}) {
     BurningState state = law.unburnt(volume);

@@ -1,5 +1,5 @@
 // The polynomial for the isentrope against the closed form it stands in for.
-#include "launchsafe/materials/jwl_isentrope.hpp"
+#include "launchsafe/materials/jwl.hpp"
 
 #include <gtest/gtest.h>
 

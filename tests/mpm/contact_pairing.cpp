@@ -1,5 +1,5 @@
 // Pairing of two faces: every node's share of a uniform traction, whatever the two are divided into.
-#include "launchsafe/mpm/contact_pairing.hpp"
+#include "launchsafe/mpm/contact.hpp"
 
 #include <gtest/gtest.h>
 

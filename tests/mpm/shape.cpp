@@ -1,7 +1,6 @@
 // The branchless shape functions against the published branches, and against quadrature where a particle is
 // cut at the axis.
-#include "launchsafe/mpm/shape.hpp"
-
+#include "launchsafe/mpm/transfer.hpp"
 #include "published_shapes.hpp"
 
 #include <gtest/gtest.h>

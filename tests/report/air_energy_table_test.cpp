@@ -55,7 +55,7 @@ TEST(AirEnergyStatement, WithoutAComputedGapClaimsNothing) {
 TEST(AirEnergyTable, HasARowForEveryGapWithUnits) {
   const Table table = air_energy_table(reservoir, {taken(0.0, 0.0, 0.0), taken(4e-4, 32700, 925)});
   EXPECT_EQ(table.title, "The energy of the air");
-  const auto rows = to_json(table)["rows"];
+  const auto rows = json_rows(table);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_NEAR(rows[1]["gap_cm"].get<double>(), 0.04, 1e-12);
   EXPECT_NEAR(rows[1]["skin_took_kJ_per_m2"].get<double>(), 32.7, 1e-12);
@@ -114,7 +114,7 @@ TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
     made.flaw_size = 1e-3;
   });
   result.study.study.cited_limits = {{0.38e-3, 500e6, "tests"}, {0.381e-3, 506e6, "a simulated pressure"}};
-  const auto rows = to_json(cited_limit_table(result))["rows"];
+  const auto rows = json_rows(cited_limit_table(result));
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_NEAR(rows[0]["peak_pressure_MPa"].get<double>(), 496.0, 1e-9);
   EXPECT_NEAR(rows[0]["critical_gap_cm"].get<double>(), 0.0395, 1e-9);

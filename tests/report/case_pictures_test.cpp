@@ -184,7 +184,7 @@ TEST(CasePictures, AreDrawnWithAFilledShapeForEveryCell) {
   if (!gnuplot_is_there()) GTEST_SKIP() << "gnuplot is not installed";
   const RunScene run(cased_charge());
   const CasePicture picture = pictures(run.drawn({4e-5}), "fields").front();
-  const auto svg = to_svg(picture);
+  const auto svg = to_svg(picture.plot);
   ASSERT_TRUE(svg) << svg.error().message;
   // Colour bars are made of such shapes too, always as many: without the base its 24 cells are missing twice.
   CellPlot without_base = std::get<CellPlot>(picture.plot);

@@ -112,7 +112,7 @@ TEST_F(DrawnPlot, ASinglePointIsEnough) {
 }
 
 TEST(Plot, AMissingProgramIsAnErrorThatNamesIt) {
-  const auto svg = to_svg(sample(), "no-such-gnuplot");
+  const auto svg = to_svg(sample(), {}, "no-such-gnuplot");
   ASSERT_FALSE(svg);
   EXPECT_EQ(svg.error().kind, store::Error::Kind::missing);
   EXPECT_NE(svg.error().message.find("no-such-gnuplot"), std::string::npos);
@@ -120,7 +120,7 @@ TEST(Plot, AMissingProgramIsAnErrorThatNamesIt) {
 
 TEST(Plot, AProgramThatFailsIsAnError) {
   for (const char* program : {"false", "true"}) {
-    const auto svg = to_svg(sample(), program);
+    const auto svg = to_svg(sample(), {}, program);
     ASSERT_FALSE(svg);
     EXPECT_EQ(svg.error().kind, store::Error::Kind::failed);
   }

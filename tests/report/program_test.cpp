@@ -27,7 +27,7 @@ class DrawingProgram : public ::testing::Test {
     Plot plot;
     plot.title = "a line";
     plot.series = {{"line", {0.0, 1.0}, {1.0, 2.0}}};
-    return to_svg(plot, script(body), limits);
+    return to_svg(plot, limits, script(body));
   }
   std::filesystem::path path_of(const std::string& name) const { return folder_.path / name; }
 

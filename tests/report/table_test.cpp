@@ -113,14 +113,10 @@ TEST(Table, CsvFollowsRfc4180) {
 }
 
 TEST(Table, JsonKeepsNumbersExactlyAndOrder) {
-  const nlohmann::ordered_json json = to_json(verdicts());
-  EXPECT_EQ(json["title"], "Verdicts");
-  EXPECT_EQ(json["columns"][0],
-            (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", ""}}));
-  EXPECT_EQ(json["rows"][0].dump(),
-            R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
-  EXPECT_TRUE(json["rows"][1]["t_max_K"].is_null());
-  EXPECT_TRUE(json["rows"][1]["at"].is_null());
+  const nlohmann::ordered_json rows = json_rows(verdicts());
+  EXPECT_EQ(rows[0].dump(), R"({"gap_cm":0.0,"t_max_K":416.149,"at":"G2","steps":36000,"verdict":"SAFE"})");
+  EXPECT_TRUE(rows[1]["t_max_K"].is_null());
+  EXPECT_TRUE(rows[1]["at"].is_null());
 }
 
 TEST(Table, KeysAreMadeOfNameAndUnitAndAllDifferent) {
@@ -167,9 +163,6 @@ TEST(Quantity, RowsInSiAreShownInTheUnitsOfTheirQuantities) {
             "a,0.039,496,1.23,12,yes\r\n"
             "b,7,,,0,no\r\n")
       << "a decimal number stays one to the last digit: 0.00039 m is 0.039 cm";
-  EXPECT_EQ(
-      to_json(table)["columns"][1],
-      (nlohmann::ordered_json{{"key", "gap_cm"}, {"name", "gap"}, {"unit", "cm"}, {"meaning", "Its gap."}}));
 }
 
 TEST(Quantity, ANumberThatIsNotThereIsToldOnlyWhereItAlwaysIs) {
@@ -199,14 +192,14 @@ TEST(Table, AColumnMayBeForPeopleOrForProgramsAlone) {
   EXPECT_EQ(to_text(table).find("steps"), std::string::npos) << to_text(table);
   EXPECT_EQ(to_markdown(table).find("36000"), std::string::npos) << to_markdown(table);
   EXPECT_TRUE(to_csv(table).starts_with("gap_cm,at,steps,verdict\r\n0,G2,36000,SAFE\r\n")) << to_csv(table);
-  EXPECT_EQ(to_json(table)["columns"].size(), 4u);
-  EXPECT_EQ(to_json(table)["rows"][0].dump(), R"({"gap_cm":0.0,"at":"G2","steps":36000,"verdict":"SAFE"})");
+  EXPECT_EQ(json_rows(table)[0].size(), 4u);
+  EXPECT_EQ(json_rows(table)[0].dump(), R"({"gap_cm":0.0,"at":"G2","steps":36000,"verdict":"SAFE"})");
 }
 
 TEST(Table, RowsAppendedToAnArrayAreThoseOfTheJson) {
   std::string text = "[";
   append_json_rows(text, verdicts());
-  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]"), to_json(verdicts())["rows"]);
+  EXPECT_EQ(nlohmann::ordered_json::parse(text + "]"), json_rows(verdicts()));
   append_json_rows(text, verdicts());
   EXPECT_EQ(nlohmann::ordered_json::parse(text + "]").size(), 4u) << "behind what is there";
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4) << "a line each";
@@ -223,7 +216,7 @@ TEST(Table, WithoutRowsItIsStillATable) {
   Table table = verdicts();
   table.rows.clear();
   EXPECT_NE(to_text(table).find("gap [cm]"), std::string::npos);
-  EXPECT_EQ(to_json(table)["rows"], nlohmann::ordered_json::array());
+  EXPECT_EQ(json_rows(table), nlohmann::ordered_json::array());
   EXPECT_EQ(to_csv(table), "gap_cm,t_max_K,at,steps,verdict\r\n");
 }
 

@@ -1,6 +1,6 @@
 // Runs with two-way coupling: until ignition those of the launch, after it with gas that acts on all bodies.
 #include "burning_scenes.hpp"
-#include "launchsafe/materials/deflagration.hpp"
+#include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/read_scene.hpp"

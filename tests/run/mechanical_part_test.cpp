@@ -1,6 +1,5 @@
-#include "launchsafe/scene/mechanical_part.hpp"
-
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "scene/perturbed_scenes.hpp"
 
 #include <gtest/gtest.h>

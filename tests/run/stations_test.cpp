@@ -1,7 +1,6 @@
 // What stations read from particles whose state is made by hand.
-#include "launchsafe/scene/stations.hpp"
-
 #include "../../src/run/charge_heat.hpp"
+#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Gaps that close in scene files: read, written back, refused.
-#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
 // Gaps that open as a cast charge cools, in scene files.
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 
@@ -69,11 +68,11 @@ TEST(CoolingGap, IsEitherStatedOrFollows) {
                "one of the two");
   // A new value of one takes the other back.
   const auto stated =
-      with_key(scene_from(cooled_from("320")), "gap.thickness", std::vector<double>{1e-4}, {});
+      with_keys(scene_from(cooled_from("320")), {{"gap.thickness", std::vector<double>{1e-4}, {}}});
   ASSERT_TRUE(stated) << stated.error().message();
   EXPECT_EQ(stated->scene.surface.gaps, std::vector<double>{1e-4});
   EXPECT_FALSE(stated->scene.surface.opens_by_cooling);
-  const auto follows = with_key(scene_from(small_scene), "gap.opens_by_cooling", 320.0, {});
+  const auto follows = with_keys(scene_from(small_scene), {{"gap.opens_by_cooling", 320.0, {}}});
   ASSERT_TRUE(follows) << follows.error().message();
   EXPECT_EQ(follows->scene.surface.gaps, scene_from(cooled_from("320")).scene.surface.gaps);
 }

@@ -1,7 +1,6 @@
 // Interfaces in scene files: read, written back, refused.
 #include "launchsafe/scene/interfaces.hpp"
 
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "scene/scene_text.hpp"

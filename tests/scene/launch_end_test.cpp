@@ -1,7 +1,7 @@
 // When a launch is over: analytic loads and measured curves, with and without a muzzle exit.
 #include "launchsafe/scene/launch_end.hpp"
 
-#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene_text.hpp"
@@ -116,15 +116,6 @@ TEST(LaunchEnd, BehindTheExitOfAMeasuredCurveThePressureDecaysToNothing) {
   const PressureHistory history(load);
   EXPECT_NEAR(history.at(9.5e-3), 100e6 / std::exp(1.0), 1.0);
   EXPECT_NEAR(end_time(load), 9e-3 + 0.5e-3 * std::log(25.0), 1e-9);
-}
-
-TEST(LaunchEnd, TheSpreadOfAnExitGivesItsEarliestAndLatestTime) {
-  Load load = published_bell();
-  EXPECT_FALSE(exit_window(load));
-  load.muzzle_exit = 18e-3;
-  load.muzzle_exit_spread = 0.3e-3;
-  EXPECT_DOUBLE_EQ(exit_window(load)->earliest, 17.7e-3);
-  EXPECT_DOUBLE_EQ(exit_window(load)->latest, 18.3e-3);
 }
 
 // 5.26 m until 18 ms: the double integral of p(t) A/m by another program (scene_test.cpp).

@@ -1,5 +1,4 @@
 // Materials as values: a law with its parameters, a name that bodies refer to, and keys from beside the law.
-#include "launchsafe/scene/mechanical_part.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,4 +1,3 @@
-#include "launchsafe/scene/mechanical_part.hpp"
 
 #include "launchsafe/scene/plan.hpp"
 #include "scene/perturbed_scenes.hpp"
@@ -87,9 +86,9 @@ TEST(MechanicalPart, IsAValidSceneAndItsOwnMechanicalPart) {
 TEST(MechanicalPart, StatesWhatThePlanDecides) {
   const SceneFile automatic = quick_scenes().front().file;
   const Place place{"test", 1, 1};
-  const auto off = with_key(automatic, "physics.conduction", std::string("off"), place);
-  const auto on = with_key(automatic, "physics.conduction", std::string("on"), place);
-  const auto always = with_key(automatic, "physics.conduction_bound", 0.0, place);
+  const auto off = with_keys(automatic, {{"physics.conduction", std::string("off"), place}});
+  const auto on = with_keys(automatic, {{"physics.conduction", std::string("on"), place}});
+  const auto always = with_keys(automatic, {{"physics.conduction_bound", 0.0, place}});
   EXPECT_EQ(to_toml(mechanical_part(off->scene)), to_toml(mechanical_part(automatic.scene)));
   EXPECT_EQ(to_toml(mechanical_part(on->scene)), to_toml(mechanical_part(always->scene)));
   EXPECT_NE(to_toml(mechanical_part(on->scene)), to_toml(mechanical_part(off->scene)));

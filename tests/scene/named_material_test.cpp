@@ -3,7 +3,7 @@
 #include "launchsafe/scene/named_material.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,7 +1,7 @@
 // Scenes that differ in one key, and which keys the mechanical part leaves out.
 #pragma once
 
-#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "small_shell.hpp"
@@ -86,7 +86,7 @@ inline std::vector<Value> other_values(const KeyDescription& key, const Value& v
 inline std::vector<SceneFile> perturbed(const SceneFile& file, const Key<Scene>& key) {
   std::vector<SceneFile> scenes;
   for (const Value& value : other_values(key, key.get(file.scene))) {
-    if (auto changed = with_key(file, key.name, value, Place{"test", 1, 1}))
+    if (auto changed = with_keys(file, {{key.name, value, Place{"test", 1, 1}}}))
       scenes.push_back(std::move(*changed));
   }
   return scenes;

@@ -1,8 +1,7 @@
 #include "launchsafe/scene/plausibility.hpp"
 
-#include "launchsafe/scene/acceptance.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/mechanical_part.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 
 #include <fmt/format.h>

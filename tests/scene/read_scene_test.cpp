@@ -1,6 +1,6 @@
 #include "launchsafe/scene/read_scene.hpp"
 
-#include "launchsafe/scene/selective_inertia.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

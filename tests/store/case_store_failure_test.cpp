@@ -33,8 +33,8 @@ class StoreFailure : public StoreFixture {
 
 struct Failures {
   int calls = 0;
-  StoreOptions options(int model_version) {
-    return {"", model_version, [this](const Error&) { ++calls; }};
+  std::function<void(const Error&)> counter() {
+    return [this](const Error&) { ++calls; };
   }
 };
 
@@ -42,7 +42,7 @@ TEST_F(StoreFailure, AFullDiskIsReportedOnceAndSparesWhatWasThere) {
   fill(2);
   EXPECT_TRUE(holds_under_file_size_limit(4096, [&] {
     Failures failures;
-    auto store = CaseStore::open(where(), failures.options(model_version));
+    auto store = CaseStore::open(where(), "", failures.counter());
     if (!store) return false;
     for (int number = 2; number < 6; ++number) save(**store, number);
     save_answer(**store, 1, "later");
@@ -73,7 +73,7 @@ TEST_F(StoreFailure, AResultsFileThatIsFullHurtsNoRowBefore) {
   };
   EXPECT_TRUE(holds_under_file_size_limit(30'000, [&] {
     Failures failures;
-    auto store = CaseStore::open(where(), failures.options(model_version));
+    auto store = CaseStore::open(where(), "", failures.counter());
     if (!store) return false;
     note_all(**store);
     const MaybeError error = (*store)->flush();
@@ -109,7 +109,7 @@ TEST_F(SmallDisk, KeepsAllThatWasWrittenBeforeItWasFull) {
   Failures failures;
   std::size_t kept = 0;
   {
-    auto store = CaseStore::open(disk() / "study", failures.options(model_version));
+    auto store = CaseStore::open(disk() / "study", "", failures.counter());
     ASSERT_TRUE(store) << store.error().message;
     for (int number = 0; number < many; ++number) save(**store, number);
     const MaybeError error = (*store)->flush();
@@ -136,7 +136,7 @@ TEST_F(SmallDisk, KeepsAllThatWasWrittenBeforeItWasFull) {
 
 /// Saves and answers until it is killed; says so once the first is on disk.
 [[noreturn]] void work_forever(const std::filesystem::path& folder, int first, int report) {
-  const auto store = CaseStore::open(folder, {"", 7, {}});
+  const auto store = CaseStore::open(folder);
   if (!store) ::_exit(1);
   for (int number = first;; ++number) {
     save(**store, number);

@@ -82,14 +82,21 @@ TEST_F(Import, AttemptsElsewhereSayNothingOfACaseThatIsDone) {
 }
 
 TEST_F(Import, RefusesResultsOfAnotherModelAndCopiesNothing) {
-  const auto newer = CaseStore::open(where(), {"", model_version + 1, {}});
-  ASSERT_TRUE(newer);
-  const auto imported = (*newer)->import_from(there());
+  const std::filesystem::path others = folder() / "of another model";
+  {
+    const auto other = opened_at(others);
+    RunRecord record = record_of(1);
+    record.model_version = model_version - 1;
+    other->save(identity_of(1), sample_scene(), result_of(1), record);
+    save_answer(*other, 1, "of another model");
+  }
+  const auto store = opened();
+  const auto imported = store->import_from(others);
   ASSERT_FALSE(imported);
   EXPECT_EQ(imported.error().kind, Error::Kind::conflict);
-  EXPECT_NE(imported.error().message.find("model version 7"), std::string::npos) << imported.error().message;
-  EXPECT_TRUE((*newer)->records().empty());
-  EXPECT_FALSE(answer_in(**newer, 1));
+  EXPECT_NE(imported.error().message.find("model version 6"), std::string::npos) << imported.error().message;
+  EXPECT_TRUE(store->records().empty());
+  EXPECT_FALSE(answer_in(*store, 1));
   EXPECT_TRUE(std::filesystem::is_empty(where() / "cases"));
 }
 

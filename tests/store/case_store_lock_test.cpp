@@ -32,7 +32,7 @@ class Holder {
     if (::pipe(ready.data()) != 0) return;
     process_ = ::fork();
     if (process_ == 0) {
-      const auto store = CaseStore::open(folder, {part, 7, {}});
+      const auto store = CaseStore::open(folder, part);
       const char outcome = store ? 'y' : 'n';
       if (::write(ready[1], &outcome, 1) == 1)
         while (true) ::pause();
@@ -95,7 +95,7 @@ TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
   {
     const auto store = opened();
     store->tell_progress({{"runs_done", 3}, {"runs_running", 1}, {"runs_total", 12}});
-    const auto reader = CaseStore::open_to_read(where(), model_version);
+    const auto reader = CaseStore::open_to_read(where());
     ASSERT_FALSE(reader);
     EXPECT_EQ(reader.error().kind, Error::Kind::conflict);
     EXPECT_NE(reader.error().message.find("3 of 12 runs done"), std::string::npos) << reader.error().message;
@@ -103,7 +103,7 @@ TEST_F(StoreLockTest, AReaderIsToldWhoWritesAndHowFarItIs) {
     EXPECT_NE(status.find("\"runs_stored\": 2"), std::string::npos) << status;
     EXPECT_NE(status.find("\"runs_running\": 1"), std::string::npos) << status;
   }
-  const auto reader = CaseStore::open_to_read(where(), model_version);
+  const auto reader = CaseStore::open_to_read(where());
   ASSERT_TRUE(reader);
   EXPECT_EQ((*reader)->records().size(), 2U);
   EXPECT_EQ(conflict(), "") << "who only looks holds nothing";
@@ -114,7 +114,7 @@ TEST_F(StoreLockTest, AReaderNeedsNoRightToWrite) {
   for (const auto& path : {folder(), where(), where() / "cases"})
     std::filesystem::permissions(path, std::filesystem::perms(0555));
   const bool reads = holds_without_privileges([&] {
-    const auto reader = CaseStore::open_to_read(where(), model_version);
+    const auto reader = CaseStore::open_to_read(where());
     return reader && (*reader)->records().size() == 2 && (*reader)->holds(identity_of(1).hash());
   });
   for (const auto& path : {folder(), where(), where() / "cases"})
@@ -166,7 +166,7 @@ TEST_F(StoreLockTest, PartsWriteTheirOwnFilesAndTheWholeTakesAllOver) {
       EXPECT_EQ(answer_in(whole, part), fmt::format("answer {}", part));
     }
   };
-  check(**CaseStore::open_to_read(where(), model_version));
+  check(**CaseStore::open_to_read(where()));
   EXPECT_FALSE(std::filesystem::exists(results())) << "who only looks makes no file";
   check(*opened());
   check(*opened());

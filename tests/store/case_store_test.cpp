@@ -95,7 +95,7 @@ TEST_F(CaseStoreTest, AMissingCaseIsToldFromADamagedOne) {
 
 TEST_F(CaseStoreTest, AResultThatDoesNotFitTogetherEndsTheWriting) {
   int failures = 0;
-  const auto store = CaseStore::open(where(), {"", model_version, [&](const Error&) { ++failures; }});
+  const auto store = CaseStore::open(where(), "", [&](const Error&) { ++failures; });
   run::CaseResult result = result_of(1);
   result.mechanics.trace.chamber_pressure.pop_back();
   (*store)->save(identity_of(1), sample_scene(), result, record_of(1));

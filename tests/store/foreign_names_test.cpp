@@ -150,7 +150,7 @@ TEST_F(ForeignNames, ADamagedResultsFileIsRefusedAndStaysAsItIs) {
   std::string bytes = *read_file(results());
   for (std::size_t i = 4096; i < bytes.size(); i += 64) bytes[i] = 'x';
   write(results(), bytes);
-  for (const auto& store : {try_open(where()), CaseStore::open_to_read(where(), model_version)}) {
+  for (const auto& store : {try_open(where()), CaseStore::open_to_read(where())}) {
     ASSERT_FALSE(store);
     EXPECT_EQ(store.error().kind, Error::Kind::corrupt);
     EXPECT_NE(store.error().message.find("move it away"), std::string::npos) << store.error().message;

@@ -100,7 +100,7 @@ class PowerCut : public StoreFixture {
   /// Saves cases and names each once the store has taken it.
   [[noreturn]] static void work(const std::filesystem::path& folder, int sync, int report) {
     power().fail_at_sync(sync, report);
-    const auto store = CaseStore::open(folder, {"", model_version, {}});
+    const auto store = CaseStore::open(folder);
     if (!store) ::_exit(1);
     for (int number = 0; number < 20; ++number) {
       save(**store, number);

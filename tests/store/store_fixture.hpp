@@ -67,7 +67,7 @@ class StoreFixture : public TemporaryFolder {
 
   static store::Result<std::unique_ptr<store::CaseStore>> try_open(const std::filesystem::path& path,
                                                                    const std::string& part = {}) {
-    return store::CaseStore::open(path, {part, model_version, {}});
+    return store::CaseStore::open(path, part);
   }
 
   /// A store, or a null pointer and a failed test.

@@ -37,7 +37,7 @@ TEST_F(StoredFormat, AFolderWithAJournalIsRefusedWithWhatToDo) {
   };
   EXPECT_TRUE(refused(try_open(where())));
   EXPECT_TRUE(refused(try_open(where(), "1-of-2")));
-  EXPECT_TRUE(refused(CaseStore::open_to_read(where(), model_version)));
+  EXPECT_TRUE(refused(CaseStore::open_to_read(where())));
   EXPECT_TRUE(refused(opened_at(folder() / "another")->import_from(where())));
   EXPECT_FALSE(std::filesystem::exists(results()));
 }

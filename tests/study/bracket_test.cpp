@@ -10,8 +10,7 @@ using namespace launchsafe::study;
 
 TEST(CriticalGapSearch, BracketsAThresholdToTheTolerance) {
   for (const double truth : {1e-7, 3.95e-4, 3.125e-5, 9.9999e-4}) {
-    const CriticalGap found = find_critical_gap(
-        [truth](double gap) { return gap >= truth ? GapState::ignites : GapState::safe; }, 1e-3, 1e-6);
+    const CriticalGap found = find_critical_gap([truth](double gap) { return gap >= truth; }, 1e-3, 1e-6);
     ASSERT_EQ(found.kind, CriticalGapKind::value) << truth;
     EXPECT_LT(found.lower, truth);
     EXPECT_GE(found.upper, truth);
@@ -24,14 +23,13 @@ TEST(CriticalGapSearch, BracketsAThresholdToTheTolerance) {
 
 TEST(CriticalGapSearch, CentresTheBracketSoThatBothSidesStandClear) {
   const double truth = 3.9512e-4;
-  const CriticalGap found = find_critical_gap(
-      [truth](double gap) { return gap >= truth ? GapState::ignites : GapState::safe; }, 1e-3, 1e-6);
+  const CriticalGap found = find_critical_gap([truth](double gap) { return gap >= truth; }, 1e-3, 1e-6);
   EXPECT_GT(truth - found.lower, 0.45e-6);
   EXPECT_GT(found.upper - truth, 0.45e-6);
 }
 
 TEST(CriticalGapSearch, AllSafeIsABoundAndNotANumber) {
-  const CriticalGap found = find_critical_gap([](double) { return GapState::safe; }, 1e-3, 1e-6);
+  const CriticalGap found = find_critical_gap([](double) { return false; }, 1e-3, 1e-6);
   EXPECT_EQ(found.kind, CriticalGapKind::all_safe);
   EXPECT_TRUE(std::isnan(found.value));
   EXPECT_TRUE(std::isnan(found.upper));
@@ -41,7 +39,7 @@ TEST(CriticalGapSearch, AllSafeIsABoundAndNotANumber) {
 }
 
 TEST(CriticalGapSearch, AllIgniteIsABoundAndNotANumber) {
-  const CriticalGap found = find_critical_gap([](double) { return GapState::ignites; }, 1e-3, 1e-6);
+  const CriticalGap found = find_critical_gap([](double) { return true; }, 1e-3, 1e-6);
   EXPECT_EQ(found.kind, CriticalGapKind::all_ignite);
   EXPECT_TRUE(std::isnan(found.value));
   EXPECT_TRUE(std::isnan(found.lower));
@@ -52,8 +50,8 @@ TEST(CriticalGapSearch, AnUndefinedGapMakesItIndeterminate) {
   for (const double bad : {1e-3, 3.95e-4}) {
     const CriticalGap found = find_critical_gap(
         [bad](double gap) {
-          if (std::abs(gap - bad) < 1e-5) return GapState::undefined;
-          return gap >= 3.95e-4 ? GapState::ignites : GapState::safe;
+          if (std::abs(gap - bad) < 1e-5) return std::optional<bool>();
+          return std::optional(gap >= 3.95e-4);
         },
         1e-3, 1e-6);
     EXPECT_EQ(found.kind, CriticalGapKind::indeterminate) << bad;
@@ -63,8 +61,8 @@ TEST(CriticalGapSearch, AnUndefinedGapMakesItIndeterminate) {
 }
 
 TEST(CriticalGapSearch, SafeGapsBeyondTheFirstIgnitionMakeItSeveralCrossings) {
-  const CriticalGap found = find_critical_gap(
-      [](double gap) { return gap > 2e-4 && gap < 6e-4 ? GapState::ignites : GapState::safe; }, 1e-3, 1e-6);
+  const CriticalGap found =
+      find_critical_gap([](double gap) { return gap > 2e-4 && gap < 6e-4; }, 1e-3, 1e-6);
   EXPECT_EQ(found.kind, CriticalGapKind::several_crossings);
   EXPECT_TRUE(std::isnan(found.value));
   EXPECT_NEAR(found.lower, 2e-4, 1e-6);

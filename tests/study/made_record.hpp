@@ -1,7 +1,6 @@
 // A record whose bounds are known in closed form, of the 155 mm shell as shipped.
 #pragma once
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "study/read_error.hpp"
@@ -54,7 +53,6 @@ inline RecordedSetting made_setting(const std::string& label, const scene::Scene
 inline AccuracyRecord made_record() {
   AccuracyRecord record;
   record.title = "made up";
-  record.model_version = run::model_version;
   record.scene = own_scene();
   record.scene.surface.gaps = {0.0, 2e-4, 4e-4};
   double time = 1280.0;

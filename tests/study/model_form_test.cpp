@@ -1,7 +1,6 @@
 #include "launchsafe/study/model_form.hpp"
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -23,7 +22,7 @@ struct MadeModels {
   std::vector<ModelFormEntry> entries;
   std::vector<double> pressures{450e6, 500e6, 550e6};
 
-  ModelFormOrError form() const { return make_model_form(entries, pressures); }
+  auto form() const { return make_model_form(entries, pressures); }
   void add(const std::string& name, std::vector<GapOrBound> gaps, double change,
            const std::string& failure = {}) {
     scene::Scene scene = study_of(critical_text + synthetic_constants).scene.scene;
@@ -31,7 +30,6 @@ struct MadeModels {
     if (!entries.empty()) scene.surface.station_width = 1e-3 * static_cast<double>(10 + entries.size());
     CalibrationRecord calibration;
     calibration.title = name;
-    calibration.model_version = run::model_version;
     calibration.failure = failure;
     calibration.calibration.scene = scene;
     calibration.stations = {change, change};
@@ -55,8 +53,8 @@ MadeModels made_models() {
 ModelFormRecord made_record() {
   const MadeModels made = made_models();
   auto form = made.form();
-  EXPECT_TRUE(form.record) << form.error;
-  return form.record.value_or(ModelFormRecord{});
+  EXPECT_TRUE(form) << form.error();
+  return form ? *form : ModelFormRecord{};
 }
 
 scene::Scene at_pressure(double peak) {
@@ -77,18 +75,18 @@ TEST(ModelForm, IsNotKnownFarFromEveryRecordedPressure) {
   MadeModels made = made_models();
   made.pressures = {400e6, 500e6, 700e6};
   const auto form = made.form();
-  ASSERT_TRUE(form.record) << form.error;
-  EXPECT_TRUE(std::isfinite(model_form_shift(*form.record, at_pressure(500e6)).gap));
-  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(520e6)).gap));
+  ASSERT_TRUE(form) << form.error();
+  EXPECT_TRUE(std::isfinite(model_form_shift(*form, at_pressure(500e6)).gap));
+  EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(520e6)).gap));
 }
 
 TEST(ModelForm, IsNotKnownBesideAPressureAtWhichTheDefaultIgnitesWithoutAGap) {
   MadeModels made = made_models();
   for (ModelFormEntry& each : made.entries) each.critical_gap[2] = 0.0;
   const auto form = made.form();
-  ASSERT_TRUE(form.record) << form.error;
-  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(525e6)).gap));
-  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(550e6)).gap));
+  ASSERT_TRUE(form) << form.error();
+  EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(525e6)).gap));
+  EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(550e6)).gap));
 }
 
 TEST(ModelForm, IsNotKnownWhereNoAlternativeCounts) {
@@ -96,8 +94,8 @@ TEST(ModelForm, IsNotKnownWhereNoAlternativeCounts) {
   made.add("own", {5e-4, 4e-4, 3e-4}, 0.5);
   made.add("rough", {1e-4, 1e-4, 1e-4}, 9.0);
   const auto form = made.form();
-  ASSERT_TRUE(form.record) << form.error;
-  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(500e6)).gap));
+  ASSERT_TRUE(form) << form.error();
+  EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(500e6)).gap));
 }
 
 TEST(ModelForm, RefusesACopyOfTheDefault) {
@@ -105,8 +103,8 @@ TEST(ModelForm, RefusesACopyOfTheDefault) {
   made.entries.back().scene = made.entries.front().scene;
   made.calibrations.back() = made.calibrations.front();
   const auto form = made.form();
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("same model"), std::string::npos) << form.error;
+  EXPECT_FALSE(form);
+  EXPECT_NE(form.error().find("same model"), std::string::npos) << form.error();
 }
 
 TEST(ModelForm, RefusesAModelOfAnotherLaunch) {
@@ -114,16 +112,16 @@ TEST(ModelForm, RefusesAModelOfAnotherLaunch) {
   made.entries.back().scene.initial_temperature -= 20.0;
   made.calibrations.back().calibration.scene.initial_temperature -= 20.0;
   const auto form = made.form();
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("initial_temperature"), std::string::npos) << form.error;
+  EXPECT_FALSE(form);
+  EXPECT_NE(form.error().find("initial_temperature"), std::string::npos) << form.error();
 }
 
 TEST(ModelForm, RefusesAModelCalibratedOnOtherRows) {
   MadeModels made = made_models();
   made.calibrations.back().references_digest = "other";
   const auto form = made.form();
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("published rows"), std::string::npos) << form.error;
+  EXPECT_FALSE(form);
+  EXPECT_NE(form.error().find("published rows"), std::string::npos) << form.error();
 }
 
 TEST(ModelForm, RefusesAModelWhoseStationsWereComparedWithNoFinerMesh) {
@@ -131,8 +129,8 @@ TEST(ModelForm, RefusesAModelWhoseStationsWereComparedWithNoFinerMesh) {
   made.calibrations.front().stations = {0.5, 0.5};
   std::next(made.calibrations.begin())->stations = {not_a_number, 0.5};
   const auto form = made.form();
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("finer mesh"), std::string::npos) << form.error;
+  EXPECT_FALSE(form);
+  EXPECT_NE(form.error().find("finer mesh"), std::string::npos) << form.error();
 }
 
 TEST(ModelForm, SaysNothingOfAnotherLaunchOrPressure) {
@@ -168,8 +166,8 @@ TEST(ModelForm, IsNotKnownWhereTheDefaultHasABoundAlone) {
   MadeModels made = made_models();
   made.entries.front().critical_gap[1] = no_ignition;
   const auto form = made.form();
-  ASSERT_TRUE(form.record) << form.error;
-  EXPECT_TRUE(std::isnan(model_form_shift(*form.record, at_pressure(500e6)).gap));
+  ASSERT_TRUE(form) << form.error();
+  EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(500e6)).gap));
 }
 
 TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
@@ -185,7 +183,7 @@ TEST(ModelForm, NamesModelsThatCouldChangeAVerdict) {
 TEST(ModelForm, RefusesADefaultThatHasNoLimitOfMeshes) {
   MadeModels made = made_models();
   made.calibrations.front().stations = {9.0, 9.0};
-  EXPECT_FALSE(made.form().record);
+  EXPECT_FALSE(made.form());
 }
 
 TEST(ModelForm, RefusesASweepOfAnotherLaunchThanTheCalibration) {
@@ -194,8 +192,8 @@ TEST(ModelForm, RefusesASweepOfAnotherLaunchThanTheCalibration) {
   auto second = std::next(made.entries.begin());
   second->scene.interfaces.clear();
   const auto form = made.form();
-  EXPECT_FALSE(form.record);
-  EXPECT_NE(form.error.find("early"), std::string::npos) << form.error;
+  EXPECT_FALSE(form);
+  EXPECT_NE(form.error().find("early"), std::string::npos) << form.error();
 }
 
 TEST(ModelForm, ReadsBackWhatWasWrittenAndRefusesEdits) {

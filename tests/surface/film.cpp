@@ -1,8 +1,8 @@
 // The film of air against closed forms, its orders of convergence, its ledger, and launches.
 #include "launchsafe/surface/film.hpp"
 
-#include "../../src/surface/film_column.hpp"
-#include "launchsafe/materials/air_conductivity.hpp"
+#include "launchsafe/materials/ideal_gas.hpp"
+#include "launchsafe/surface/film_station.hpp"
 #include "plain_model.hpp"
 
 #include <gtest/gtest.h>

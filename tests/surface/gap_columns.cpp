@@ -35,11 +35,11 @@ EnclosedAir close(GapColumns& columns, double gap, double part, double time, int
     for (int step = 1; step <= steps; ++step) {
       const double before = now, middle = 0.5 * (opening(step - 1) + opening(step));
       const auto at = [&](double h) {
-        return air.pressure * std::pow(volume / (h - columns.covolume()), air.exponent);
+        return air.pressure * std::pow(volume / (h - columns[0].column().covolume()), air.exponent);
       };
       const double left = std::exp(-time / intervals / steps * air.exchange / middle);
       volume *= left + (1.0 - left) * air.pressure * air.volume_at_walls /
-                           (at(middle) * (middle - columns.covolume()));
+                           (at(middle) * (middle - columns[0].column().covolume()));
       now = at(opening(step));
       mean += 0.5 * (before + now) / steps;
     }
@@ -54,7 +54,7 @@ TEST(GapColumns, AreOnTheAdiabatWhereTheyCloseAtOnce) {
   GapColumns columns(model, 1, 1e-3, 1e-2);
   const EnclosedAir air = close(columns, 1e-3, 0.9, 1e-12, 100);
   EXPECT_NEAR(air.pressure / 101325.0, std::pow(10.0, 1.4), 1e-4 * std::pow(10.0, 1.4));
-  EXPECT_NEAR(columns.mean_air(0), 300.0 * std::pow(10.0, 0.4), 0.1);
+  EXPECT_NEAR(columns[0].mean_air(), 300.0 * std::pow(10.0, 0.4), 0.1);
 }
 
 TEST(GapColumns, AreOnTheIsentropeOfHotAndDenseAirWhereTheyCloseAtOnce) {
@@ -68,7 +68,7 @@ TEST(GapColumns, AreOnTheIsentropeOfHotAndDenseAirWhereTheyCloseAtOnce) {
   };
   GapColumns columns(model, 1, 1e-3, 1e-2);
   const EnclosedAir air = columns.fit(0, 1e-5);
-  const double temperature = columns.mean_air(0);
+  const double temperature = columns[0].mean_air();
   EXPECT_GT(temperature, 1300.0);
   EXPECT_LT(temperature, 300.0 * std::pow(100.0, 0.4));
   constexpr int parts = 1000;
@@ -81,7 +81,7 @@ TEST(GapColumns, AreOnTheIsentropeOfHotAndDenseAirWhereTheyCloseAtOnce) {
   EXPECT_NEAR(std::log(air.pressure / 101325.0), entropy / gas_constant, 1e-9);
   const double mass = 1e-3 / (gas_constant * 300.0 / 101325.0 + 1.03e-3);
   EXPECT_NEAR(air.pressure * (1e-5 - 1.03e-3 * mass), mass * gas_constant * temperature, 1e-9 * 101325.0);
-  EXPECT_NEAR(columns.covolume(), 1.03e-3 * mass, 1e-15);
+  EXPECT_NEAR(columns[0].column().covolume(), 1.03e-3 * mass, 1e-15);
 }
 
 TEST(GapColumns, TakeTheWorkOfTheirPressure) {
@@ -95,9 +95,10 @@ TEST(GapColumns, TakeTheWorkOfTheirPressure) {
   for (int i = 1; i <= parts; ++i) {
     const EnclosedAir before = air;
     air = columns.fit(0, 1e-3 * std::pow(0.01, double(i) / parts));
-    work += (0.5 * (before.volume + air.volume) + columns.covolume()) * (air.pressure - before.pressure);
+    work += (0.5 * (before.volume + air.volume) + columns[0].column().covolume()) *
+            (air.pressure - before.pressure);
   }
-  EXPECT_NEAR(columns.energy(0).work, work, 1e-5 * work);
+  EXPECT_NEAR(columns[0].energy().work, work, 1e-5 * work);
 }
 
 TEST(GapColumns, KeepTheTemperatureOfTheirWallsWhereTheyAreThin) {
@@ -106,7 +107,7 @@ TEST(GapColumns, KeepTheTemperatureOfTheirWallsWhereTheyAreThin) {
   GapColumns columns(model, 1, 1e-5, 1e-2);
   const EnclosedAir air = close(columns, 1e-5, 0.5, 1e-2, 400);
   EXPECT_NEAR(air.pressure, 2.0 * 101325.0, 1e-3 * 101325.0);
-  EXPECT_NEAR(columns.mean_air(0), 300.0, 0.1);
+  EXPECT_NEAR(columns[0].mean_air(), 300.0, 0.1);
 }
 
 TEST(GapColumns, AccountForTheirHeatToRoundOff) {
@@ -117,7 +118,7 @@ TEST(GapColumns, AccountForTheirHeatToRoundOff) {
     if (real) model.surface.air = materials::hot_and_dense(model.surface.air);
     GapColumns columns(model, 1, 4e-4, 1e-2);
     close(columns, 4e-4, 0.97, 1e-4, 200);
-    const FilmEnergy& energy = columns.energy(0);
+    const FilmEnergy& energy = columns[0].energy();
     EXPECT_GT(energy.work, 10.0);
     EXPECT_LT(energy.residual(), 1e-9);
     if (!(conductivity > 0.0)) {
@@ -136,7 +137,7 @@ TEST(GapColumns, MeltBeforeTheyGetWarmer) {
   GapColumns columns(model, 1, 1e-6, 1e-2);
   constexpr int intervals = 100;
   EnclosedAir air = columns.fit(0, 1e-6);
-  const auto melted_share = [&] { return -columns.energy(0).reaction / columns.energy(0).friction; };
+  const auto melted_share = [&] { return -columns[0].energy().reaction / columns[0].energy().friction; };
   for (int i = 0; i < intervals; ++i) {
     columns.advance(0, 1e-4, air.pressure, air.pressure, air.pressure, 1e4);
     air = columns.fit(0, 1e-6);
@@ -144,8 +145,8 @@ TEST(GapColumns, MeltBeforeTheyGetWarmer) {
     if (i + 1 == 60) EXPECT_NEAR(melted_share(), 7.0 / 60.0, 1e-3);
   }
   EXPECT_NEAR(melted_share(), 0.22, 1e-9);
-  EXPECT_NEAR(columns.hottest(0), 300.0 + 100.0 - 22.0, 0.5) << "the air is compressed, and warmer";
-  EXPECT_LT(columns.energy(0).residual(), 1e-9);
+  EXPECT_NEAR(columns[0].hottest(), 300.0 + 100.0 - 22.0, 0.5) << "the air is compressed, and warmer";
+  EXPECT_LT(columns[0].energy().residual(), 1e-9);
 }
 
 TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
@@ -154,7 +155,7 @@ TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
   const auto hottest = [&](int intervals) {
     GapColumns columns(model, 1, 4e-4, 1e-2, {.tolerance = 1e-7});
     close(columns, 4e-4, 0.95, 5e-5, intervals);
-    return columns.hottest(0);
+    return columns[0].hottest();
   };
   const double exact = hottest(1600);
   EXPECT_GT(exact, 310.0);
@@ -166,7 +167,7 @@ TEST(GapColumns, AreOfSecondOrderInTheirIntervals) {
 /// Of columns by area.
 double sum_of(const GapColumns& columns, const std::vector<double>& areas, double FilmEnergy::*part) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < areas.size(); ++i) sum += areas[i] * columns.energy(i).*part;
+  for (std::size_t i = 0; i < areas.size(); ++i) sum += areas[i] * columns[i].energy().*part;
   return sum;
 }
 
@@ -181,7 +182,8 @@ EnclosedAir close_together(GapColumns& columns, const std::vector<double>& areas
     const std::vector<double> openings{gap * (1.0 - first * part), gap * (1.0 - second * part)};
     const double area = areas[0] + areas[1];
     const double mean = (areas[0] * openings[0] + areas[1] * openings[1]) / area;
-    const double covolume = (areas[0] * columns.covolume(0) + areas[1] * columns.covolume(1)) / area;
+    const double covolume =
+        (areas[0] * columns[0].column().covolume() + areas[1] * columns[1].column().covolume()) / area;
     const double end = air.pressure * std::pow(air.volume / (mean - covolume), air.exponent);
     for (std::size_t column : {0u, 1u})
       columns.advance(column, time / intervals, air.pressure, end, 0.5 * (air.pressure + end),
@@ -197,7 +199,8 @@ EnclosedAir close_alone(GapColumns& columns, double time, int intervals) {
   EnclosedAir air = columns.fit(0, gap);
   for (int i = 1; i <= intervals; ++i) {
     const double opening = gap * (1.0 - 0.95 * i / intervals);
-    const double end = air.pressure * std::pow(air.volume / (opening - columns.covolume()), air.exponent);
+    const double end =
+        air.pressure * std::pow(air.volume / (opening - columns[0].column().covolume()), air.exponent);
     columns.advance(0, time / intervals, air.pressure, end, 0.5 * (air.pressure + end), 0.0);
     air = columns.fit(0, opening);
   }
@@ -212,12 +215,12 @@ TEST(GapColumns, ThatShareTheirAirAreOnOneAdiabat) {
   const double ratio = 3.0 / (0.05 + 2.0 * 0.8);
   EXPECT_NEAR(air.pressure / 101325.0, std::pow(ratio, 1.4), 1e-9 * std::pow(ratio, 1.4));
   for (std::size_t column : {0u, 1u})
-    EXPECT_NEAR(columns.mean_air(column), 300.0 * std::pow(ratio, 0.4), 1e-4);
+    EXPECT_NEAR(columns[column].mean_air(), 300.0 * std::pow(ratio, 0.4), 1e-4);
   // Work and heat capacity of all of it: m c_p = 3.5 p0 V0/T0.
   const double work = 3.5 * 101325.0 * 3.0 * 4e-4 * (std::pow(ratio, 0.4) - 1.0);
   EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::work), work, 1e-6 * work);
   EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::gas), work, 1e-6 * work);
-  EXPECT_LT(columns.energy(0).inflow, 0.0);
+  EXPECT_LT(columns[0].energy().inflow, 0.0);
   EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::inflow), 0.0, 1e-12 * work);
 }
 
@@ -231,8 +234,8 @@ TEST(GapColumns, ThatShareTheirAirAccountForTheHeatThatFlowsWithIt) {
     close_together(columns, areas, 0.97, 0.5, 1e-4, 400, 1e6);
     const double work = sum_of(columns, areas, &FilmEnergy::work);
     EXPECT_GT(work, 10.0);
-    for (std::size_t column : {0u, 1u}) EXPECT_LT(columns.energy(column).residual(), 1e-9);
-    EXPECT_GT(std::abs(columns.energy(0).inflow), 0.1 * work);
+    for (std::size_t column : {0u, 1u}) EXPECT_LT(columns[column].energy().residual(), 1e-9);
+    EXPECT_GT(std::abs(columns[0].energy().inflow), 0.1 * work);
     EXPECT_NEAR(sum_of(columns, areas, &FilmEnergy::inflow), 0.0, 1e-9 * work);
     const double heat = sum_of(columns, areas, &FilmEnergy::charge) +
                         sum_of(columns, areas, &FilmEnergy::base) + sum_of(columns, areas, &FilmEnergy::gas);
@@ -251,7 +254,7 @@ TEST(GapColumns, ThatShareTheirAirAreThoseThatKeepItWhereAllCloseAlike) {
   const EnclosedAir shared = close_together(together, {1.0, 2.0}, 0.95, 0.95, 5e-5, 400, 0.0),
                     own = close_alone(alone, 5e-5, 400);
   EXPECT_NEAR(shared.pressure, own.pressure, 1e-9 * own.pressure);
-  EXPECT_NEAR(together.hottest(1), alone.hottest(0), 1e-9 * 300.0);
+  EXPECT_NEAR(together[1].hottest(), alone[0].hottest(), 1e-9 * 300.0);
 }
 
 TEST(GapColumns, ReturnWhatStretchedAirTook) {
@@ -259,10 +262,10 @@ TEST(GapColumns, ReturnWhatStretchedAirTook) {
   const SkinModel model = inert_model();
   GapColumns columns(model, 1, 1e-3, 1e-2);
   columns.fit(0, 2e-3);
-  EXPECT_LT(columns.mean_air(0), 240.0);
+  EXPECT_LT(columns[0].mean_air(), 240.0);
   const EnclosedAir air = columns.fit(0, 1e-3);
   EXPECT_NEAR(air.pressure, 101325.0, 1e-6);
-  EXPECT_NEAR(columns.mean_air(0), 300.0, 1e-9);
+  EXPECT_NEAR(columns[0].mean_air(), 300.0, 1e-9);
 }
 
 }  // namespace

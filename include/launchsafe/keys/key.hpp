@@ -361,38 +361,30 @@ Key<Owner> usually(Key<Owner> key, std::string words) {
   return key;
 }
 
-namespace detail {
-template <class Owner>
-Key<Owner> judged(Key<Owner> key, Plausible plausible, std::optional<Role> role) {
-  key.plausible = std::move(plausible);
+/// The same key with what is plausible of it, which are limits or words (of a flag "true"), why, and its
+/// role.
+template <class Owner, class What>
+Key<Owner> plausibly(Key<Owner> key, What what, std::string because, std::optional<Role> role = {}) {
+  key.plausible = {.because = std::move(because)};
+  if constexpr (std::is_same_v<What, Limits>)
+    key.plausible.limits = what;
+  else
+    key.plausible.words = std::move(what);
   key.stated_role = std::move(role);
   return key;
-}
-}  // namespace detail
-
-/// The same key with what is plausible of it, why, and its role.
-template <class Owner>
-Key<Owner> plausibly(Key<Owner> key, Limits limits, std::string because, std::optional<Role> role = {}) {
-  return detail::judged(std::move(key), {.limits = limits, .because = std::move(because)}, std::move(role));
 }
 /// The same key, of which also 0 is plausible, where it stands for "none".
 template <class Owner>
 Key<Owner> zero_or_plausibly(Key<Owner> key, Limits limits, std::string because,
                              std::optional<Role> role = {}) {
-  return detail::judged(std::move(key), {.limits = limits, .or_zero = true, .because = std::move(because)},
-                        std::move(role));
-}
-/// The same word or flag ("true"), of which only these are plausible, and why.
-template <class Owner>
-Key<Owner> plausibly(Key<Owner> key, std::vector<std::string> words, std::string because,
-                     std::optional<Role> role = {}) {
-  return detail::judged(std::move(key), {.words = std::move(words), .because = std::move(because)},
-                        std::move(role));
+  key = plausibly(std::move(key), limits, std::move(because), std::move(role));
+  key.plausible.or_zero = true;
+  return key;
 }
 /// The same key, of which all that is allowed is plausible, and why.
 template <class Owner>
 Key<Owner> always_plausible(Key<Owner> key, std::string because, std::optional<Role> role = {}) {
-  return detail::judged(std::move(key), {.because = std::move(because)}, std::move(role));
+  return plausibly(std::move(key), any_number(), std::move(because), std::move(role));
 }
 
 /// The same key with something that follows from it done to its owner after it is set.

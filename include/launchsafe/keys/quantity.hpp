@@ -165,6 +165,12 @@ struct Quantity : QuantityDescription {
   Quantity(QuantityDescription described, Path... path)
       : QuantityDescription(std::move(described)),
         get([=](const Row& row) { return cell_at(row, path...); }) {}
+  /// One that nothing else describes.
+  template <class... Path>
+  Quantity(std::string its_name, std::string its_heading, Form its_form, std::string its_meaning,
+           Path... path)
+      : Quantity({std::move(its_name), std::move(its_heading), std::move(its_form), std::move(its_meaning)},
+                 path...) {}
 
   /// Its value in SI; nothing for a number that is not there.
   Cell value(const Row& row) const {

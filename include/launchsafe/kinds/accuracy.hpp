@@ -31,10 +31,9 @@ struct PressureTrace {
   std::vector<double> pressure;  ///< Pa
 };
 
-/// What the reference meshes tend to.
-struct AccuracyReference {
-  std::vector<study::ReferenceValue> temperature;  ///< K, for every gap
-  study::ReferenceValue critical_gap;              ///< m; no values where a mesh has none
+/// What the reference meshes tend to. T max and critical gap are those of the record: their limits may be off
+/// by what no mesh has exact.
+struct AccuracyReference : study::RecordedReference {
   std::vector<bool> inert;              ///< for every gap: of a skin that does not react, since one ignites
   study::ReferenceValue peak_pressure;  ///< Pa
   std::vector<study::ReferenceValue> ignition_time;  ///< s, for every gap; no values where a mesh is safe
@@ -94,12 +93,9 @@ struct VariantAccuracy {
   double reference_uncertainty() const;
 };
 
-struct AccuracyResult {
-  study::StudyFile study;
+struct AccuracyResult : StudyResult {
   std::vector<VariantAccuracy> variants;  ///< at least one; their cases follow each other
-  study::Timing timing;
-  bool interrupted = false;
-  bool any_indeterminate() const;  ///< of any variant
+  bool any_indeterminate() const;         ///< of any variant
 };
 
 /// Marks the rows that are no worse than all cheaper ones; of sound rows of the same model alone.

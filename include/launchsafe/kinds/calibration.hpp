@@ -2,9 +2,10 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/surface/skin.hpp"
+#include "launchsafe/surface/ignition_boundary.hpp"
 
 namespace launchsafe::kinds {
 
@@ -61,18 +62,15 @@ struct NextFiring {
   double information = 0;  ///< bits that its outcome tells of the constants, on average
 };
 
-struct FiringResult {
-  study::StudyFile study;
+struct FiringResult : StudyResult {
   std::vector<CalibrationRun> conditions;
   std::vector<FiringRow> rows;
   std::vector<ConstantRange> constants;
-  std::vector<NextFiring> next;  ///< that which tells most first
-  std::optional<study::FiringRecord> record;
+  std::vector<NextFiring> next;                    ///< that which tells most first
+  std::optional<study::CalibrationRecord> record;  ///< on firings
   std::string failure;  ///< why nothing was calibrated; empty where there is a posterior
   std::vector<std::string>
       contradicting;  ///< firings that no constants make probable; then there is no record
-  study::Timing timing;
-  bool interrupted = false;
   /// Whether what was asked for, a record, is not there.
   bool any_indeterminate() const { return !record; }
 };
@@ -87,7 +85,7 @@ FiringResult run_firings(const study::StudyFile& study, const study::StudyOption
 std::string answer(const FiringResult& result);
 report::Report report_of(const FiringResult& result);
 /// What the tables of the report hold.
-std::vector<ResultTable> firing_results();
+std::vector<report::ReportTable> firing_results();
 
 /// What a study file of this kind says besides.
 struct CalibrationSettings {
@@ -100,14 +98,9 @@ struct CalibrationSettings {
   FiringSettings firings;    ///< instead of published rows
 };
 
-/// The calibrated constants of a scene.
-struct Constants {
-  double localisation = study::not_a_number;
-  double exchange_time = study::not_a_number;         ///< s
-  double ignition_temperature = study::not_a_number;  ///< K
-  /// Puts them into a scene or a model of its skin.
-  void put_into(scene::Surface& surface, materials::KineticsParameters& kinetics) const;
-};
+/// Puts constants into a scene or a model of its skin.
+void put(const surface::SurfaceConstants& constants, scene::Surface& surface,
+         materials::KineticsParameters& kinetics);
 
 /// The rows that constants are fitted to: nothing else is.
 struct CalibrationTargets {
@@ -125,7 +118,7 @@ scene::Expected<CalibrationTargets> calibration_targets(const study::StudyFile& 
 
 /// Constants with how well they meet the rows they were fitted to.
 struct CalibratedConstants {
-  Constants constants;
+  surface::SurfaceConstants constants{study::not_a_number, study::not_a_number, study::not_a_number};
   double zero_gap_misfit = study::not_a_number;  ///< K, left over
   double wide_gap_misfit = study::not_a_number;  ///< K, left over
   /// K, maximum temperatures without a trigger at the safe and the igniting gap: T1 is between them
@@ -142,19 +135,16 @@ CalibratedConstants calibrate(const surface::SkinModel& model, const trace::Bott
 /// The bell that was fitted to the calibrated rows together with localisation and exchange time, by least
 /// squares, and how well the rows determine the five.
 struct FittedLoad {
-  double peak_time = study::not_a_number;  ///< s
-  double width = study::not_a_number;      ///< s
-  double steepness = study::not_a_number;
+  std::optional<scene::Load> bell;              ///< none where the fit failed
   std::size_t numbers = 0;                      ///< that were fitted to
   double sum_of_squares = study::not_a_number;  ///< of what is left of them, each over its weight
   double condition = study::not_a_number;  ///< of the Jacobian with respect to the logarithms of the five
   /// Of the logarithms of study::fitted_keys, row by row. The weights count as standard deviations, and
   /// larger ones where the fit leaves more than them.
   std::vector<double> covariance;
-  double base_change = study::not_a_number;  ///< Pa, by which load.base would move as a sixth unknown
-  double base_gain = study::not_a_number;    ///< by which the sum of squares would then fall
-  std::size_t runs = 0;                      ///< mechanical runs that it took
-  std::string failure;                       ///< why there is none; empty when all went well
+  std::optional<math::AddedUnknown> base;  ///< what load.base would do as a sixth unknown, Pa
+  std::size_t runs = 0;                    ///< mechanical runs that it took
+  std::string failure;                     ///< why there is none; empty when all went well
   /// Standard deviation of the logarithm of one of the five; correlation of two.
   double deviation(std::size_t i) const;
   double correlation(std::size_t i, std::size_t j) const;
@@ -232,17 +222,14 @@ struct Recommendation {
   std::string reason;
 };
 
-struct CalibrationResult {
-  study::StudyFile study;
+struct CalibrationResult : StudyResult {
   std::vector<CalibrationRun> runs;
   std::optional<FittedLoad> load;      ///< where the study asks for one; all runs are under it
   study::StationConvergence stations;  ///< around the recommended row
   std::vector<CalibrationRow> rows;    ///< mesh by mesh, closure by closure, kinetics by kinetics
   std::vector<Convergence> convergence;
   Recommendation recommendation;
-  Constants in_scene;  ///< what the scene file holds now
-  study::Timing timing;
-  bool interrupted = false;
+  surface::SurfaceConstants in_scene;  ///< what the scene file holds now
   /// The recommended row; nullptr without one.
   const CalibrationRow* recommended() const {
     return recommendation.row ? &rows[*recommendation.row] : nullptr;

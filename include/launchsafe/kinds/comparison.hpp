@@ -36,11 +36,8 @@ struct ComparedCase : study::CaseAnswer {
   double processor_time = study::not_a_number;                   ///< s, of its run
 };
 
-struct ComparisonResult {
-  study::StudyFile study;
+struct ComparisonResult : StudyResult {
   std::vector<ComparedCase> answers;  ///< one for each of StudyFile::cases
-  study::Timing timing;
-  bool interrupted = false;
   const std::vector<Variant>& variants() const {
     return settings_of<ComparisonSettings>(study.study).variants;
   }
@@ -65,6 +62,6 @@ report::Report report_of(const ComparisonResult& result);
 void add_model_form(const ComparisonResult& result, report::Report& report);
 
 /// What its tables hold, but for the pressures of a study.
-std::vector<ResultTable> model_form_results();
+std::vector<report::ReportTable> model_form_results();
 
 }  // namespace launchsafe::kinds

@@ -13,13 +13,10 @@ struct CriticalGapSettings {
   bool surrogate = false;  ///< a fit over the cases
 };
 
-struct CriticalGapResult {
-  study::StudyFile study;
+struct CriticalGapResult : StudyResult {
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   /// What else is known of the same cases in a study in detail: histories, coupled runs, other terms.
   std::vector<study::CaseOutcome> details;
-  study::Timing timing;
-  bool interrupted = false;
   bool any_indeterminate() const;  ///< a verdict or a critical gap is indeterminate
 };
 

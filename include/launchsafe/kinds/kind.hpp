@@ -15,6 +15,13 @@ struct Failure {
   study::RunOutcome outcome = study::RunOutcome::failed;  ///< of the run behind it
 };
 
+/// What came of a study, to which its kind adds.
+struct StudyResult {
+  study::StudyFile study;
+  study::Timing timing;
+  bool interrupted = false;
+};
+
 /// What became of a study of any kind.
 struct StudyOutcome {
   bool interrupted = false;
@@ -30,25 +37,12 @@ struct StudyTable {
   std::vector<scene::DocumentedKey> keys;  ///< "reference.gap"; none where any scene key may stand
 };
 
-/// The name of a file, or its beginning and end where what is between depends on the study.
-struct FileName {
-  std::string begin, end = {};
-  bool fits(std::string_view name) const;
-};
-
 /// A study file as text.
 struct StudySource {
   const toml::table& root;
   std::string_view text;            ///< that the table was made of
   std::filesystem::path folder;     ///< of the file, from which paths in it start
   std::optional<double> tolerance;  ///< K, of T max: asked for on the command line
-};
-
-/// A table of results: its rows are an array of study.json, and a file where it has one.
-struct ResultTable {
-  std::string member;                   ///< of study.json: "verdicts"
-  std::string csv;                      ///< "verdicts.csv"; empty: none
-  std::vector<report::Column> columns;  ///< of a study with the defaults: some depend on what it asks
 };
 
 /// Which entries of [[vary]] an analysis can make something of.
@@ -69,31 +63,41 @@ struct Kind {
   /// Fills StudyFile::cases. All else is known, the gaps to judge too.
   study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
-  std::vector<FileName> files;  ///< of its reports, besides report.md, study.json and those of tables
-  std::vector<ResultTable> (*results)();
+  /// Of its reports, besides report.md, study.json and those of tables: names, with "*" for what the study
+  /// decides.
+  std::vector<const char*> files;
+  /// Its tables, without rows, of a study with the defaults: some columns depend on what it asks.
+  std::vector<report::ReportTable> (*results)();
 };
 
 /// What a study asks of its kind alone: CriticalGapSettings and the like; the defaults where it asks nothing.
 /// The second is for changing it.
 template <class Settings>
-const Settings& settings_of(const study::Study& study);
+const Settings& settings_of(const study::Study& study) {
+  static const Settings defaults{};
+  return study.settings ? std::any_cast<const Settings&>(*study.settings) : defaults;
+}
 template <class Settings>
-Settings& settings_of(study::Study& study);
+Settings& settings_of(study::Study& study) {
+  if (study.settings.use_count() != 1)
+    study.settings = std::make_shared<std::any>(settings_of<Settings>(std::as_const(study)));
+  return std::any_cast<Settings&>(*study.settings);
+}
 
 /// Every kind of study there is: each is a row, with what its tables hold but for what a study asks.
 const std::vector<Kind>& kinds();
 Kind critical_gap_kind();
-std::vector<ResultTable> critical_gap_results();
+std::vector<report::ReportTable> critical_gap_results();
 Kind calibration_kind();
-std::vector<ResultTable> calibration_results();
+std::vector<report::ReportTable> calibration_results();
 Kind sensitivity_kind();
-std::vector<ResultTable> sensitivity_results();
+std::vector<report::ReportTable> sensitivity_results();
 Kind accuracy_kind();
-std::vector<ResultTable> accuracy_results();
+std::vector<report::ReportTable> accuracy_results();
 Kind stability_kind();
-std::vector<ResultTable> stability_results();
+std::vector<report::ReportTable> stability_results();
 Kind comparison_kind();
-std::vector<ResultTable> comparison_results();
+std::vector<report::ReportTable> comparison_results();
 /// The kind of a study that was read.
 const Kind& kind_of(const study::Study& study);
 /// The kind of that name; a name that no kind has is a programming error.

@@ -77,15 +77,12 @@ struct OutputSensitivity {
   std::string reason;
 };
 
-struct SensitivityResult {
-  study::StudyFile study;
+struct SensitivityResult : StudyResult {
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   std::vector<OutputSensitivity> outputs;
   /// Where something is fitted: points of the unit cube, a row a case. Behind those of the design are those
   /// that were added, where the fit was least sure, for the errors that are asked of it.
   std::vector<double> points = {};
-  study::Timing timing;
-  bool interrupted = false;
   bool any_indeterminate() const;  ///< an output without indices, or with a larger error than is asked
 };
 

@@ -85,11 +85,8 @@ struct StressCaseRow {
   bool is_as_expected() const;
 };
 
-struct StabilityResult {
-  study::StudyFile study;
-  std::vector<StressCaseRow> rows;  ///< the cases as written
-  study::Timing timing;
-  bool interrupted = false;
+struct StabilityResult : StudyResult {
+  std::vector<StressCaseRow> rows;           ///< the cases as written
   std::size_t count(Outcome outcome) const;  ///< rows that were computed and came out so
 };
 

@@ -3,12 +3,12 @@
 //
 // The flame is far thinner than a particle, so that a particle has both in parts of their own: the explosive
 // on its isentrope (unreacted.hpp), which a flame that passes in microseconds does not heat, and the gas
-// with its own temperature (product_gas.hpp). Sound crosses the particle within a step or two, so that the
+// with its own temperature (vlw.hpp). Sound crosses the particle within a step or two, so that the
 // pressures are equal; heat does not cross it, so that the temperatures are not.
 #pragma once
 
-#include "launchsafe/materials/product_gas.hpp"
 #include "launchsafe/materials/unreacted.hpp"
+#include "launchsafe/materials/vlw.hpp"
 
 namespace launchsafe::materials {
 

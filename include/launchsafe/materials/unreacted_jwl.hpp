@@ -3,7 +3,7 @@
 #pragma once
 
 #include "launchsafe/keys/key.hpp"
-#include "launchsafe/materials/jwl_isentrope.hpp"
+#include "launchsafe/materials/jwl.hpp"
 
 #include <optional>
 #include <string>

@@ -77,8 +77,7 @@ constexpr auto each_lane(Work work) {
   (std::make_index_sequence<pack_width>{});
 }
 
-// ---- the shared vocabulary: the same names for double and Pack
-// --------------------------------------------------
+// ---- the shared vocabulary: the same names for double and Pack ----
 
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline Pack select(Mask condition, Pack yes, Pack no) { return Pack(condition.lanes ? yes.lanes : no.lanes); }
@@ -97,14 +96,6 @@ inline bool any(Mask condition) { return bytes_of(condition) != 0; }
 inline int count(bool condition) { return condition ? 1 : 0; }
 inline int count(Mask condition) { return std::popcount(bytes_of(condition)) / 8; }
 
-template <class Real>
-Real max(Real a, Real b) {
-  return select(a < b, b, a);
-}
-template <class Real>
-Real min(Real a, Real b) {
-  return select(b < a, b, a);
-}
 inline double max(double a, double b) { return a < b ? b : a; }
 inline double min(double a, double b) { return b < a ? b : a; }
 inline Pack max(Pack a, Pack b) { return select(a < b, b, a); }

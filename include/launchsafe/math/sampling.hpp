@@ -1,9 +1,10 @@
 // Samples of uncertain inputs: distributions by their quantile function, and designs on the unit cube.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
+
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -26,9 +27,8 @@ struct Distribution {
   static Distribution uniform(double lower, double upper);
   /// The logarithm is uniform.
   static Distribution log_uniform(double lower, double upper);
-  static Distribution normal(double centre, double deviation,
-                             double lower = -std::numeric_limits<double>::infinity(),
-                             double upper = std::numeric_limits<double>::infinity());
+  static Distribution normal(double centre, double deviation, double lower = -infinity,
+                             double upper = infinity);
   /// The logarithm is normal, and not cut off.
   static Distribution log_normal(double median, double deviation);
 };

@@ -4,11 +4,11 @@
 // bootstrap.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,9 +20,7 @@ struct Estimate {
   double value, lower, upper;
 };
 
-inline constexpr Estimate no_estimate{std::numeric_limits<double>::quiet_NaN(),
-                                      std::numeric_limits<double>::quiet_NaN(),
-                                      std::numeric_limits<double>::quiet_NaN()};
+inline constexpr Estimate no_estimate{not_a_number, not_a_number, not_a_number};
 
 /// How often each of `size` members is drawn when `size` are drawn with replacement.
 std::vector<double> resampling_counts(std::size_t size, SplitMix64& random);
@@ -67,10 +65,9 @@ SaltelliDesign saltelli_design(Design design, std::size_t rows, const std::vecto
                                std::uint64_t seed);
 
 struct SobolOptions {
-  double level = 0.95;            ///< confidence of the intervals, in (0, 1)
-  std::size_t resamples = 1000;   ///< of the bootstrap, at least 1
-  std::uint64_t seed = 0;         ///< of the bootstrap
-  std::size_t minimum_rows = 16;  ///< no indices from fewer rows
+  double level = 0.95;           ///< confidence of the intervals, in (0, 1)
+  std::size_t resamples = 1000;  ///< of the bootstrap, at least 1
+  std::uint64_t seed = 0;        ///< of the bootstrap
 };
 
 /// Shares of the variance of the output, of one input.

@@ -2,6 +2,8 @@
 // factors, the grid convergence index, and extrapolation to size 0.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
+
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -10,6 +12,9 @@
 #include <vector>
 
 namespace launchsafe::math {
+
+bool all_finite(const std::vector<double>& values);
+double sum_of_squares(const std::vector<double>& values);
 
 /// Mean, NaN of nothing, and sum of the squared differences from it.
 struct Moments {
@@ -76,8 +81,6 @@ Interval clopper_pearson(std::size_t count, std::size_t trials, double level);
 struct GridConvergence {
   double order = 0;          ///< observed order p
   double extrapolated = 0;   ///< Richardson value for cell size 0
-  double fine_error = 0;     ///< |phi1 - phi2| / |phi1|
-  double fine_index = 0;     ///< GCI of the fine mesh, 1.25 fine_error/(r21^p - 1), relative
   bool oscillating = false;  ///< the two differences have opposite signs; the order is then of little worth
 };
 
@@ -87,26 +90,25 @@ std::optional<GridConvergence> grid_convergence(const std::array<double, 3>& val
                                                 const std::array<double, 3>& cell_sizes);
 
 struct Extrapolation {
-  bool justified = false;  ///< an observed order in the trusted range; else `value` is the finest value
-  std::string reason;      ///< why no extrapolation is justified; empty where it is
-  std::string method;      ///< "Celik et al. 2008", "Eca & Hoekstra 2014"
-  double order = 0;        ///< observed order of convergence; NaN where there is none
-  double value = 0;        ///< extrapolated to size 0, or the finest value where that is not justified
+  bool justified = false;   ///< an observed order in the trusted range; else `value` is the finest value
+  std::string reason = {};  ///< why no extrapolation is justified; empty where it is
+  std::string method = {};  ///< "Celik et al. 2008", "Eca & Hoekstra 2014"
+  double order = 0;         ///< observed order of convergence; NaN where there is none
+  double value = 0;         ///< extrapolated to size 0, or the finest value where that is not justified
   /// > 0, half width about the finest value. It held the limits of made series without noise always, with a
   /// noise of 2 % of the finest error in 90 % (three sizes) to 99 % (five), with more in 80 to 90 %.
   double uncertainty = 0;
 };
 
-/// Extrapolates `values` computed at increasing `sizes` (cell size or step, any unit, finest first), of which
-/// the method's formal order is `formal_order`. Three values: Celik's grid convergence index for unequal
+/// Extrapolates `values` computed at increasing `sizes` (cell size or step, any unit, finest first) by a
+/// method of formal order 2. Three values: Celik's grid convergence index for unequal
 /// ratios. Four and more: the least-squares form of Eca & Hoekstra (J. Comput. Phys. 262, 2014), with its
 /// fallback fits and factor 3 where order or scatter are not those of the asymptotic range. Where the order
 /// is too low, oscillating or there are fewer than three values, no extrapolation is justified and the
 /// uncertainty is widened: three times the largest difference between the values (with one value: infinite).
 /// Equal values give an uncertainty of round-off. Needs sizes above 0, strictly increasing, as many as
 /// values; values that are not finite make the uncertainty infinite and the reason say so.
-Extrapolation extrapolate(const std::vector<double>& values, const std::vector<double>& sizes,
-                          double formal_order = 2.0);
+Extrapolation extrapolate(const std::vector<double>& values, const std::vector<double>& sizes);
 
 /// Residuals, each over its standard deviation, at every one of several points; nothing where one of them has
 /// none.
@@ -118,11 +120,11 @@ enum class FitFailure { none, too_few_residuals, not_computable, singular, does_
 /// A minimum of the sum of squares, and what the residuals say of the unknowns there.
 struct NonlinearFit {
   FitFailure failure = FitFailure::none;  ///< with any other, what follows may be empty
-  std::vector<double> unknowns;
-  std::vector<double> residuals;
-  std::vector<std::vector<double>> jacobian;  ///< [residual][unknown]
+  std::vector<double> unknowns = {};
+  std::vector<double> residuals = {};
+  std::vector<std::vector<double>> jacobian = {};  ///< [residual][unknown]
   /// (J^T J)^-1, row by row: that of the unknowns where the residuals have unit variance.
-  std::vector<double> covariance;
+  std::vector<double> covariance = {};
   double condition = 0;  ///< largest over smallest singular value of the Jacobian
   double sum_of_squares() const;
 };

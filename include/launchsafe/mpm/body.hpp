@@ -5,9 +5,10 @@
 // lanes lie in neighbouring cells and a Pack reads and writes consecutive nodes.
 #pragma once
 
+#include "launchsafe/materials/burning_mixture.hpp"
 #include "launchsafe/materials/laws.hpp"
 #include "launchsafe/math/aligned_array.hpp"
-#include "launchsafe/mpm/burning.hpp"
+#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <array>
@@ -18,6 +19,65 @@
 
 namespace launchsafe::mpm {
 
+// Particles of a charge that burn: explosive and gas at one pressure in place of the law's own pressure, and
+// the deviator in the part that is explosive still.
+
+/// One of them.
+struct BurningParticle {
+  std::size_t slot = 0;
+  double rest_volume = 0;  ///< m3 per radian or metre
+  materials::BurningState state;
+  double to_burn = 0;       ///< share of its mass that burns in the next step
+  double to_add = 0;        ///< J/kg of the particle, thermal, from 0 K, that the gas from that gets
+  double start_energy = 0;  ///< J/m3, when it began to burn
+  double added = 0;         ///< J/m3, with what has burnt
+};
+
+/// Those of one body.
+class Burning {
+ public:
+  /// `slots`: of the body's particles.
+  Burning(materials::BurningMixture law, std::size_t slots)
+      : law_(std::move(law)), packs_(slots / math::pack_width, 0), index_(slots, none) {}
+
+  /// Whether some particle of the Pack at a slot burns.
+  bool any_in_pack(std::size_t slot) const { return packs_[slot / math::pack_width] != 0; }
+  /// The particle in a slot; null where it does not burn.
+  BurningParticle* find(std::size_t slot) {
+    return index_[slot] == none ? nullptr : &particles_[index_[slot]];
+  }
+  const BurningParticle* find(std::size_t slot) const {
+    return index_[slot] == none ? nullptr : &particles_[index_[slot]];
+  }
+  /// The same, which starts to burn at volume ratio V if it does not yet.
+  BurningParticle& start(std::size_t slot, double rest_volume, double volume);
+  const std::vector<BurningParticle>& particles() const { return particles_; }
+  const materials::BurningMixture& law() const { return law_; }
+  /// False once a particle was outside of the gas law.
+  bool valid() const;
+
+ private:
+  static constexpr std::uint32_t none = UINT32_MAX;
+  materials::BurningMixture law_;
+  std::vector<std::uint8_t> packs_;
+  std::vector<std::uint32_t> index_;
+  std::vector<BurningParticle> particles_;
+};
+
+/// Shares of explosive in the volumes of a Pack of particles, and its own volume ratios; 1 and the particle's
+/// where nothing burns.
+struct SolidParts {
+  math::Pack share_before, share_after;
+  math::Pack volume_before, volume_after;
+  math::Pack pressure;  ///< Pa, of those that burn
+  math::Mask burns;
+};
+
+/// Burns what is to burn and brings explosive and gas of a Pack of particles to one pressure, while the
+/// particles go from `volume_before` to `volume_after`.
+SolidParts advance_burning(Burning& burning, std::size_t slot, math::Pack volume_before,
+                           math::Pack volume_after);
+
 /// The lattice at rest: which slot holds the particle (column i along x, row j along r), and its rectangle.
 struct Lattice {
   std::vector<double> x_edges, r_edges;  ///< m, of columns and rows; one more than there are
@@ -26,28 +86,20 @@ struct Lattice {
 
   int columns() const { return static_cast<int>(x_edges.size()) - 1; }
   int rows() const { return static_cast<int>(r_edges.size()) - 1; }
-  std::size_t slots() const {
-    return static_cast<std::size_t>(padded_columns) * r_edges.size() -
-           static_cast<std::size_t>(padded_columns);
-  }
+  std::size_t slots() const { return static_cast<std::size_t>(padded_columns) * (r_edges.size() - 1); }
   std::size_t slot(int i, int j) const;
   double x_begin() const { return x_edges.front(); }
   double x_end() const { return x_edges.back(); }
   double r_begin() const { return r_edges.front(); }
   double r_end() const { return r_edges.back(); }
   /// Lengths of column i and row j, and their centres, m.
-  double length_x(int i) const {
-    return x_edges[static_cast<std::size_t>(i) + 1] - x_edges[static_cast<std::size_t>(i)];
-  }
-  double length_r(int j) const {
-    return r_edges[static_cast<std::size_t>(j) + 1] - r_edges[static_cast<std::size_t>(j)];
-  }
-  double x_of(int i) const {
-    return 0.5 * (x_edges[static_cast<std::size_t>(i)] + x_edges[static_cast<std::size_t>(i) + 1]);
-  }
-  double r_of(int j) const {
-    return 0.5 * (r_edges[static_cast<std::size_t>(j)] + r_edges[static_cast<std::size_t>(j) + 1]);
-  }
+  double length_x(int i) const { return edge(x_edges, i + 1) - edge(x_edges, i); }
+  double length_r(int j) const { return edge(r_edges, j + 1) - edge(r_edges, j); }
+  double x_of(int i) const { return 0.5 * (edge(x_edges, i) + edge(x_edges, i + 1)); }
+  double r_of(int j) const { return 0.5 * (edge(r_edges, j) + edge(r_edges, j + 1)); }
+
+ private:
+  static double edge(const std::vector<double>& edges, int i) { return edges[static_cast<std::size_t>(i)]; }
 };
 
 /// Fields of the particles of a body that every law needs. Slots that only pad a row have mass 0 and never

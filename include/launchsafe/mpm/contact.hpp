@@ -2,7 +2,7 @@
 //
 // The stage follows the free motion of all nodes. Every node of the charge's face has two impulses (kg m/s
 // per radian or metre), one along the normal of the face and one along the face. They act on this node and,
-// with the opposite sign, on the nodes of the other face that contact_pairing.hpp pairs it with. The normal
+// with the opposite sign, on the nodes of the other face that `pair_faces` pairs it with. The normal
 // impulse is the smallest one >= 0 with which the gap at the end of the step is >= 0. The impulse along the
 // face stops the sliding, or is the coefficient of friction times the normal impulse of the same step where
 // that is less (Coulomb). A node at a corner of two faces is subject to the conditions of both.
@@ -32,18 +32,89 @@
 
 #include "launchsafe/math/aligned_array.hpp"
 #include "launchsafe/math/pack.hpp"
-#include "launchsafe/mpm/contact_pairing.hpp"
-#include "launchsafe/mpm/gap_gas.hpp"
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
 #include "launchsafe/scene/scene.hpp"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
 namespace launchsafe::mpm {
+
+// Which nodes of two faces act on each other, and with what weight: a mortar method with dual multipliers
+// (Wohlmuth 2000; Popp, Gee & Wall 2009). Every node of the own face has one traction, spread along the face
+// by a function that is orthogonal to the face's own hat functions. Integrals run over the pieces that the
+// nodes of both faces cut from each other at their present places, so that a uniform traction gives every
+// node of both faces exactly its share, however the two are divided; and nodes that coincide act on each
+// other alone.
+
+/// The nodes of one face in order. `along` increases along the face, `across` is the other direction; m.
+struct FaceLine {
+  std::vector<double> along, across;
+};
+
+/// What an area is made of along a face: of unit depth, or of a ring, with the radius across or along the
+/// face.
+enum class FaceMeasure { unit_depth, radius_across, radius_along };
+
+/// A node and its share in the relative displacement of a row, other face less own face.
+struct PairShare {
+  std::size_t node;  ///< index into the face's line
+  double share;
+};
+
+/// The pairing of one node of the own face. Shares of the own face and of the other one sum to 1 each.
+struct PairRow {
+  std::vector<PairShare> own, other;
+  double area =
+      0;  ///< m2 per radian or per metre, over which the node's traction acts; 0: it is paired with no node
+  double slope = 0;  ///< d across / d along of the other face there
+};
+
+/// Part of a cell by which the own face may reach over the end of the other one and still be held by it
+/// whole.
+inline constexpr double held_overhang = 0.1;
+
+/// Pairs two faces at their present places. One row a node of the own face; `rows` is used again without
+/// allocation once it has had the size.
+void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure, std::vector<PairRow>& rows);
+
+/// Gas of one pair of nodes, per area of the face. It is compressed isentropically,
+///
+///   p = pressure (volume/(h - covolume))^exponent
+///
+/// with the opening h of the faces, and its mean temperature comes near to that of the walls at the rate
+/// exchange/h: a film whose gas nears its walls by conduction does so, as its mass times its thickness over
+/// its conductivity is what the time goes with. Whoever follows the gas's heat in detail states all of that
+/// anew in time (surface::GapColumns).
+struct GapGas {
+  double outside = 0;   ///< Pa, of what surrounds the bodies: only a pressure above it pushes
+  double pressure = 0;  ///< Pa, of the state that volume belongs to; 0: there is no gas
+  double volume = 0;    ///< m3/m2 without the covolume
+  double exponent = 1.4;
+  double covolume = 0;         ///< m3/m2, of all its molecules
+  double exchange = 0;         ///< m/s
+  double energy_at_walls = 0;  ///< Pa m, pressure times volume at the temperature of the walls
+
+  /// Pa, at an opening (m). Infinite at the covolume and below.
+  double at(double opening) const {
+    const double free = opening - covolume;
+    return pressure * std::pow(volume / (free > 0.0 ? free : 0.0), exponent);
+  }
+
+  /// Exchanges heat with the walls for dt (s), in which the opening (m) went from `before` to `after`: of
+  /// second order in dt.
+  void exchange_heat(double before, double after, double dt) {
+    if (!(exchange > 0.0)) return;
+    const double mean = 0.5 * (before + after);
+    const double left = std::exp(-dt * exchange / mean);
+    volume *= left + (1.0 - left) * energy_at_walls / (at(mean) * (mean - covolume));
+  }
+};
 
 /// A node of a face that can slide, for reports and tests. Tractions are those of the last step.
 struct FaceState {
@@ -52,7 +123,6 @@ struct FaceState {
   double gap = 0;            ///< m, above the floor where there is one
   double pressure = 0;       ///< Pa, compression positive; with that of a gas above its surroundings
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
-  double sliding_speed = 0;  ///< m/s, of the other body against the charge, in the same direction
   double friction_heat = 0;  ///< J/m2, since the start
   double slid = 0;           ///< m, path of sliding since the start, in both directions
   double slip = 0;  ///< m, by which the other body has slid since the start, in the direction of `shear`
@@ -205,7 +275,6 @@ class Contact {
   void set_speeds(Row& row) const;
   Velocity impulse(const Row& row, double normal, double slide) const;
   void push(const Row& row, double normal, double slide);
-  void exchange_impulse(const Row& row, double normal, double slide);
   void make_fields(const std::vector<Nodes>& nodes);
   void read_nodes(const std::vector<Nodes>& nodes);
   void exchange_momentum();

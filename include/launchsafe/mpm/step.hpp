@@ -80,26 +80,18 @@ struct BodyForce {
 };
 
 inline void ParticleTotals::add(const ParticleTotals& other) {
-  internal += other.internal;
-  hourglass += other.hourglass;
-  plastic += other.plastic;
-  viscous += other.viscous;
-  crack += other.crack;
-  pic_loss += other.pic_loss;
-  centred_kinetic += other.centred_kinetic;
-  tension_cutoff += other.tension_cutoff;
-  pressure_guard += other.pressure_guard;
-  crack_at_bound += other.crack_at_bound;
-  off_grid += other.off_grid;
-  distorted += other.distorted;
+  using Totals = ParticleTotals;
+  for (const auto part :
+       {&Totals::internal, &Totals::hourglass, &Totals::plastic, &Totals::viscous, &Totals::crack,
+        &Totals::pic_loss, &Totals::centred_kinetic, &Totals::tension_cutoff, &Totals::pressure_guard,
+        &Totals::crack_at_bound, &Totals::off_grid, &Totals::distorted})
+    this->*part += other.*part;
 }
 
 inline void NodeTotals::add(const NodeTotals& other) {
-  damping += other.damping;
-  lost_before += other.lost_before;
-  old_momentum += other.old_momentum;
-  inertial_momentum += other.inertial_momentum;
-  momentum += other.momentum;
+  for (const auto part : {&NodeTotals::damping, &NodeTotals::lost_before, &NodeTotals::old_momentum,
+                          &NodeTotals::inertial_momentum, &NodeTotals::momentum})
+    this->*part += other.*part;
 }
 
 }  // namespace launchsafe::mpm

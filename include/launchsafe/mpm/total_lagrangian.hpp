@@ -88,7 +88,6 @@ class TotalLagrangian {
   void for_each_cell(F&& f);
   void sum_nodal_masses();
   void share_work();
-  void find_chamber_load();
   void load_across(const scene::ChamberFace& face);
   void load_along(const scene::ChamberFace& face);
   void load_nodes(const StepInput& input);

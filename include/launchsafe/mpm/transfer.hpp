@@ -1,4 +1,4 @@
-// Particle-to-grid and grid-to-particle transfer of a Pack of particles.
+// The background grid, and particle-to-grid and grid-to-particle transfer of a Pack of particles.
 //
 // Neighbouring particles mostly lie in consecutive cells, so node values are read and written as consecutive
 // Packs. Lanes for which that holds with the same offset share a pass; after cell crossings a
@@ -6,8 +6,9 @@
 // that is fixed.
 #pragma once
 
-#include "launchsafe/mpm/grid.hpp"
-#include "launchsafe/mpm/shape.hpp"
+#include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/math/pack.hpp"
+#include "launchsafe/scene/mesh.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,6 +17,108 @@ namespace launchsafe::mpm {
 
 using math::Mask;
 using math::Pack;
+
+// The background grid: a regular lattice of nodes, x fastest, rebuilt every step.
+
+/// Node (i, j) lies at x = origin_x + i dx, r = (j - radial_padding) dr. Masses and forces are per radian
+/// (axisymmetric) or per metre of depth (plane strain).
+struct Grid {
+  static constexpr int axial_padding = 12;  ///< cells beyond the shell: a Pack may read past a body's end
+  static constexpr int radial_padding = 1;
+
+  int nodes_x = 0, nodes_r = 0;
+  double dx = 0, dr = 0;             ///< m
+  double origin_x = 0;               ///< m; moves by whole cells with the co-moving grid
+  math::AlignedArray radially_free;  ///< 1 where v_r is free, 0 on the axis and at the barrel
+
+  // Sums over the particles, from the last step on.
+  math::AlignedArray mass;                    ///< kg
+  math::AlignedArray momentum_x, momentum_r;  ///< kg m/s
+  math::AlignedArray force_x, force_r;        ///< N, internal
+  // Nodal results of the step, interpolated to the particles.
+  math::AlignedArray velocity_x, velocity_r;                      ///< m/s, at the end of the step
+  math::AlignedArray velocity_increment_x, velocity_increment_r;  ///< m/s, over the step
+
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nodes_x) + static_cast<std::size_t>(i);
+  }
+  std::size_t nodes() const { return static_cast<std::size_t>(nodes_x) * static_cast<std::size_t>(nodes_r); }
+};
+
+/// A grid around the scene at rest. Without a barrel it reaches to 1.5 times the shell's radius, so that
+/// the shell can expand.
+Grid make_grid(const scene::Scene& scene);
+
+// uGIMP shape functions of one particle on the three nodes that it can touch (Bardenhagen & Kober 2004;
+// axisymmetric form of Nairn & Guilkey 2015). They are written as integrals of the hat function over the
+// particle's interval, which gives the published branches (model section 2) without a branch.
+
+/// Weights on the nodes first, first + 1, first + 2. `value` sums to 1, `gradient` (1/m) to 0.
+template <class Real>
+struct AxialWeights {
+  Real value[3];
+  Real gradient[3];
+};
+
+/// `position` (m) of the particle from the first node, in [half, cell + half]; half-length `half` <= cell/2
+/// (m).
+template <class Real>
+AxialWeights<Real> axial_weights(Real position, double half, double cell) {
+  using math::max;
+  const Real xi = position * Real(1.0 / cell);
+  const Real overlap =
+      max(xi + Real(half / cell - 1.0), Real(0.0));  // part of the interval in the second cell
+  const Real third = overlap * overlap * Real(0.25 * cell / half);
+  const Real slope = overlap * Real(0.5 / half);
+  return {{Real(1.0) - xi + third, xi - Real(2.0) * third, third},
+          {slope - Real(1.0 / cell), Real(1.0 / cell) - Real(2.0) * slope, slope}};
+}
+
+/// As above with the weight r; `hoop` (1/m) is the mean of N/r. In plane strain `hoop` is 0.
+template <class Real>
+struct RadialWeights {
+  Real value[3];
+  Real gradient[3];
+  Real hoop[3];
+};
+
+/// A particle's interval in r, cut at the axis: [centre - half, centre + half] with centre >= half > 0 (m).
+template <class Real>
+struct RadialInterval {
+  Real centre;
+  Real half;
+};
+
+template <class Real>
+RadialInterval<Real> cut_at_axis(Real r, double half) {
+  using math::select;
+  const Real cut = Real(0.5) * (r + Real(half));
+  const auto crosses = r < Real(half);
+  return {select(crosses, cut, r), select(crosses, cut, Real(half))};
+}
+
+/// `first_node` (m) is the radius of the first node; the interval must begin in the cell after it.
+template <class Real>
+RadialWeights<Real> axisymmetric_weights(RadialInterval<Real> interval, Real first_node, double cell) {
+  using math::max;
+  const Real r = interval.centre, half = interval.half;
+  const Real inverse_area = Real(0.5) / (half * r);  // 1 / integral of r dr
+  const Real second_node = first_node + Real(cell);
+  const Real overlap = max(r + half - second_node, Real(0.0));  // m, in the second cell
+  const Real inverse_cell(1.0 / cell);
+  const Real second_share = overlap * (second_node + Real(0.5) * overlap) * inverse_area;  // of integral r dr
+  const Real third =
+      overlap * overlap * (Real(0.5) * second_node + Real(1.0 / 3.0) * overlap) * inverse_area * inverse_cell;
+  const Real xi = (r + half * half / (Real(3.0) * r) - first_node) * inverse_cell;
+  const Real planar_xi = (r - first_node) * inverse_cell;
+  const Real planar_third = Real(0.25) * overlap * overlap * inverse_cell / half;
+  const Real inverse_r = Real(1.0) / r;
+  return {{Real(1.0) - xi + third, xi - Real(2.0) * third, third},
+          {(second_share - Real(1.0)) * inverse_cell, (Real(1.0) - Real(2.0) * second_share) * inverse_cell,
+           second_share * inverse_cell},
+          {(Real(1.0) - planar_xi + planar_third) * inverse_r,
+           (planar_xi - Real(2.0) * planar_third) * inverse_r, planar_third * inverse_r}};
+}
 
 /// Constants of a body and a grid for all stencils of a step.
 struct StencilContext {

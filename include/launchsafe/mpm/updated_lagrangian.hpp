@@ -6,8 +6,8 @@
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
-#include "launchsafe/mpm/grid.hpp"
 #include "launchsafe/mpm/step.hpp"
+#include "launchsafe/mpm/transfer.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <vector>
@@ -32,8 +32,7 @@ class UpdatedLagrangian {
   struct LoadedFace {
     const ParticleFields* body;
     std::size_t slot;
-    double half_x, half_r;  ///< m
-    double area;            ///< m2 per radian or metre, of the particle at rest
+    double area;  ///< m2 per radian or metre, of the particle at rest
   };
   /// A particle of the charge bottom (without a charge, of the base) that the co-moving grid follows.
   struct Anchor {

@@ -9,7 +9,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace launchsafe::report {
@@ -26,7 +25,7 @@ struct DrawnCase {
 /// A picture and the name of its file, which follows from what it shows.
 struct CasePicture {
   std::string file;  ///< "field_temperature_10ms.svg"
-  std::variant<Plot, CellPlot> plot;
+  Drawing plot;
   std::optional<double> time = {};  ///< s, of a field
   std::optional<double> gap = {};   ///< m, of what belongs to one gap
 };
@@ -64,8 +63,6 @@ struct ShownSnapshot {
 std::vector<ShownSnapshot> shown_snapshots(const DrawnCase& drawn);
 /// Whether it is the one of a time (s) that a user names.
 bool is_of_time(const ShownSnapshot& snapshot, double time);
-
-store::Result<std::string> to_svg(const CasePicture& picture, const DrawingLimits& limits = {});
 
 /// Bodies in colours with their names in a legend, the lines of the grid, the axis of symmetry, the
 /// observation points with their names, and both axes in mm. A slender shell with a charge is drawn whole,

@@ -44,8 +44,7 @@ Table closing_table(const run::CaseResult& result);
 /// At most `rows` samples of one of them, from ignition to the end.
 Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
 
-/// What the columns of these tables are.
-std::vector<Column> run_columns();
+/// What the columns of the energy of the air are.
 std::vector<Column> air_energy_columns();
 
 /// The air of one gap of one case.

@@ -27,9 +27,6 @@ double number_of(const Row& row, const std::string& key);
 /// What stands under a dotted name; null where nothing does.
 const Row& found_in(const Row& facts, const std::string& name);
 
-/// A text, a number as its shortest text, or "true"; empty for anything else.
-std::string fact_text(const Row& fact);
-
 /// A column of a table: a text over the row.
 struct TextColumn {
   std::string key, heading, cell;
@@ -74,13 +71,11 @@ struct PageTemplates {
 /// (none of the files is there), corrupt (no template: tags that do not fit together, a text without a name).
 store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates built_in);
 
-/// A figure, or an SVG that was drawn before.
-using Drawing = std::variant<Plot, CellPlot, std::string>;
-
 /// What a page tells.
 struct PageFacts {
-  Row facts = Row::object();                     ///< by the names that texts know
-  std::map<std::string, Drawing> drawings = {};  ///< by file; facts say which are shown, and where
+  Row facts = Row::object();  ///< by the names that texts know
+  /// By file: to be drawn, or an SVG that was. Facts say which are shown, and where.
+  std::map<std::string, std::variant<Drawing, std::string>> drawings = {};
 };
 
 /// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words

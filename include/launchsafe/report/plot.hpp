@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace launchsafe::report {
@@ -98,15 +99,6 @@ struct Plot {
   int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
-/// The commands and data that `to_svg` gives to gnuplot.
-std::string to_gnuplot(const Plot& plot);
-
-/// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
-/// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
-/// own complaint).
-store::Result<std::string> to_svg(const Plot& plot, const std::string& program = "gnuplot",
-                                  const DrawingLimits& limits = {});
-
 /// A rectangle with a value; one without a value (NaN) is drawn in plain grey.
 struct FieldCell {
   double x = 0, r = 0;            ///< mm, of its middle; r >= 0
@@ -151,11 +143,16 @@ struct CellPlot {
   std::string without_value = {};  ///< what grey cells are, for the subtitle
 };
 
+using Drawing = std::variant<Plot, CellPlot>;
+
 /// The commands and data that `to_svg` gives to gnuplot.
+std::string to_gnuplot(const Plot& plot);
 std::string to_gnuplot(const CellPlot& plot);
 
-/// The picture. Errors: as those of a Plot (missing, failed).
-store::Result<std::string> to_svg(const CellPlot& plot, const std::string& program = "gnuplot",
-                                  const DrawingLimits& limits = {});
+/// The picture. Points that are not finite, or not positive on a logarithmic axis, are gaps. Errors: missing
+/// (there is no such program), failed (a series whose x and y differ in length, nothing to draw, gnuplot's
+/// own complaint).
+store::Result<std::string> to_svg(const Drawing& drawing, const DrawingLimits& limits = {},
+                                  const std::string& program = "gnuplot");
 
 }  // namespace launchsafe::report

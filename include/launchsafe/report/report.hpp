@@ -30,7 +30,6 @@ struct ReportTable {
   std::string member = {};  ///< of study.json: an array of the rows of all tables of that name; empty: none
   Shown shown = Shown::page_and_terminal;
   std::size_t most_rows = std::numeric_limits<std::size_t>::max();  ///< on the page
-  std::string rest = {};  ///< the file that has the rows which are not shown; `csv` where empty
 };
 
 struct Picture {
@@ -50,6 +49,11 @@ struct Report {
   std::string json = {};                  ///< study.json; none where empty
   std::vector<std::string> remarks = {};  ///< what pictures leave out, for the end of the page and for people
   std::string launch = {};                ///< a sentence that stands first: how fast the load makes the shell
+
+  // The next item of the page.
+  void say(std::string markdown) { items.emplace_back(Statement{std::move(markdown)}); }
+  void add(ReportTable table) { items.emplace_back(std::move(table)); }
+  void draw(Picture picture) { items.emplace_back(std::move(picture)); }
 };
 
 /// A report as it is written into a folder.

@@ -5,13 +5,11 @@
 
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/input_error.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,32 +17,22 @@
 
 namespace launchsafe::report {
 
-/// A row of a verdict table, as far as a criterion asks.
-struct JudgedGap {
-  double gap = 0;  ///< cm
-  bool safe = false;
-  double margin = 0;                                           ///< K, ignition temperature minus T max
-  double uncertainty = 0;                                      ///< K, of the margin
-  double distance = std::numeric_limits<double>::quiet_NaN();  ///< cm, to the critical gap; NaN without one
-  double distance_uncertainty = std::numeric_limits<double>::quiet_NaN();  ///< cm, of the critical gap
-  double temperature = std::numeric_limits<double>::quiet_NaN();           ///< K, T max
-  /// Upper end, of 95 %, of the probability that it ignites; NaN where nothing shows it.
-  double probability = std::numeric_limits<double>::quiet_NaN();
-};
-
 /// Conditions that a gap must meet besides the verdict SAFE.
 struct GapCriterion {
   struct Condition {
-    double JudgedGap::*of;
-    double JudgedGap::*unit = nullptr;  ///< an uncertainty; null: K, cm
-    double limit = 1.0;                 ///< in that unit
-    bool at_most = false;               ///< else at least
+    const char* of;              ///< member of a verdict's row
+    const char* unit = nullptr;  ///< another, an uncertainty; null: K, cm
+    double limit = 1.0;          ///< in that unit
+    bool at_most = false;        ///< else at least
   };
   std::string text;    ///< as the user wrote it, on one line
   std::string source;  ///< who asks for it, likewise
   std::vector<Condition> conditions;
 
-  bool met_by(const JudgedGap& row) const;
+  /// A row of a verdict table, with distance_cm to the critical gap and distance_uncertainty_cm where that is
+  /// a value, and with the upper end, of 95 %, of the probability that the gap ignites where one is shown.
+  /// What a row lacks meets no condition.
+  bool met_by(const Row& verdict) const;
 };
 
 /// Reads "T max <= 450 K", "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1
@@ -53,9 +41,9 @@ struct GapCriterion {
 /// uncertainty is part of SAFE already, so fewer are refused. Errors: any other text, no source.
 scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
 
-/// The place of the largest computed gap that meets the criterion together with every smaller computed one;
-/// `rows.size()` where there is none. Only gaps that were computed count: nothing is interpolated.
-std::size_t largest_gap_under(const GapCriterion& criterion, const std::vector<JudgedGap>& rows);
+/// cm: the largest computed gap that meets the criterion together with every smaller computed one. Only gaps
+/// that were computed count: nothing is interpolated.
+std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts);
 
 /// What a finished study tells, by the tables that it has: verdicts of one launch or of a few cases, verdicts
 /// over axes with several values, ... Closing: what a gap does that closes, beside a launch whose air is a

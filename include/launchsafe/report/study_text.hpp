@@ -16,9 +16,6 @@
 
 namespace launchsafe::report {
 
-/// The unit in which all of these values read best, among those that people use; empty for pure numbers.
-std::string unit_for(const std::vector<double>& si_values, scene::Dimension dimension);
-
 /// The heading is "peak pressure" or "load.exponent", the name peak_pressure or load_exponent.
 struct ShownKey : Column {
   std::string scene_key;  ///< "load.peak"

@@ -51,8 +51,9 @@ std::vector<Cell> cells_of(const Quantities<Row>& quantities, const Row& row) {
 
 /// A table with a column for every quantity.
 template <class Row>
-Table table_of(std::string title, const Quantities<Row>& quantities, const std::vector<Row>& rows) {
-  Table table{std::move(title), keys::described(quantities)};
+Table table_of(std::string title, const Quantities<Row>& quantities, const std::vector<Row>& rows,
+               std::vector<std::string> notes = {}) {
+  Table table{std::move(title), keys::described(quantities), {}, std::move(notes)};
   table.rows.reserve(rows.size());
   for (const Row& row : rows) table.rows.push_back(cells_of(quantities, row));
   return table;
@@ -60,12 +61,6 @@ Table table_of(std::string title, const Quantities<Row>& quantities, const std::
 
 /// A cell as people read it.
 std::string cell_text(const Cell& cell, const Column& column);
-/// What a quantity of a row is, as people read it, without its unit.
-template <class Row>
-std::string text_of(const Quantity<Row>& quantity, const Row& row) {
-  return cell_text(shown_cell(quantity.value(row), quantity), quantity);
-}
-
 /// Text in which nothing is markup to GitHub's Markdown.
 std::string markdown_escaped(const std::string& text);
 
@@ -84,11 +79,10 @@ std::string to_markdown(const Table& table);
 /// nothing as "".
 std::string to_csv(const Table& table);
 
-/// {"title", "columns": [{"key", "name", "unit", "meaning"}], "rows": [{key: value}]}; numbers exact, NaN and
-/// nothing as null.
-nlohmann::ordered_json to_json(const Table& table);
+/// The rows as objects by key; numbers exact, NaN and nothing as null.
+nlohmann::ordered_json json_rows(const Table& table);
 
-/// Adds the rows of `to_json`, a line each, to a text that ends in an open array: a long table is never the
+/// Adds the same rows, a line each, to a text that ends in an open array: a long table is never the
 /// whole of it as objects in memory.
 void append_json_rows(std::string& text, const Table& table);
 

@@ -11,15 +11,8 @@
 
 namespace launchsafe::report {
 
-/// One gap of one case.
-struct VerdictRow {
-  const std::vector<double>* coordinates;  ///< SI, of the case on the study's axes
-  const study::GapVerdict* gap;
-  double inert;                              ///< K, T max without reaction
-  double width() const { return gap->gap; }  ///< m
-};
 /// From T max to the energy of the air: what is known of one gap of one case.
-Quantities<VerdictRow> verdict_quantities(const study::Study& study);
+Quantities<study::GapVerdict> verdict_quantities(const study::Study& study);
 
 /// Kind, value and bracket of a critical gap, and how it reads.
 Quantities<study::CriticalGap> critical_gap_quantities();
@@ -52,10 +45,7 @@ Table gap_share_table(const std::vector<NamedGap>& cases);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
 
-/// The tables above and what their columns are.
-std::vector<Column> gap_share_columns();
 std::vector<Column> cited_limit_columns();
-
 /// The study's cited limits beside the critical gaps of its cases, which are in their order; without rows
 /// where it cites none.
 Table cited_limit_table(const study::StudyFile& study,

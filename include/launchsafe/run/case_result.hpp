@@ -2,6 +2,7 @@
 #pragma once
 
 #include "launchsafe/materials/law.hpp"
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/film.hpp"
@@ -10,7 +11,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -235,18 +235,18 @@ struct CombustionHistory {
 
 /// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom.
 struct ClosingHistory {
-  double gap = 0;                                                  ///< m, at rest
-  std::vector<double> time;                                        ///< s, those of the trace
-  std::vector<double> opening;                                     ///< m, mean
-  std::vector<double> gas_pressure;                                ///< Pa, mean
-  double smallest_opening = 0;                                     ///< m, anywhere
-  double contact_time = std::numeric_limits<double>::quiet_NaN();  ///< s, when the faces first met anywhere
-  double approach_speed = 0;                                       ///< m/s, the largest anywhere until then
-  int contacts = 0;                    ///< how often they met after nowhere touching
-  double largest_gas_pressure = 0;     ///< Pa, anywhere
-  double largest_gas_temperature = 0;  ///< K, mean over the air at one place
-  surface::FilmEnergy energy;          ///< J/m2, means
-  double work_on_gas = 0;              ///< J/m2, mean, that the faces did beyond the surrounding pressure
+  double gap = 0;                            ///< m, at rest
+  std::vector<double> time;                  ///< s, those of the trace
+  std::vector<double> opening;               ///< m, mean
+  std::vector<double> gas_pressure;          ///< Pa, mean
+  double smallest_opening = 0;               ///< m, anywhere
+  double contact_time = math::not_a_number;  ///< s, when the faces first met anywhere
+  double approach_speed = 0;                 ///< m/s, the largest anywhere until then
+  int contacts = 0;                          ///< how often they met after nowhere touching
+  double largest_gas_pressure = 0;           ///< Pa, anywhere
+  double largest_gas_temperature = 0;        ///< K, mean over the air at one place
+  surface::FilmEnergy energy;                ///< J/m2, means
+  double work_on_gas = 0;  ///< J/m2, mean, that the faces did beyond the surrounding pressure
 };
 
 /// One gap of a case.

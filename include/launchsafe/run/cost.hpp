@@ -1,9 +1,9 @@
 // What a run takes, foreseen before anything is allocated, and whether that is within reach.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -40,9 +40,9 @@ std::string to_text(const SnapshotSize& size);
 
 /// How much a run may take.
 struct Reach {
-  double longest_run = 30.0 * 86400.0;                      ///< s, predicted with cautious_update_rate
-  double memory = std::numeric_limits<double>::infinity();  ///< bytes
-  bool keeps_skins = false;  ///< the skin temperatures of all gaps are kept, as run_case does
+  double longest_run = 30.0 * 86400.0;  ///< s, predicted with cautious_update_rate
+  double memory = math::infinity;       ///< bytes
+  bool keeps_skins = false;             ///< the skin temperatures of all gaps are kept, as run_case does
 };
 
 /// Why a run must not be begun: it takes too long or too much memory. The error names the key that has most

@@ -2,12 +2,12 @@
 // integrated on it.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <atomic>
 #include <functional>
-#include <limits>
 
 namespace launchsafe::run {
 
@@ -16,7 +16,7 @@ struct RunOptions {
   /// Set from another thread (or a signal handler) to stop: the run ends within a few steps as `interrupted`.
   const std::atomic<bool>* stop = nullptr;
   /// s of wall time after which the run ends as `timed_out`.
-  double time_limit = std::numeric_limits<double>::infinity();
+  double time_limit = math::infinity;
   /// Called a few times a second of wall time from the running thread with the share done, 0..1.
   std::function<void(double)> progress;
   /// Threads that work on the steps of this one run; the result does not depend on their number.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,9 @@ struct InputError {
   /// ...?"
   std::string message() const;
 };
+
+/// A fault, if there is one.
+using Fault = std::optional<InputError>;
 
 /// A value, or the reason why there is none.
 template <class T, class Error = InputError>

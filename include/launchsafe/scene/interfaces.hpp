@@ -30,7 +30,7 @@ Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::str
 
 /// Faults that only the whole scene shows: a body that does not touch the charge, keys that are missing or
 /// would do nothing, sliding in a form that has none.
-std::optional<InputError> check_interfaces(const SceneFile& file);
+Fault check_interfaces(const SceneFile& file);
 
 /// The interfaces as "interface.'NAME'.KEY = VALUE", one a line.
 std::string interfaces_as_toml(std::vector<Interface> interfaces);

@@ -19,9 +19,8 @@ double launch_end(const Load& load);
 /// curve is 0.
 double share_left(const Load& load, double time);
 
-/// Travel of the projectile as one rigid body over its diameter; until a time (s).
+/// Travel of the projectile as one rigid body over its diameter.
 double calibres_of(const Scene& scene, const RigidMotion& motion);
-double calibres_until(const Scene& scene, double time);
 
 /// Whether the simulation ends before the launch is over.
 bool is_cut_short(const Load& load);
@@ -32,12 +31,6 @@ Load without_exit(Load load);
 /// `Load::duration` cuts it short, else in a barrel without end where it has a muzzle exit. None for others,
 /// nor for what would go on for more than ten times as long.
 std::optional<Load> longer_launch(Load load);
-
-/// The earliest and the latest time (s) of the exit within its spread; none without an exit.
-struct ExitWindow {
-  double earliest = 0, latest = 0;
-};
-std::optional<ExitWindow> exit_window(const Load& load);
 
 /// For people: "796 m/s after 5.26 m of travel, at 18 ms with 12.5 % of the peak pressure"; empty without an
 /// exit.

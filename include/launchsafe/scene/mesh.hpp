@@ -20,6 +20,9 @@ struct Mesh {
 /// Places in increasing order, m, each once: those closer than the tolerance are one.
 std::vector<double> distinct(std::vector<double> places, double tolerance);
 
+/// Index of the line next to a place, m.
+std::size_t nearest_line(const std::vector<double>& lines, double place);
+
 /// Lines of a rectilinear grid, increasing, m.
 struct GridLines {
   std::vector<double> x, r;
@@ -101,6 +104,7 @@ std::int64_t particle_count(const Scene& scene);
 
 /// The cells between two neighbouring places where bodies begin or end. Lengths in m.
 struct GridInterval {
+  const char* along = "";  ///< "x" or "r"
   double from = 0, to = 0;
   int cells = 0;
   double shortest = 0, longest = 0;                   ///< of its cells
@@ -114,5 +118,26 @@ struct GridIntervals {
 /// The intervals of `lines_at_rest` in either direction, increasing, which together are the whole grid. Lines
 /// of the even grid of the updated-Lagrangian form need not run through edges of bodies: it is one interval.
 GridIntervals grid_intervals(const Scene& scene);
+
+// Stations: the parts of the charge's bottom over which pressure and strain are averaged.
+
+/// A box at the charge's bottom, m.
+struct StationExtent {
+  std::string name;  ///< "S1", "S2", ... from the largest radius inwards
+  double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;
+};
+
+/// Stations that tile the charge's bottom: of equal width, the bottom's over the nearest whole number to
+/// `surface.station_width` (at least one), and as deep as `surface.station_depth`. Of the published shell
+/// they are 5 mm wide and have the published points in their middles. None without a charge.
+std::vector<StationExtent> stations_of(const Scene& scene);
+
+/// How many cells a station is deep and wide. In the corner of bottom and outer edge, where stresses are
+/// singular and averages need them, as many as there would be of the cell there; along r also in the station
+/// with the longest cell.
+struct StationCells {
+  double corner_x = 0, corner_r = 0, fewest_r = 0;
+};
+StationCells cells_in_stations(const Scene& scene);
 
 }  // namespace launchsafe::scene

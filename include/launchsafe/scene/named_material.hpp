@@ -76,7 +76,7 @@ Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const
                                                   const std::vector<NamedContact>& known);
 
 /// The first key of a file of materials that is no table of it.
-std::optional<InputError> check_material_tables(const toml::table& root, const std::string& file);
+Fault check_material_tables(const toml::table& root, const std::string& file);
 /// What a file of materials has. A shipped file gives what it ships; others must not take its names. Faults:
 /// those of `read_materials` and `read_contacts`, a key beside the tables, a scene or a study.
 Expected<NamedMaterials> read_material_file(const std::filesystem::path& file);
@@ -103,11 +103,6 @@ const std::vector<Key<Decomposition>>& decomposition_keys();
 
 /// Those that the program brings along; texts in studies/materials.
 const std::vector<Decomposition>& shipped_decompositions();
-
-/// The tables [decomposition.NAME] of a file that ships. Faults: a number that is missing or out of range,
-/// and those of sources.
-Expected<std::vector<Decomposition>> read_decompositions(const toml::table& root, const std::string& file,
-                                                         const std::vector<Decomposition>& known);
 
 /// What the flame of a scene lives on (combustion.kinetics), with the charge's T1 and T2: the charge's own
 /// kinetics, or E/R, Z and Q of a decomposition. Its heat is never more than the charge's, which is what

@@ -100,8 +100,49 @@ Plan make_plan(const Scene& scene);
 /// Seconds of wall time at an update rate (particle updates per second, > 0).
 double predicted_time(const Plan& plan, double update_rate);
 
+/// A label with its value, a line of a list for people.
+std::string labelled(std::string_view label, const std::string& value);
+
 /// What `launchsafe explain` prints: masses, load, mesh, what is in and what is left out, and what the run
 /// will cost; the time too where an update rate (particle updates per second) is given.
 std::string to_text(const Plan& plan, const Scene& scene, double update_rate = 0.0);
+
+// Which launches take longer steps, with more inertia where a cell needs it, and how fast a load changes.
+
+/// Largest pressures (Pa) by which a load rises and falls within a time window (s); before 0 it is none.
+/// Sampled eight times a window, at its peak, and where a measured curve bends, so that less than an eighth
+/// of a window is missed on the way up.
+struct LargestChanges {
+  double rise = 0.0, fall = 0.0;
+};
+LargestChanges largest_changes(const Load& load, double window);
+
+/// Time (s) that sound takes through the charge, along its longest side.
+double transit_time(const Scene& scene);
+
+/// Whether the load changes too fast for selective inertia: by more than 80 % of its peak within 0.5 ms, or
+/// the time that sound takes 2.5 times through a longer charge. What it does to temperatures was measured for
+/// slower loads.
+bool changes_too_fast_for_selective_inertia(const Scene& scene);
+
+/// The `numerics.selective_inertia` of a launch that states none: 4, a quarter of the steps, where that was
+/// measured against true inertia (reports/accuracy), else 1. Where its gap closes it is 2: T max is then that
+/// of true inertia within 0.3 K where the charge is free from the start and within 2 % of its rise where it
+/// rings, and 4 lowers it by 3 K. A measured curve has true inertia: more of it moves the shell's own
+/// frequencies, and a ring of 1.5 % at 2.4 kHz that ignites the 155 mm shell without a gap leaves it at 416 K
+/// with 4.
+double usual_selective_inertia(const Scene& scene);
+
+/// The scene with everything that cannot influence the mechanical run, its trace or its snapshots at its
+/// default: title, file names and acceptances; gap, air (but for its initial pressure, below which no bottom
+/// pressure is traced), exchange and localisation; numbers of the analytic load under a measured curve. The
+/// plan's switches stand as decided, without what the decision rests on. Kinetics, heat conduction, friction
+/// closure and specific heat of laws that do not heat themselves stay only where the plan, or a snapshot,
+/// needs them, materials only where a body is made of them. Zeros have no sign. Names of bodies stay: a
+/// failed run tells where it failed.
+///
+/// Scenes with equal mechanical parts share one mechanical run, bit by bit. The part of a valid scene is
+/// valid.
+Scene mechanical_part(const Scene& scene);
 
 }  // namespace launchsafe::scene

@@ -21,27 +21,22 @@ std::string_view example_of(Dimension dimension);
 /// Names of all units of a dimension, the one users commonly write first.
 std::vector<std::string> units_of(Dimension dimension);
 
-/// Why a text is no quantity; the reader that knows the place makes an InputError of it.
-struct QuantityFault {
-  std::string found;
-  std::string allowed;
-  std::string suggestion;
-};
+// Why a text is no quantity is an error without a place, which the reader that knows it gives it.
 
 /// One number and its unit: "2.5 mm". The result is the double nearest to the decimal number in SI: "11.8 cm"
 /// is exactly 0.118. A comma for a decimal point is a fault.
-Expected<double, QuantityFault> parse_quantity(std::string_view text, Dimension dimension);
+Expected<double> parse_quantity(std::string_view text, Dimension dimension);
 
 /// Whether a text is meant to be a range.
 bool is_range(std::string_view text);
 
 /// "0 to 11.8 cm" or "0 cm to 118 mm": two numbers, lower first; a number without a unit takes the next
 /// one's.
-Expected<std::vector<double>, QuantityFault> parse_range(std::string_view text, Dimension dimension);
+Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension);
 
 /// "0, 0.01, 0.02 cm": one or more numbers; a number without a unit takes the next one's. A comma between
 /// digits without a blank ("0,5", "1,000") is a fault where it may be meant for decimals or thousands.
-Expected<std::vector<double>, QuantityFault> parse_list(std::string_view text, Dimension dimension);
+Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension);
 
 /// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".
 std::string format_quantity(double value_si, Dimension dimension);
@@ -55,12 +50,8 @@ std::string pressure_text(double pressure);
 /// have.
 double in_unit(double value_si, Dimension dimension, std::string_view unit);
 
-/// The power of ten that a unit is of the SI unit: -2 for "cm". 0 for one that is no power of ten.
-int power_of(Dimension dimension, std::string_view unit);
-/// A value with its decimal point moved: the double nearest to its shortest decimal times ten to the power.
-double shifted_point(double value, int power);
 /// A value in a unit that is a power of ten of the SI unit, as if it had been written so: 3e-05 m is 30 µm,
-/// to the last digit.
+/// to the last digit. It itself in any other unit.
 double as_written(double value_si, Dimension dimension, std::string_view unit);
 
 }  // namespace launchsafe::scene

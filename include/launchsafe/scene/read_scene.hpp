@@ -31,7 +31,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
 /// projectile as one rigid body at the exit, or at the end of the launch where there is none. Files are
 /// checked when they are read, and again under what a study sets; cases of its axes are other launches on
 /// purpose.
-std::optional<InputError> check_expected_velocity(const SceneFile& file);
+Fault check_expected_velocity(const SceneFile& file);
 
 /// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, for
 /// what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has
@@ -42,20 +42,17 @@ Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& 
 /// given are 0.
 Value value_in(const SceneFile& file, const std::string& name);
 
-/// The scene with one key changed, validated anew. Keys that would contradict the new one lose their given
-/// value: setting charge.face_friction drops charge.crack_friction, setting kinetics.set drops the numbers of
-/// the law, ...
-Expected<SceneFile> with_key(const SceneFile& file, const std::string& name, const Value& value,
-                             const Place& place);
 /// A key with a new value, and where that was asked for.
 struct KeyChange {
   std::string name;
   Value value;
   Place place;
 };
-/// The same for several keys, which need be valid only together, and lose no value to each other.
+/// The scene with some keys changed, validated anew: they need be valid only together, and lose no value to
+/// each other. Keys that would contradict the new ones lose their given value: setting charge.face_friction
+/// drops charge.crack_friction, setting kinetics.set drops the numbers of the law, ...
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes);
-/// The same with the value as written: "0.1 mm", "true", "comp-b". Sweeps and the command line use it.
+/// The same of one key with the value as written: "0.1 mm", "true", "comp-b".
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
                                      const Place& place);
 
@@ -77,6 +74,6 @@ std::vector<ListedKey> list_keys(const SceneFile& file);
 std::string to_toml(const Scene& scene);
 
 /// The first fault that makes a scene unfit to compute, if any (see the places of the file for where).
-std::optional<InputError> validate(const SceneFile& file);
+Fault validate(const SceneFile& file);
 
 }  // namespace launchsafe::scene

@@ -110,7 +110,7 @@ struct Surface {
   double roughness = 1e-5;              ///< m, the least opening of a closing gap
   /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
   double release = 0.0;
-  /// s, over which what holds it then falls to nothing; none: transit_time (selective_inertia.hpp).
+  /// s, over which what holds it then falls to nothing; none: transit_time (plan.hpp).
   std::optional<double> release_duration = {};
   /// The charge over a closing gap melts as heat reaches it: for comparison, no verdict rests on it.
   bool melts = false;
@@ -149,7 +149,7 @@ struct Numerics {
   double time_step_factor = 0.5;  ///< CFL
   double inertial_scaling = 1.0;  ///< s >= 1
   /// >= 1; steps over those that the cells at rest allow: cells that allow less get the inertia for it. Of a
-  /// scene file that does not say it: selective_inertia.hpp.
+  /// scene file that does not say it: plan.hpp.
   double selective_inertia = 1.0;
   double damping_time = 0.0;         ///< s; decay time of the relative velocity, 0 = no damping
   double pic_fraction = 0.0;         ///< share of PIC in the velocity update, 0 = pure FLIP
@@ -368,8 +368,8 @@ class PressureHistory {
   explicit PressureHistory(const Load& load);
   double at(double time) const;
   /// Largest pressure until the end of the simulation, Pa, and when it is, s.
-  double peak() const { return largest().pressure; }
-  double peak_time() const { return largest().time; }
+  double peak() const { return largest().second; }
+  double peak_time() const { return largest().first; }
   /// Largest pressure of the whole load as stated, Pa, whatever the end: `load.peak` of the analytic
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
@@ -378,11 +378,7 @@ class PressureHistory {
   std::vector<double> marks() const;
 
  private:
-  struct State {
-    double time, pressure;
-  };
-  State largest() const;
-  void join_points();
+  std::pair<double, double> largest() const;  ///< its time, s, and the largest pressure, Pa
   double in_the_barrel(double time) const;
 
   Load load_;

@@ -95,13 +95,11 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
 InputError within(const std::string& table, InputError error);
 
 /// What one of several tables [table.NAME] says; a fault, if there is one.
-using VisitTable =
-    std::function<std::optional<InputError>(const std::string& name, const toml::table& content)>;
+using VisitTable = std::function<Fault(const std::string& name, const toml::table& content)>;
 /// Visits all [table.NAME] of a file in the order of their names, until one has a fault. Anything but a table
 /// is one too: `meaning` tells what NAME is the name of.
-std::optional<InputError> visit_tables(const toml::table& root, const std::string& table,
-                                       std::string_view meaning, const std::string& file,
-                                       const VisitTable& visit);
+Fault visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
+                   const std::string& file, const VisitTable& visit);
 
 template <class Owner>
 std::vector<const KeyDescription*> descriptions_of(const std::vector<Key<Owner>>& keys) {
@@ -123,20 +121,14 @@ Expected<std::map<std::string, Place>> read_table(const toml::table& table,
   return std::move(read->places);
 }
 
-/// What one of several tables says, and where.
+/// Reads all tables of an array of that name, none if there is no such array: what each says, and where. A
+/// fault within one is that of the key "name.key". `allowed`: what the fault says of anything else than
+/// tables under that name.
 template <class Owner>
-struct ReadOwner {
-  Owner owner;
-  std::map<std::string, Place> places;
-};
-
-/// Reads all tables of an array of that name, none if there is no such array; a fault within one is that of
-/// the key "name.key". `allowed`: what the fault says of anything else than tables under that name.
-template <class Owner>
-Expected<std::vector<ReadOwner<Owner>>> read_tables(const toml::table& root, const std::string& name,
-                                                    const std::vector<Key<Owner>>& keys,
-                                                    const std::string& file, const std::string& allowed) {
-  std::vector<ReadOwner<Owner>> owners;
+Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_tables(
+    const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
+    const std::string& file, const std::string& allowed) {
+  std::vector<std::pair<Owner, std::map<std::string, Place>>> owners;
   const toml::node* node = root.get(name);
   if (!node || (node->is_array() && node->as_array()->empty())) return owners;
   if (!node->is_array_of_tables()) return error_at(place_of(*node, file), name, found_text(*node), allowed);
@@ -160,7 +152,6 @@ enum class InputContent { scene, study, materials, unknown };
 InputContent content_of(const toml::table& root);
 
 /// The fault of a file that is clearly of something else than is wanted.
-std::optional<InputError> check_content(const toml::table& root, const std::string& file,
-                                        InputContent wanted);
+Fault check_content(const toml::table& root, const std::string& file, InputContent wanted);
 
 }  // namespace launchsafe::scene

@@ -46,9 +46,6 @@ struct StoredCase {
 /// All that `case_bytes` was given but the scene, bit by bit. Errors: corrupt.
 Result<StoredCase> case_of(std::string_view bytes);
 
-/// The manifest alone; all bytes are checked all the same. Errors: corrupt.
-Result<Manifest> manifest_of(std::string_view bytes);
-
 /// All that `write_case_file` was given but the scene, bit by bit. Errors: missing, unreadable, corrupt.
 Result<StoredCase> read_case_file(const std::filesystem::path& path);
 

@@ -63,16 +63,6 @@ struct RunRecord {
   std::int64_t file_time = 0;   ///< ns since the epoch, modification time of the file
 };
 
-struct StoreOptions {
-  std::string part;       ///< "1-of-4" of a shard; empty for a whole study
-  int model_version = 0;  ///< goes into the records
-  /// Called once, from any thread, when something cannot be written: the study has to end.
-  std::function<void(const Error&)> on_failure;
-};
-
-/// The newest attempts on all cases.
-const SqlTable<RunRecord>& run_table();
-
 /// The names of a store's files.
 struct StoreNames {
   std::filesystem::path folder;
@@ -107,14 +97,16 @@ class CaseStore {
   /// whole, or any part for a whole study; named with host and process; or a file has a name that the store
   /// needs and is none of ours, or is of another format: then nothing was made or changed), corrupt (the
   /// results file is damaged; it stays as it is), write_failed, unreadable.
+  /// `part`: "1-of-4" of a shard; empty for a whole study. `on_failure` is called once, from any thread, when
+  /// something cannot be written: the study has to end.
   static Result<std::unique_ptr<CaseStore>> open(const std::filesystem::path& folder,
-                                                 const StoreOptions& options);
+                                                 const std::string& part = {},
+                                                 std::function<void(const Error&)> on_failure = {});
   /// A store that only looks at what the last commits left in the files of all parts, also where nothing may
   /// be written: nothing is held, repaired or replaced. Only const members, `holds` and `load` may be called.
   /// Errors: conflict (a process writes there; named with host, process and how far it is), corrupt,
   /// unreadable.
-  static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder,
-                                                         int model_version);
+  static Result<std::unique_ptr<CaseStore>> open_to_read(const std::filesystem::path& folder);
   /// Flushes, then releases the results file.
   ~CaseStore();
   CaseStore(const CaseStore&) = delete;
@@ -175,7 +167,7 @@ class CaseStore {
   Result<Imported> import_from(const std::filesystem::path& other);
 
  private:
-  CaseStore(StoreNames names, StoreOptions options, Database database, bool writes);
+  CaseStore(StoreNames names, std::function<void(const Error&)> on_failure, Database database, bool writes);
 
   /// Makes the table of runs where it is missing, and takes the rows of these files.
   MaybeError take_over(const std::vector<std::filesystem::path>& others);
@@ -195,7 +187,6 @@ class CaseStore {
   Error give_up(const std::string& hash, const Error& damage);
   bool is_given_up(const std::string& hash) const;
   MaybeError write_file(const std::string& hash, std::string_view bytes);
-  void keep(const Result<std::string>& bytes, RunRecord record);
   /// Takes over the whole result of another folder: a second name of its file where the file system can.
   MaybeError take_file(const std::filesystem::path& file, const std::string& hash);
   /// Where and when an attempt ended, and of which model it was.
@@ -204,7 +195,7 @@ class CaseStore {
   void write_status(bool ended = false);
 
   const StoreNames names_;
-  const StoreOptions options_;
+  const std::function<void(const Error&)> on_failure_;
   const Manifest manifest_;  ///< of every case, without its input
   const std::string host_;
   const bool writes_;

@@ -2,12 +2,12 @@
 // meshes tend to, the launch that was computed, and whether it says something of another one.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -87,23 +87,22 @@ bool same_setting(const Setting& a, const Setting& b);
 struct RecordedSetting {
   std::string label;
   Setting setting;
-  bool reference = false;           ///< one of the reference meshes
-  double cell = 0;                  ///< m, sqrt(dx dr) of the fitted grid
-  std::vector<double> temperature;  ///< K, T max for every gap of the launch, as compared
-  double critical_gap = std::numeric_limits<double>::quiet_NaN();  ///< m; NaN where there is none
-  double processor_time = 0;                                       ///< s
+  bool reference = false;                    ///< one of the reference meshes
+  double cell = 0;                           ///< m, sqrt(dx dr) of the fitted grid
+  std::vector<double> temperature;           ///< K, T max for every gap of the launch, as compared
+  double critical_gap = math::not_a_number;  ///< m; NaN where there is none
+  double processor_time = 0;                 ///< s
 
   // found by `find_bounds`
   /// K, of T max, the largest over the gaps; NaN where it is not known.
-  double temperature_bound = std::numeric_limits<double>::quiet_NaN();
+  double temperature_bound = math::not_a_number;
   /// m, likewise; NaN also where there is no critical gap.
-  double critical_gap_bound = std::numeric_limits<double>::quiet_NaN();
+  double critical_gap_bound = math::not_a_number;
 };
 
 /// A recorded accuracy study: its launch, and what every sound setting gave. All bounds follow from that.
 struct AccuracyRecord {
-  std::string title;  ///< of the accuracy study
-  int model_version = 0;
+  std::string title;                      ///< of the accuracy study
   scene::Scene scene;                     ///< with the gaps at which T max was compared
   std::vector<RecordedSetting> settings;  ///< the reference meshes first, finest first
 

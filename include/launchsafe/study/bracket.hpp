@@ -3,9 +3,11 @@
 // this one.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
+
 #include <functional>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +16,7 @@ namespace launchsafe::study {
 /// One critical gap: metres; 0 where it ignites without a gap, infinite where nothing ignites up to the end
 /// of the search, NaN where it is not known.
 using GapOrBound = double;
-inline constexpr GapOrBound no_ignition = std::numeric_limits<double>::infinity();
+inline constexpr GapOrBound no_ignition = math::infinity;
 
 /// Random: it differs from launch to launch. Knowledge: it is one fixed thing that nobody knows better.
 enum class ShareClass { random, knowledge };
@@ -48,8 +50,8 @@ std::string to_string(ShareClass of_class);
 /// What one cause does to the critical gap of a case.
 struct GapShare {
   ShareKind kind = ShareKind::computation;
-  GapOrBound raised = std::numeric_limits<double>::quiet_NaN();   ///< at the end towards ignition
-  GapOrBound lowered = std::numeric_limits<double>::quiet_NaN();  ///< at the other end
+  GapOrBound raised = math::not_a_number;   ///< at the end towards ignition
+  GapOrBound lowered = math::not_a_number;  ///< at the other end
 };
 
 /// Random causes are raised by this many standard deviations: 97.7 % one-sided of a normal distribution, and
@@ -58,8 +60,8 @@ inline constexpr double coverage_factor = 2.0;
 
 /// Bounds of a critical gap, m.
 struct GapBounds {
-  GapOrBound at_least = std::numeric_limits<double>::quiet_NaN();  ///< NaN where a share is not known
-  GapOrBound at_most = std::numeric_limits<double>::quiet_NaN();
+  GapOrBound at_least = math::not_a_number;  ///< NaN where a share is not known
+  GapOrBound at_most = math::not_a_number;
 };
 
 /// Bounds around a critical gap between `safe` and `igniting` (m; both are the end of the search where
@@ -102,9 +104,9 @@ struct GapReason {
     longer_launch_failed          ///< see `detail`
   };
   Code code = Code::nothing;
-  double gap = std::numeric_limits<double>::quiet_NaN();    ///< m
-  double lower = std::numeric_limits<double>::quiet_NaN();  ///< m
-  double upper = std::numeric_limits<double>::quiet_NaN();  ///< m
+  double gap = math::not_a_number;    ///< m
+  double lower = math::not_a_number;  ///< m
+  double upper = math::not_a_number;  ///< m
   std::size_t gaps = 0;
   std::string detail = {};                           ///< why a run failed
   std::shared_ptr<const CaseEvidence> of_case = {};  ///< not stored
@@ -115,15 +117,15 @@ std::string to_string(const GapReason& reason);
 /// A critical gap. What a kind does not have is NaN: a bound has no value.
 struct CriticalGap {
   CriticalGapKind kind = CriticalGapKind::indeterminate;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< m, middle of the bracket
-  double lower = value;                                     ///< m, does not ignite
-  double upper = value;                                     ///< m, ignites
-  GapReason reason = {};                                    ///< why it is no value
-  std::vector<GapShare> shares = {};                        ///< what makes it uncertain; once known
-  GapBounds bounds = {};                                    ///< that follow; NaN until the shares are known
+  double value = math::not_a_number;  ///< m, middle of the bracket
+  double lower = value;               ///< m, does not ignite
+  double upper = value;               ///< m, ignites
+  GapReason reason = {};              ///< why it is no value
+  std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
+  GapBounds bounds = {};              ///< that follow; NaN until the shares are known
   /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
   /// rests; NaN otherwise.
-  GapOrBound indicative = std::numeric_limits<double>::quiet_NaN();
+  GapOrBound indicative = math::not_a_number;
 };
 
 /// Takes the shares, and draws the bounds from them. Nothing can be said of one that is indeterminate.
@@ -131,19 +133,17 @@ void set_shares(CriticalGap& gap, std::vector<GapShare> shares);
 
 GapOrBound gap_or_bound(const CriticalGap& gap);
 
-/// What a gap (m) does.
-enum class GapState { safe, ignites, undefined };
+/// Whether a gap (m) ignites; nothing where that is undefined.
+using Ignites = std::function<std::optional<bool>(double gap)>;
 
 /// Scans from 0 to `largest` (m) in equal steps, narrows the first change from safe to ignites down, and
 /// centres a bracket of width `tolerance` (m) on it. A gap that is undefined makes the result indeterminate,
 /// one that is safe beyond the change makes it one of several crossings, and the reason names it.
-CriticalGap find_critical_gap(const std::function<GapState(double gap)>& state, double largest,
-                              double tolerance);
+CriticalGap find_critical_gap(const Ignites& ignites, double largest, double tolerance);
 
 /// The smallest gap that ignites between `begin` and `end` (m), from a scan in equal steps and a bisection
 /// down to `tolerance` (m): the lower end of its bracket, `begin` where that ignites, infinite where none
 /// does, NaN where a state is undefined.
-GapOrBound smallest_igniting_gap(const std::function<GapState(double gap)>& state, double begin, double end,
-                                 double tolerance);
+GapOrBound smallest_igniting_gap(const Ignites& ignites, double begin, double end, double tolerance);
 
 }  // namespace launchsafe::study

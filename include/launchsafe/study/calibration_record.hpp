@@ -18,14 +18,14 @@ struct StationConvergence {
 };
 
 /// The calibrated launch, how well it meets what is published, and whether its stations converge; or why
-/// there is no calibration.
+/// there is no calibration. Of one on firings the launch with the constants at the middle of their posterior,
+/// and nothing after `calibration`.
 struct CalibrationRecord {
-  std::string title;  ///< of the calibration
-  int model_version = 0;
-  std::string failure;  ///< why no constants meet the rows, and nothing below means anything; else empty
+  std::string title;         ///< of the calibration
+  std::string failure = {};  ///< why no constants meet the rows, and nothing below means anything; else empty
   Calibration calibration;
   bool load_fitted = false;               ///< the shape of the load is calibrated too, not only the constants
-  std::string references_digest;          ///< SHA-256 of the published rows and of what each was used for
+  std::string references_digest = {};     ///< SHA-256 of the published rows and of what each was used for
   double ignition_lowest = not_a_number;  ///< K, T max without a trigger at the largest gap that is safe
   double ignition_highest = not_a_number;  ///< K, and at the smallest that ignites: T1 is in the middle
   /// K, below which 95 % of the misfits of temperatures lie, by so many that nothing was fitted to: Student's
@@ -33,9 +33,9 @@ struct CalibrationRecord {
   double misfit_bound = not_a_number;
   int misfits = 0;
   /// Of the logarithms of `fitted_keys`, row by row; empty where the load was not fitted.
-  std::vector<double> covariance;
+  std::vector<double> covariance = {};
   double selection_root_mean_square = not_a_number;  ///< K; NaN where no row was used for selection
-  StationConvergence stations;                       ///< K; NaN where not measured
+  StationConvergence stations = {};                  ///< K; NaN where not measured
 };
 
 /// What a calibration with its load fits by least squares, in the order of its covariance.
@@ -47,29 +47,17 @@ inline constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not
 
 /// The record as a file, with the SHA-256 of its content.
 std::string to_json_text(const CalibrationRecord& record);
-/// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
-/// in errors.
+/// Whether a text is meant to be the record of a calibration on firings.
+bool is_firing_record(const std::string& text);
+/// Refuses an edited record, one of another model version, one on firings, and a scene that no reader takes.
+/// `file` is named in errors.
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
 
-/// The launch with the constants at the middle of their posterior, and the firings.
-struct FiringRecord {
-  std::string title;  ///< of the calibration
-  int model_version = 0;
-  Calibration calibration;  ///< with firings
-};
-
-/// The record as a file, with the SHA-256 of its content.
-std::string to_json_text(const FiringRecord& record);
-/// Whether a text is meant to be such a record.
-bool is_firing_record(const std::string& text);
-/// Refuses an edited record, one of another model version, and a scene that no reader takes. `file` is named
-/// in errors. Rounds that were made up and a digest that was computed anew are not recognised, as firings
-/// that were made up are not: a digest guards against mistakes and idle edits. Constants of the scene that
-/// are not those of the posterior buy nothing, as verdicts count with the heat that the posterior asks for.
-scene::Expected<FiringRecord> parse_firing_record(const std::string& text, const std::string& file);
-
-/// All of it as a text, of which another one is another calibration.
-std::string to_text(const FiringEvidence& evidence);
+/// Likewise of one on firings. Rounds that were made up and a digest that was computed anew are not
+/// recognised, as firings that were made up are not: a digest guards against mistakes and idle edits.
+/// Constants of the scene that are not those of the posterior buy nothing, as verdicts count with the heat
+/// that the posterior asks for.
+scene::Expected<CalibrationRecord> parse_firing_record(const std::string& text, const std::string& file);
 
 /// Reads the record that a study names, if it names one, gives its load and constants to the scene, and notes
 /// them among the overrides. A fit uncertainty that the study does not state becomes the record's.

@@ -1,7 +1,6 @@
 // What a study wants to know of one case: all that tables need, and no histories. Answers to all cases take
 // the fewest mechanical runs: cases that differ in thermal keys alone share one, and what is stored is not
-// computed again. A results file has a row a case, rows of its gaps and of its shares; verdicts follow from
-// what is stored.
+// computed again. A results file has a row a case; verdicts follow from what is stored.
 #pragma once
 
 #include "launchsafe/study/gap_verdict.hpp"
@@ -45,6 +44,6 @@ std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::
 std::optional<CaseAnswer> read_answer(store::Database& database, const std::string& key);
 
 /// All that is stored of an answer.
-std::string bytes_of(const CaseAnswer& answer);
+std::string bytes_of(CaseAnswer answer);
 
 }  // namespace launchsafe::study

@@ -2,11 +2,11 @@
 // rounds that ignited and rounds that did not (Bayes), and how much more heat a launch has to bear for that.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,11 +24,10 @@ struct Firing {
   std::string name;
   bool ignited = false;
   int rounds = 1;
-  double pressure = std::numeric_limits<double>::quiet_NaN();  ///< Pa, mean peak pressure
-  double pressure_spread =
-      std::numeric_limits<double>::quiet_NaN();                   ///< Pa, standard deviation between rounds
-  double temperature = std::numeric_limits<double>::quiet_NaN();  ///< K, mean, of charge and air
-  double temperature_spread = std::numeric_limits<double>::quiet_NaN();  ///< K, likewise
+  double pressure = math::not_a_number;            ///< Pa, mean peak pressure
+  double pressure_spread = math::not_a_number;     ///< Pa, standard deviation between rounds
+  double temperature = math::not_a_number;         ///< K, mean, of charge and air
+  double temperature_spread = math::not_a_number;  ///< K, likewise
   double gap = 0;       ///< m, the least that it can have been: what a thicker one shows is not known
   double most_gap = 0;  ///< m, the largest that it can have been
 };

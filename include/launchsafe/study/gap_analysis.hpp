@@ -21,11 +21,6 @@ struct StationTemperature {
 std::vector<StationTemperature> station_temperatures(const surface::SkinHistory& skin,
                                                      const trace::BottomTrace& trace);
 
-/// Undefined where a temperature is not a number.
-GapState state_of(const surface::SkinHistory& history);
-/// Of surface::ignites.
-GapState state_of(std::optional<bool> ignites);
-
 /// K by which all heat of friction between charge and base could heat the charge's surface: in the skin, or,
 /// where that is thinner, as deep as heat diffuses until the exit at a constant rate (Carslaw & Jaeger
 /// 1959, 2.9).
@@ -80,11 +75,10 @@ struct RaisedLaunch {
 /// The random causes of a case, one by one at their ends: the muzzle exit where its scene states a spread;
 /// peak pressure, length of the pulse and initial temperature where the study states no uncertainty of the
 /// inputs. The lower pressure was not run: its trace is the mirror of the raised one (trace::mirrored).
-std::vector<RaisedLaunch> raised_inputs(const Study& study, const CaseOutcome& outcome, End end);
-
-/// All causes. `row`: the case at a gap next to its critical one, of which those are taken that are known as
-/// temperatures: heat of air and friction is scaled so that a skin that does not react is hotter by as much.
-std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome,
-                                          const GapVerdict& row, End end);
+/// With a `row`, the case at a gap next to its critical one, all causes: of the row those are taken that are
+/// known as temperatures: heat of air and friction is scaled so that a skin that does not react is hotter by
+/// as much.
+std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome, End end,
+                                          const GapVerdict* row = nullptr);
 
 }  // namespace launchsafe::study

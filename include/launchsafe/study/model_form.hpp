@@ -21,7 +21,6 @@ struct ModelAlternative {
 
 /// The default model and its alternatives.
 struct ModelFormRecord {
-  int model_version = 0;
   scene::Scene scene;                    ///< the default's, with its constants
   std::vector<double> peak_pressures;    ///< Pa, increasing
   std::vector<GapOrBound> critical_gap;  ///< m, of the default
@@ -38,12 +37,8 @@ struct ModelFormEntry {
 /// Of models at the same peak pressures (Pa, increasing), the default first. Errors (a text): a default
 /// without constants; a scene that is not of its calibration; an alternative that is the default itself, or a
 /// model of another launch or of other published rows; stations that were compared with no finer mesh.
-struct ModelFormOrError {
-  std::optional<ModelFormRecord> record;
-  std::string error;
-};
-ModelFormOrError make_model_form(const std::vector<ModelFormEntry>& entries,
-                                 std::vector<double> peak_pressures);
+scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<ModelFormEntry>& entries,
+                                                              std::vector<double> peak_pressures);
 
 std::string to_json_text(const ModelFormRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.

@@ -1,12 +1,12 @@
 // What the caller of a study may choose, watch and replace, and how it is divided over processes or machines.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/scheduler.hpp"
 
-#include <limits>
 #include <string_view>
 
 namespace launchsafe::study {
@@ -28,11 +28,11 @@ std::vector<int> shards_of(const std::vector<double>& costs, int count);
 
 /// How mechanics are run. Tests put closed forms in their place.
 struct Runners {
-  std::function<run::MechanicsResult(const scene::Scene&, const run::RunOptions&)> mechanics;
-  std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> with_skin;
+  std::function<run::MechanicsResult(const scene::Scene&, const run::RunOptions&)> mechanics =
+      run::run_mechanics;
+  std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> with_skin =
+      run::run_with_skin;
 };
-/// run::run_mechanics and run::run_with_skin.
-Runners simulation_runners();
 
 /// What became of a run that a study needs.
 enum class RunOutcome {
@@ -49,7 +49,7 @@ enum class RunOutcome {
 struct StudyOptions {
   int jobs = 0;             ///< cases at a time; <= 0: available_cores()
   double memory_limit = 0;  ///< bytes of all running cases together; <= 0: most of what is available
-  double time_limit = std::numeric_limits<double>::infinity();  ///< s of wall time, of one case
+  double time_limit = math::infinity;  ///< s of wall time, of one case
   /// s, predicted; a case that takes longer is refused (run::out_of_reach).
   double longest_run = run::Reach{}.longest_run;
   Shard shard;  ///< the part of the mechanical runs that is ours; the others are not run
@@ -57,7 +57,7 @@ struct StudyOptions {
   /// start. The study sets it itself when its store can no longer be written.
   std::atomic<bool>* stop = nullptr;
   ProgressCallback progress;
-  Runners runners = simulation_runners();
+  Runners runners;
   bool compute = true;  ///< false: only what is stored counts
   /// Where results are kept and taken from; none: nothing is kept.
   store::CaseStore* store = nullptr;

@@ -2,7 +2,7 @@
 // constants that scenes start from were calibrated.
 #pragma once
 
-#include "launchsafe/scene/acceptance.hpp"
+#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene.hpp"
 
 #include <memory>

@@ -86,16 +86,51 @@ class RecordObject {
   }
   /// Parts by their own descriptions; of a list `allowed` says how many there may be.
   template <class Part, class Describe>
-  void part(const std::string& key, Part& part, const Describe& describe);
+  void part(const std::string& key, Part& part, const Describe& describe) {
+    if (reading())
+      read((*this)[key], path_of(key), *reader_, part, describe);
+    else
+      (*this)[key] = written(describe, part);
+  }
   template <class Part, class Describe>
   void list(const std::string& key, std::vector<Part>& parts, std::size_t fewest, std::size_t most,
-            const char* allowed, const Describe& describe);
+            const char* allowed, const Describe& describe) {
+    nlohmann::ordered_json& list = (*this)[key];
+    if (!reading()) {
+      list = nlohmann::ordered_json::array();
+      for (const Part& part : parts) list.push_back(written(describe, part));
+      return;
+    }
+    if (!list.is_array() || list.size() < fewest || list.size() > most)
+      reader_->refuse(path_of(key), found_in(list), allowed);
+    for (std::size_t i = 0; !reader_->fault() && i < list.size(); ++i)
+      read(list[i], path_of(key) + "." + std::to_string(i), *reader_, parts.emplace_back(), describe);
+  }
+  /// Numbers, one for each of so many; null where one is not a number. `allowed` says how many there are.
+  void numbers(const std::string& key, std::vector<double>& numbers, std::size_t count,
+               const std::string& allowed, const scene::Limits& limits);
 
   /// "model_version", which must be this program's. `anew`: how to get a record of it.
-  void model_version(int& version, const char* anew);
+  void model_version(const char* anew);
   /// "scene", as text; `what` says which it should be.
   void scene(scene::Scene& scene, const char* what);
-  const nlohmann::ordered_json& json() const { return *json_; }
+
+  template <class Value, class Describe>
+  static nlohmann::ordered_json written(const Describe& describe, Value value) {
+    RecordObject object;
+    describe(object, value);
+    return object.written_;
+  }
+  /// Takes an object with the keys of its description, those of `head` before them, and no others.
+  template <class Value, class Describe>
+  static void read(nlohmann::ordered_json& given, const std::string& path, RecordReader& reader, Value& value,
+                   const Describe& describe, std::vector<std::string> head = {}) {
+    const nlohmann::ordered_json known = written(describe, Value{});
+    for (const auto& [key, unused] : known.items()) head.push_back(key);
+    if (!reader.has_keys(given, path, head)) return;
+    RecordObject object(given, path, reader);
+    describe(object, value);
+  }
 
  private:
   nlohmann::ordered_json written_ = nlohmann::ordered_json::object();
@@ -103,47 +138,6 @@ class RecordObject {
   std::string path_;
   RecordReader* reader_ = nullptr;
 };
-
-template <class Value, class Describe>
-nlohmann::ordered_json json_by(const Describe& describe, Value value) {
-  RecordObject object;
-  describe(object, value);
-  return object.json();
-}
-
-/// Takes an object with the keys of its description, those of `head` before them, and no others.
-template <class Value, class Describe>
-void read_object(nlohmann::ordered_json& given, const std::string& path, RecordReader& reader, Value& value,
-                 const Describe& describe, std::vector<std::string> head = {}) {
-  const nlohmann::ordered_json known = json_by(describe, Value{});
-  for (const auto& [key, unused] : known.items()) head.push_back(key);
-  if (!reader.has_keys(given, path, head)) return;
-  RecordObject object(given, path, reader);
-  describe(object, value);
-}
-
-template <class Part, class Describe>
-void RecordObject::part(const std::string& key, Part& part, const Describe& describe) {
-  if (reading())
-    read_object((*this)[key], path_of(key), *reader_, part, describe);
-  else
-    (*this)[key] = json_by(describe, part);
-}
-
-template <class Part, class Describe>
-void RecordObject::list(const std::string& key, std::vector<Part>& parts, std::size_t fewest,
-                        std::size_t most, const char* allowed, const Describe& describe) {
-  nlohmann::ordered_json& list = (*this)[key];
-  if (!reading()) {
-    list = nlohmann::ordered_json::array();
-    for (const Part& part : parts) list.push_back(json_by(describe, part));
-    return;
-  }
-  if (!list.is_array() || list.size() < fewest || list.size() > most)
-    reader_->refuse(path_of(key), found_in(list), allowed);
-  for (std::size_t i = 0; !reader_->fault() && i < list.size(); ++i)
-    read_object(list[i], path_of(key) + "." + std::to_string(i), *reader_, parts.emplace_back(), describe);
-}
 
 /// A kind of record.
 struct RecordFormat {
@@ -155,7 +149,7 @@ template <class Record, class Describe>
 nlohmann::ordered_json content_by(const RecordFormat& format, const Describe& describe,
                                   const Record& record) {
   nlohmann::ordered_json content{{"format", format.name}};
-  content.update(json_by(describe, record));
+  content.update(RecordObject::written(describe, record));
   return content;
 }
 
@@ -169,7 +163,7 @@ scene::Expected<Record> parse_record(const std::string& text, const std::string&
   RecordReader reader(file);
   auto object = reader.parse(text, format.name, format.file, format.study);
   Record record;
-  if (object) read_object(*object, "", reader, record, describe, {format.head[0], format.head[1]});
+  if (object) RecordObject::read(*object, "", reader, record, describe, {format.head[0], format.head[1]});
   if (!reader.fault()) reader.check_digest(*object, content_by(format, describe, record));
   if (reader.fault()) return *reader.fault();
   return record;

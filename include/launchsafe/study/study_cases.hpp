@@ -47,12 +47,6 @@ inline scene::InputError fault_at(const StudyFile& study, const std::string& key
                          std::move(suggestion));
 }
 
-/// A key of a table that was read by itself, named as of the whole file: `table`.key.
-inline scene::InputError in_table(scene::InputError error, const std::string& table) {
-  error.key = table + "." + error.key;
-  return error;
-}
-
 /// The tables [[name]] of a study file or of a file that it names; none where there are none. A kind that
 /// needs at least one says what stands in it: "with a name".
 scene::Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
@@ -61,6 +55,21 @@ scene::Expected<std::vector<const toml::table*>> some_tables_of(const toml::tabl
                                                                 const std::string& name,
                                                                 const StudyFile& study,
                                                                 const std::string& content);
+
+/// Adds a row for every [[name]] of a study file or of a file that it names. Where a key of one stands is
+/// known as that of "name.0.key".
+template <class Row>
+Fault read_rows(const toml::table& root, const std::string& name, const std::vector<scene::Key<Row>>& keys,
+                const std::string& file, StudyFile& study, std::vector<Row>& rows) {
+  auto tables = scene::read_tables(root, name, keys, file, "tables, each written [[" + name + "]]");
+  if (!tables) return tables.error();
+  for (auto& [row, places] : *tables) {
+    for (const auto& [key, place] : places)
+      study.places[name + "." + std::to_string(rows.size()) + "." + key] = place;
+    rows.push_back(std::move(row));
+  }
+  return std::nullopt;
+}
 
 /// The text of the file that a key names by its path from the study file's folder; `wanted` says which file
 /// that should be.

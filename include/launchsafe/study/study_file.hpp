@@ -2,18 +2,23 @@
 // kept, and a case is made when it is asked for.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/model_form.hpp"
 
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/iterator/transform_iterator.hpp>
+
+#include <any>
 #include <cstddef>
 #include <map>
 
 namespace launchsafe::study {
 
-inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using math::not_a_number;
 
 /// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
 /// constants.
@@ -34,7 +39,7 @@ struct StudyCase {
   /// Hotter skins have proportionally larger errors.
   double rise_of_uncertainty = not_a_number;
   /// m, up to which that holds; beyond, it is the assumed one at the least.
-  double covered_gap = std::numeric_limits<double>::infinity();
+  double covered_gap = math::infinity;
   double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
   /// The terms of a gap that closes, where it does: the scene has the reservoir beside which they are looked
@@ -82,24 +87,12 @@ class Cases {
   void replace(std::size_t index, StudyCase made);
   void relabel(std::size_t index, std::string label) { rows_[index].label = std::move(label); }
 
-  class Iterator {
-   public:
-    using value_type = StudyCase;
-    using difference_type = std::ptrdiff_t;
-    Iterator(const Cases& cases, std::size_t index) : cases_(&cases), index_(index) {}
-    const StudyCase operator*() const { return (*cases_)[index_]; }
-    Iterator& operator++() {
-      ++index_;
-      return *this;
-    }
-    bool operator==(const Iterator&) const = default;
-
-   private:
-    const Cases* cases_;
-    std::size_t index_;
-  };
-  Iterator begin() const { return {*this, 0}; }
-  Iterator end() const { return {*this, size()}; }
+  auto iterator_at(std::size_t index) const {
+    return boost::make_transform_iterator(boost::make_counting_iterator(index),
+                                          [this](std::size_t i) { return (*this)[i]; });
+  }
+  auto begin() const { return iterator_at(0); }
+  auto end() const { return iterator_at(size()); }
 
  private:
   struct Row {
@@ -192,14 +185,12 @@ struct StatedUncertainty {
   std::string because;  ///< the source, in words
 };
 
-/// What a kind of study alone asks. The module that has the kinds says what that is, and gives access to it
-/// (`kinds::settings_of`); here it is carried along.
-struct KindSettings;
-
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
-  std::shared_ptr<KindSettings> settings;  ///< shared by copies until one is changed; null: the defaults
+  /// What the kind alone asks (`kinds::settings_of`); shared by copies until one is changed; null: the
+  /// defaults.
+  std::shared_ptr<std::any> settings;
   std::string title;
   bool demonstration = false;  ///< its shell, its launch or its firings are invented
   std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it

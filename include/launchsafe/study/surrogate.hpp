@@ -2,13 +2,14 @@
 // computed.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <variant>
@@ -49,7 +50,7 @@ struct SurrogateFit {
 /// How far a fit is off launches that it has not seen; the output's unit.
 struct HeldOutError {
   std::size_t launches = 0;  ///< with a number
-  double root_mean_square = std::numeric_limits<double>::quiet_NaN(), largest = root_mean_square;
+  double root_mean_square = math::not_a_number, largest = root_mean_square;
   double unexplained = root_mean_square;  ///< the mean square as a share of the variance of what was fitted
 };
 
@@ -65,7 +66,6 @@ struct SurrogateOutput {
 };
 
 struct SurrogateRecord {
-  int model_version = 0;
   scene::Scene scene;                  ///< of the launches, but for the inputs
   double gap = 0;                      ///< m, which a question is about that names none
   std::vector<std::string> keys = {};  ///< of the scene: the inputs
@@ -130,10 +130,7 @@ std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput ou
 
 /// From where to where inputs may be asked for, SI: all of a distribution that ends, and of a normal as far
 /// as launches were fitted.
-struct InputRange {
-  double lower = 0, upper = 0;
-};
-std::vector<InputRange> ranges_of(const SurrogateRecord& record);
+std::vector<math::Interval> ranges_of(const SurrogateRecord& record);
 
 /// Launches drawn from the inputs, by whether their critical gap is no larger than a gap.
 struct PredictedIgnitions {

@@ -2,6 +2,7 @@
 // What an input says is found once a case and never stored: a verdict that is read rests on what it says now.
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/model_form.hpp"
 
@@ -46,12 +47,12 @@ struct CaseStatements {
   std::vector<std::string> extrapolated;  ///< what lies beyond the calibration's domain at any gap, by name:
                                           ///< first what is foreign to it
   /// m, up to which a gap lies within it.
-  double calibrated_gap = std::numeric_limits<double>::infinity();
+  double calibrated_gap = math::infinity;
   bool calibrated_by_firings = false;  ///< so that nothing is known of a gap beyond
   bool demonstration = false;          ///< of something that was invented
 
   /// Of the study's record of other models; not known where there is none.
-  ModelFormShift model_form{std::nan(""), std::nan(""), {}};
+  ModelFormShift model_form{math::not_a_number, math::not_a_number, {}};
 
   /// What is implausible, and what is foreign to the calibration.
   std::vector<scene::Implausible> to_be_accepted() const;
@@ -101,7 +102,7 @@ struct CaseEvidence {
   /// Why a completed run is no basis (see run::validity_warnings), a clause each; none for a sound one.
   std::vector<std::string> validity_warnings = {};
   /// K, of T max without a gap by friction; infinite where a study does not ask whether it was launched.
-  double friction_rise = std::numeric_limits<double>::infinity();
+  double friction_rise = math::infinity;
   CaseStatements input = {};
 };
 
@@ -111,10 +112,10 @@ struct ClosingEvidence {
   bool ignited = false;  ///< with a base that conducts, or with an insulated one
   /// K, in the worst corner or on another bound that comes nearer to ignition; minus infinity where it
   /// ignites there, or a thinner gap does; NaN where the corner was not computed.
-  double corner_margin = std::numeric_limits<double>::quiet_NaN();
+  double corner_margin = math::not_a_number;
   /// K, by which its T max may be off for mesh, steps and columns: by an accuracy record that was made on its
   /// terms, or assumed.
-  double numerical = std::numeric_limits<double>::quiet_NaN();
+  double numerical = math::not_a_number;
 };
 
 /// All that a verdict rests on.
@@ -128,10 +129,10 @@ struct Evidence {
   double numerical =
       0;  ///< K, of that what mesh, step and scaling have, which are not those of a gap that closes
   /// K, margin with the constants of the surface as calibrated; infinite where they are.
-  double calibrated_margin = std::numeric_limits<double>::infinity();
+  double calibrated_margin = math::infinity;
   double noise = 0;  ///< K, what noise and smoothing of a measured curve count
   /// K, T max when a launch that is cut short goes on until it is over; NaN for others.
-  double when_over = std::numeric_limits<double>::quiet_NaN();
+  double when_over = math::not_a_number;
   ClosingEvidence closing = {};  ///< of a case that asks for it
   /// K, of T max in the worst corner: the numerics are its own.
   double closing_uncertainty() const { return uncertainty - numerical + closing.numerical; }
@@ -171,8 +172,8 @@ std::string to_string(ReasonCode code);
 struct Judgement {
   Verdict verdict = Verdict::indeterminate;
   ReasonCode code = ReasonCode::not_judged;
-  double at_least = std::numeric_limits<double>::quiet_NaN();  ///< m, CriticalGap::bounds
-  GapReason critical_gap = {};  ///< why there is none, where that is the reason
+  double at_least = math::not_a_number;  ///< m, CriticalGap::bounds
+  GapReason critical_gap = {};           ///< why there is none, where that is the reason
 };
 
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without

@@ -1,11 +1,9 @@
 // The air of a gap that closes: columns of charge, air and base whose thickness somebody else states.
 #pragma once
 
-#include "launchsafe/surface/film.hpp"
-#include "launchsafe/surface/skin.hpp"
+#include "launchsafe/surface/film_station.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 namespace launchsafe::surface {
@@ -37,8 +35,9 @@ class GapColumns {
   /// `gap` (m, > 0) at rest, where the air has the model's initial state, and `duration` (s) of the launch.
   GapColumns(const SkinModel& model, std::size_t columns, double gap, double duration,
              const FilmNumerics& numerics = numerics_of({}));
-  GapColumns(GapColumns&&) noexcept;
-  ~GapColumns();
+  // Columns refer to the model and the grid.
+  GapColumns(const GapColumns&) = delete;
+  GapColumns& operator=(const GapColumns&) = delete;
 
   /// An interval of `length` (s) whose pressure (Pa) went from `begin` to `end` with a `mean`; friction heats
   /// the charge by `heating` (K/s).
@@ -51,18 +50,25 @@ class GapColumns {
   EnclosedAir fit_together(double pressure, const std::vector<double>& openings,
                            const std::vector<double>& areas);
 
-  double hottest(std::size_t column) const;   ///< K, over the depth of the charge; T2 once it has ignited
-  double mean_air(std::size_t column) const;  ///< K, over its mass
-  bool failed(std::size_t column) const;      ///< something is not finite
-  bool ignited(std::size_t column) const;
-  double ignition_time(std::size_t column) const;  ///< s after the begin of the interval in which it ignited
-  double chemical_share(std::size_t column) const;
-  const FilmEnergy& energy(std::size_t column) const;
-  double covolume(std::size_t column = 0) const;  ///< m3/m2 of all the air's molecules
+  const detail::FilmStation& operator[](std::size_t column) const { return columns_[column]; }
 
  private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  /// A column at the begin of its interval, and since then.
+  struct Interval {
+    double length = 0;   ///< s
+    double opening = 0;  ///< m, at the begin
+    double excess = 0;   ///< of the air's temperature over that of the walls, as a share of it, at the begin
+    EnclosedAir air = {};  ///< at the begin
+  };
+
+  double temperature_of_walls(const detail::FilmColumn& film) const;
+  double usual_exchange(const detail::FilmColumn& film) const;
+  void move_air(const std::vector<double>& openings, const std::vector<double>& areas);
+
+  SkinModel model_;
+  detail::FilmGrid grid_;
+  std::vector<detail::FilmStation> columns_;
+  std::vector<Interval> intervals_;
 };
 
 }  // namespace launchsafe::surface
