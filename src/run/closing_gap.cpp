@@ -13,8 +13,9 @@ namespace {
 /// An interval of a column ends once its pressure, or by conduction alone its volume, has changed by so much,
 /// or at a sample of the trace.
 constexpr double pressure_change = 0.05, volume_change = 0.02;
-/// Where air flows, also once such a part of its volume has moved.
-constexpr double part_moved = 0.02;
+/// Where air flows, also once such a part of its volume has moved. All columns are followed at once there, so
+/// that as much again as this factor may happen before.
+constexpr double part_moved = 0.02, wider_where_air_flows = 2.5;
 /// Largest part of an opening by which faces approach in a step.
 constexpr double most_closed = 0.1;
 
@@ -126,7 +127,8 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
   }
   bool touches = false, due = shares_air_ && samples;
   const double mean_opening = shares_air_ ? contact.mean_opening() : 0.0;
-  double moved = 0.0, volume = 0.0;  // m3 per radian or metre
+  double moved = 0.0, volume = 0.0;      // m3 per radian or metre
+  const bool follows = !skin_.ignition;  // else at samples alone: how the other columns fare decides nothing
   longest_step_ = std::numeric_limits<double>::infinity();
   for (std::size_t column = 0; column < nodes_.size(); ++column) {
     Node& node = nodes_[column];
@@ -148,7 +150,7 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
     node.pressure = pressure;
     touches = touches || opening <= floor_ * (1.0 + 1e-9);
     if (shares_air_) {
-      due = due || is_due(node, gas);
+      due = due || (follows && is_due(node, gas));
       moved += node.area * std::abs(opening - node.opening_before);
       volume += node.area * opening;
       continue;
@@ -159,7 +161,7 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
     follow_heat(column, recorder, time);
     start_interval(column, contact, time);
   }
-  if (shares_air_ && (due || often_ * moved > part_moved * volume)) {
+  if (shares_air_ && (due || (follows && often_ * moved > part_moved * wider_where_air_flows * volume))) {
     for (std::size_t column = 0; column < nodes_.size(); ++column) follow_heat(column, recorder, time);
     share_air(contact, time);
   }
@@ -167,8 +169,9 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
 }
 
 bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
-  return often_ * std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
-         often_ * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
+  const double often = shares_air_ ? often_ / wider_where_air_flows : often_;
+  return often * std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
+         often * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
 }
 
 void ClosingGap::follow_heat(std::size_t column, const TraceRecorder& recorder, double time) {

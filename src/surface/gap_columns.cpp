@@ -132,12 +132,15 @@ EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>&
     move_air(openings, areas);
   }
   now.pressure = pressure;
-  now.volume_at_walls = mean([&](std::size_t, const auto& film) {
-    return film.air_volume() * temperature_of_walls(film) / film.mean_air();
+  // What has ignited is compressed without conduction.
+  now.volume_at_walls = mean([&](std::size_t i, const auto& film) {
+    const double share = columns_[i].ignited() ? 1.0 : temperature_of_walls(film) / film.mean_air();
+    return film.air_volume() * share;
   });
-  now.exchange = opening / now.volume * mean([&](std::size_t i, const auto& film) {
-                   return film.air_volume() * usual_exchange(film) / openings[i];
-                 });
+  now.exchange =
+      opening / now.volume * mean([&](std::size_t i, const auto& film) {
+        return columns_[i].ignited() ? 0.0 : film.air_volume() * usual_exchange(film) / openings[i];
+      });
   return now;
 }
 
