@@ -13,9 +13,8 @@ namespace {
 /// An interval of a column ends once its pressure, or by conduction alone its volume, has changed by so much,
 /// or at a sample of the trace.
 constexpr double pressure_change = 0.05, volume_change = 0.02;
-/// Where air flows, also once such a part of its volume has moved. All columns are followed at once there, so
-/// that as much again as this factor may happen before.
-constexpr double part_moved = 0.02, wider_where_air_flows = 2.5;
+/// Where air flows, also once such a part of its volume has moved.
+constexpr double part_moved = 0.02;
 /// Largest part of an opening by which faces approach in a step.
 constexpr double most_closed = 0.1;
 
@@ -161,7 +160,7 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
     follow_heat(column, recorder, time);
     start_interval(column, contact, time);
   }
-  if (shares_air_ && (due || (follows && often_ * moved > part_moved * wider_where_air_flows * volume))) {
+  if (shares_air_ && (due || (follows && often_ * moved > part_moved * volume))) {
     for (std::size_t column = 0; column < nodes_.size(); ++column) follow_heat(column, recorder, time);
     share_air(contact, time);
   }
@@ -169,9 +168,8 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
 }
 
 bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
-  const double often = shares_air_ ? often_ / wider_where_air_flows : often_;
-  return often * std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
-         often * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
+  return often_ * std::abs(std::log(node.pressure / node.air.pressure)) > pressure_change ||
+         often_ * std::abs(gas.volume / node.air.volume - 1.0) > volume_change;
 }
 
 void ClosingGap::follow_heat(std::size_t column, const TraceRecorder& recorder, double time) {

@@ -254,6 +254,7 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
   conducting.base = GapBase::conducting;
   melting.melts = true;
   smooth.roughness = std::min(smoothest, own.roughness);
+  smooth.air_flow = scene::AirFlow::trapped;
   if (!(own.release_duration && *own.release_duration < scene::transit_time(scene)))
     smooth.release_duration.reset();
   std::vector<ClosingBound> bounds{{"conducting", {conducting}}, {"insulated", {insulated}}};
@@ -262,17 +263,13 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
     for (const double share : release_shares) releases.push_back(time_at_share(scene.load, share));
     std::sort(releases.begin(), releases.end());
     releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-    ClosingBound flowing{"flowing", {smooth, smooth}}, corner{"corner", {}, why_without_corner(scene)};
-    flowing.terms.front().air_flow = scene::AirFlow::trapped;
-    flowing.terms.back().air_flow = scene::AirFlow::common_pressure;
-    for (const double release : releases)
-      for (ClosingTerms terms : flowing.terms) {
-        terms.release = release;
-        corner.terms.push_back(terms);
-      }
+    ClosingBound corner{"corner", {}, why_without_corner(scene)};
+    for (const double release : releases) {
+      corner.terms.push_back(smooth);
+      corner.terms.back().release = release;
+    }
     bounds.push_back({"melting", {melting}});
     bounds.push_back({"smooth", {smooth}});
-    bounds.push_back(std::move(flowing));
     bounds.push_back(std::move(corner));
   }
   const std::vector<materials::KineticsParameters> kinetics = kinetics_of(scene);

@@ -76,7 +76,7 @@ TEST(ClosingGaps, BracketsTheSmallestThatIgnites) {
   const auto answers = answers_of([](const Launch& launch) {
     return launch.gap > (launch.surface.base == GapBase::insulated ? 5e-4 : 6.3e-4) ? 600.0 : 400.0;
   });
-  ASSERT_EQ(answers.size(), 6u);
+  ASSERT_EQ(answers.size(), 5u);
   EXPECT_EQ(answers[0].name, "conducting");
   EXPECT_LE(answers[0].upper - answers[0].lower, 1e-5);
   EXPECT_LE(answers[0].lower, 6.3e-4);
@@ -125,9 +125,8 @@ TEST(ClosingGaps, WithoutARecordOfThemNoLessIsUncertainThanIsAssumed) {
 TEST(ClosingGaps, EachBoundHasTheWorstEndOfOneMoreInterval) {
   const auto answers = answers_of([](const Launch& launch) {
     return 400.0 + (launch.surface.base == GapBase::insulated ? 5.0 : 0.0) +
-           (launch.surface.roughness < 5e-6 ? 20.0 : 0.0) +
-           (launch.surface.air_flow == scene::AirFlow::common_pressure ? 10.0 : 0.0) +
-           (launch.surface.release > 0.0 ? 30.0 : 0.0) - (launch.surface.melts ? 7.0 : 0.0);
+           (launch.surface.roughness < 5e-6 ? 20.0 : 0.0) + (launch.surface.release > 0.0 ? 30.0 : 0.0) -
+           (launch.surface.melts ? 7.0 : 0.0);
   });
   std::vector<std::pair<std::string, double>> found;
   for (const ClosingAnswer& answer : answers)
@@ -136,16 +135,17 @@ TEST(ClosingGaps, EachBoundHasTheWorstEndOfOneMoreInterval) {
                                                                 {"insulated", 405.0},
                                                                 {"melting", 398.0},
                                                                 {"smooth", 425.0},
-                                                                {"flowing", 435.0},
-                                                                {"corner", 465.0}}));
+                                                                {"corner", 455.0}}));
 }
 
-TEST(ClosingGaps, AirThatStaysCountsWhereItIsHotterThanAirThatFlows) {
-  const auto answers = answers_of([](const Launch& launch) {
-    return launch.surface.air_flow == scene::AirFlow::common_pressure ? 400.0 : 430.0;
-  });
-  EXPECT_EQ(answers.back().name, "corner");
-  EXPECT_EQ(answers.back().at(2e-4)->maximum_temperature, 430.0);
+TEST(ClosingGaps, TheCornerHasAirThatStaysWhateverTheSceneHas) {
+  StudyCase input = closing_study().cases.front();
+  input.closing->air_flow = scene::AirFlow::common_pressure;
+  for (const ClosingBound& bound : closing_bounds(input)) {
+    const bool is_own = bound.name != "smooth" && bound.name != "corner";
+    for (const ClosingTerms& terms : bound.terms)
+      EXPECT_EQ(terms.air_flow == scene::AirFlow::common_pressure, is_own) << bound.name;
+  }
 }
 
 TEST(ClosingGaps, ABoundThatIsHotterThanTheCornerCountsInItsPlace) {
@@ -225,7 +225,7 @@ TEST(ClosingGaps, TheCornerLetsGoAsFastAsSoundOrFaster) {
     return closing_bounds(input)[bound].terms.front().release_duration;
   };
   EXPECT_EQ(closing_bounds(input)[2].name, "melting");
-  for (const std::size_t smooth : {std::size_t{3}, std::size_t{4}, std::size_t{5}}) {
+  for (const std::size_t smooth : {std::size_t{3}, std::size_t{4}}) {
     EXPECT_FALSE(duration(std::nullopt, smooth).has_value());
     EXPECT_FALSE(duration(2.0 * passage, smooth).has_value());
     EXPECT_EQ(duration(0.5 * passage, smooth), 0.5 * passage);
