@@ -56,8 +56,14 @@ Result<std::string_view> checked_image(std::string_view file) {
 
 // --- the parts that only writing knows ---
 
-constexpr std::array symmetry_names{"axisymmetric", "plane_strain"};
-constexpr std::array frame_names{"co_moving", "lab"};
+constexpr std::array symmetry_names{
+    Named{scene::Symmetry::axisymmetric, "axisymmetric"},
+    Named{scene::Symmetry::plane_strain, "plane_strain"},
+};
+constexpr std::array frame_names{
+    Named{scene::Frame::co_moving, "co_moving"},
+    Named{scene::Frame::lab, "lab"},
+};
 
 void write_bodies(Hdf5Writer& writer, const std::vector<scene::Body>& bodies) {
   using scene::Body;

@@ -11,11 +11,27 @@ namespace launchsafe::store {
 
 /// The file format's own words; they stay when the program's messages change.
 inline constexpr std::array run_status_names{
-    "completed",   "non_finite", "energy_drift",    "time_step_collapse", "particles_left_grid",
-    "interrupted", "timed_out",  "cells_distorted", "outside_gas_law",    "flame_beyond_sound"};
-static_assert(run_status_names.size() == static_cast<std::size_t>(run::last_status) + 1);
-inline constexpr std::array ignition_cause_names{"trigger", "arrhenius"};
-inline constexpr std::array combustion_end_names{"time", "pressure", "broke_off", "burnt_through"};
+    Named{run::RunStatus::completed, "completed"},
+    Named{run::RunStatus::non_finite, "non_finite"},
+    Named{run::RunStatus::energy_drift, "energy_drift"},
+    Named{run::RunStatus::time_step_collapse, "time_step_collapse"},
+    Named{run::RunStatus::particles_left_grid, "particles_left_grid"},
+    Named{run::RunStatus::interrupted, "interrupted"},
+    Named{run::RunStatus::timed_out, "timed_out"},
+    Named{run::RunStatus::cells_distorted, "cells_distorted"},
+    Named{run::RunStatus::outside_gas_law, "outside_gas_law"},
+    Named{run::RunStatus::flame_beyond_sound, "flame_beyond_sound"},
+};
+inline constexpr std::array ignition_cause_names{
+    Named{surface::IgnitionCause::trigger, "trigger"},
+    Named{surface::IgnitionCause::arrhenius, "arrhenius"},
+};
+inline constexpr std::array combustion_end_names{
+    Named{run::CombustionEnd::time, "time"},
+    Named{run::CombustionEnd::pressure, "pressure"},
+    Named{run::CombustionEnd::broke_off, "broke_off"},
+    Named{run::CombustionEnd::burnt_through, "burnt_through"},
+};
 
 template <class Archive, class Value>
 void lay_out_manifest(Archive& archive, Value& manifest) {

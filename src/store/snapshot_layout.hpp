@@ -13,6 +13,13 @@
 
 namespace launchsafe::store {
 
+/// An enumerator and its word in files.
+template <class Enumeration>
+struct Named {
+  Enumeration value;
+  const char* name;
+};
+
 /// A number of any integral type.
 template <class Archive, class Number>
 void integer(Archive& archive, const std::string& name, Number& value, const Label& label) {
@@ -24,16 +31,20 @@ void integer(Archive& archive, const std::string& name, Number& value, const Lab
   }
 }
 
-/// An enumerator by its name, of names in the order of the enumerators.
+/// An enumerator by its name.
 template <class Archive, class Value, class Names>
 void choice(Archive& archive, const std::string& name, Value& value, const Names& names, const Label& label) {
-  std::string text = names.at(static_cast<std::size_t>(value));
+  std::string text;
+  for (const auto& each : names)
+    if (each.value == value) text = each.name;
   archive.value(name, text, label);
   if constexpr (Archive::reading) {
-    const auto* found = std::ranges::find(names, text);
-    if (found == names.end())
-      return archive.fail(name + " is '" + text + "', which this program does not know");
-    value = static_cast<Value>(found - names.begin());
+    for (const auto& each : names)
+      if (text == each.name) {
+        value = each.value;
+        return;
+      }
+    archive.fail(name + " is '" + text + "', which this program does not know");
   }
 }
 
