@@ -207,7 +207,10 @@ Vector vector_of(const std::vector<double>& values) {
 }  // namespace
 
 double coordinate(ChaosBasis basis, double u) {
-  return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(boost::math::normal(), u);
+  // In double alone: by default Boost computes it in long double, which is a third of the time of a prediction.
+  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  using Normal = boost::math::normal_distribution<double, InDouble>;
+  return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(Normal(), u);
 }
 
 FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
@@ -287,6 +290,7 @@ FitValue FittedChaos::at(const std::vector<double>& point) const {
   assert(point.size() == chaos_.inputs.size());
   const auto of_inputs = polynomials_at(chaos_.inputs, chaos_.degree, point.data());
   std::vector<double> terms;
+  terms.reserve(chaos_.terms.size());
   for (const ChaosTerm& term : chaos_.terms) terms.push_back(product(term.degrees, of_inputs));
   return form_.at(terms);
 }

@@ -279,17 +279,27 @@ Plan make_plan(const Scene& scene) {
 double predicted_time(const Plan& plan, double update_rate) { return plan.work / update_rate; }
 
 LargestChanges largest_changes(const Load& load, double window) {
+  constexpr std::size_t parts = 8;  // of the window
   const PressureHistory history(load);
+  const double end = end_time(load), between = std::max(window / parts, end * 1e-6);
+  LargestChanges changes;
+  const auto take = [&](double earlier, double here) {
+    changes.rise = std::max(changes.rise, here - earlier);
+    changes.fall = std::max(changes.fall, earlier - here);
+  };
+  std::vector<double> pressures;
+  for (double time = 0.0; time < end; time += between) pressures.push_back(history.at(time));
+  const double last = history.at(end);
+  const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(window / between)));
+  for (std::size_t i = 0; i < pressures.size(); ++i) {
+    take(i > steps ? pressures[i - steps] : 0.0, pressures[i]);
+    if (i + steps >= pressures.size()) take(pressures[i], last);
+  }
   std::vector<double> times = history.marks();
   times.push_back(history.peak_time());
-  const double end = end_time(load), between = std::max(window / 8.0, end * 1e-6);
-  for (double time = 0.0; time < end; time += between) times.push_back(time);
-  LargestChanges changes;
   for (const double time : times) {
-    const double earlier = time > window ? history.at(time - window) : 0.0, here = history.at(time),
-                 later = history.at(std::min(end, time + window));
-    changes.rise = std::max({changes.rise, here - earlier, later - here});
-    changes.fall = std::max({changes.fall, earlier - here, here - later});
+    take(time > window ? history.at(time - window) : 0.0, history.at(time));
+    take(history.at(time), history.at(std::min(end, time + window)));
   }
   return changes;
 }

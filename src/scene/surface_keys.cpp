@@ -70,7 +70,7 @@ std::vector<Key<Surface>> closing_keys() {
       always_plausible(
           word_key("air_flow", Standing::assumed,
                    "Whether the air of a closing gap stays at its radius, or flows freely so that it has one "
-                   "pressure over the bottom. For comparison; take more gap.turns where faces are smooth.",
+                   "pressure over the bottom: the two bounds.",
                    {{"trapped", AirFlow::trapped}, {"common-pressure", AirFlow::common_pressure}},
                    &Surface::air_flow),
           "both are bounds of the same gap", of_motion),

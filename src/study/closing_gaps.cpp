@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace launchsafe::study {
 namespace {
@@ -93,6 +94,7 @@ ClosingPoint with_share(ClosingPoint point, const StudyCase& input, const Closin
 
 /// Takes one more launch into a point: the hotter one counts, and one without a temperature leaves none.
 void join(const ClosingPoint& launch, ClosingPoint& point) {
+  point.launches += launch.launches;
   point.ignited = point.ignited || launch.ignited;
   point.at_most = larger_bound(point.at_most, launch.at_most);
   point.recorded = point.recorded && launch.recorded;
@@ -125,9 +127,18 @@ struct Search {
   std::vector<double> scanned;  ///< m
 };
 
+/// Whether a gap has not been launched on all terms, and these may make it hotter than is known.
+bool is_open(const Search& search, const ClosingPoint& point) {
+  return point.launches < search.bound.terms.size() && !point.ignited && point.unknown_for.empty();
+}
+
 /// The gaps to compute next; none once the bracket is narrow enough.
 std::vector<double> wanted(const Study& study, const Search& search) {
   const ClosingAnswer& answer = *search.answer;
+  std::vector<double> open;
+  for (const ClosingPoint& point : answer.points)
+    if (is_open(search, point)) open.push_back(point.gap);
+  if (!open.empty()) return open;
   if (std::isfinite(answer.upper))
     return answer.upper - answer.lower > study.tolerance
                ? std::vector<double>{0.5 * (answer.lower + answer.upper)}
@@ -171,38 +182,50 @@ struct Asked {
   double gap;
 };
 
+/// Of every gap those on the next terms whose air flows alike: what ignites with air that stays needs none with
+/// air that flows, which takes longer.
 std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& searches) {
   std::vector<Asked> launches;
   for (const Search& search : searches)
-    for (const double gap : wanted(study, search))
-      for (const ClosingTerms& terms : search.bound.terms) launches.push_back({&search, &terms, gap});
+    for (const double gap : wanted(study, search)) {
+      const ClosingPoint* known = search.answer->at(gap);
+      const std::vector<ClosingTerms>& terms = search.bound.terms;
+      const std::size_t first = known ? known->launches : 0;
+      for (std::size_t i = first; i < terms.size() && terms[i].air_flow == terms[first].air_flow; ++i)
+        launches.push_back({&search, &terms[i], gap});
+    }
   return launches;
 }
 
-/// Computes launches, the same one once, and takes them in; those of one gap on one bound follow each other.
-void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run) {
+/// What launches say, by their identity.
+using KnownLaunches = std::map<std::string, ClosingPoint>;
+
+/// Computes those launches that are not known, and takes all of them in.
+void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run,
+                KnownLaunches& known) {
   std::vector<PlannedRun> runs;
-  std::map<std::string, std::size_t> known_runs;
-  std::vector<std::size_t> run_of;
+  std::vector<ClosingPoint*> points;
+  std::vector<const ClosingPoint*> point_of_launch;
   for (const Asked& each : launches) {
     const auto make = [&study, each] {
       return run_on(study.cases[each.search->index], *each.terms, each.gap);
     };
     const CaseRun asked = make();
-    const auto [found, is_new] = known_runs.try_emplace(asked.hash, runs.size());
-    run_of.push_back(found->second);
-    if (is_new) runs.push_back({make, cost_of(asked)});
+    const auto [found, is_new] = known.try_emplace(asked.hash);
+    point_of_launch.push_back(&found->second);
+    if (!is_new) continue;
+    runs.push_back({make, cost_of(asked)});
+    points.push_back(&found->second);
   }
-  std::vector<ClosingPoint> points(runs.size());
   const auto makers = runs;
   run(std::move(runs),
-      [&](std::size_t i, const FinishedRun& finished) { points[i] = point_of(makers[i].make(), finished); });
+      [&](std::size_t i, const FinishedRun& finished) { *points[i] = point_of(makers[i].make(), finished); });
   for (std::size_t i = 0; i < launches.size(); ++i) {
     const Search& search = *launches[i].search;
-    std::vector<ClosingPoint>& known = search.answer->points;
-    const ClosingPoint launch = with_share(points[run_of[i]], study.cases[search.index], *launches[i].terms);
-    const bool first = i == 0 || &search != launches[i - 1].search || launches[i].gap != launches[i - 1].gap;
-    first ? known.push_back(launch) : join(launch, known.back());
+    const ClosingPoint launch = with_share(*point_of_launch[i], study.cases[search.index], *launches[i].terms);
+    std::vector<ClosingPoint>& points_of_gaps = search.answer->points;
+    const auto point = std::ranges::find(points_of_gaps, launches[i].gap, &ClosingPoint::gap);
+    point == points_of_gaps.end() ? points_of_gaps.push_back(launch) : join(launch, *point);
   }
 }
 
@@ -254,7 +277,6 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
   conducting.base = GapBase::conducting;
   melting.melts = true;
   smooth.roughness = std::min(smoothest, own.roughness);
-  smooth.air_flow = scene::AirFlow::trapped;
   if (!(own.release_duration && *own.release_duration < scene::transit_time(scene)))
     smooth.release_duration.reset();
   std::vector<ClosingBound> bounds{{"conducting", {conducting}}, {"insulated", {insulated}}};
@@ -263,13 +285,17 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
     for (const double share : release_shares) releases.push_back(time_at_share(scene.load, share));
     std::sort(releases.begin(), releases.end());
     releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-    ClosingBound corner{"corner", {}, why_without_corner(scene)};
-    for (const double release : releases) {
-      corner.terms.push_back(smooth);
-      corner.terms.back().release = release;
-    }
+    ClosingBound flowing{"flowing", {smooth, smooth}}, corner{"corner", {}, why_without_corner(scene)};
+    flowing.terms.front().air_flow = scene::AirFlow::trapped;
+    flowing.terms.back().air_flow = scene::AirFlow::common_pressure;
+    for (ClosingTerms terms : flowing.terms)
+      for (const double release : releases) {
+        terms.release = release;
+        corner.terms.push_back(terms);
+      }
     bounds.push_back({"melting", {melting}});
     bounds.push_back({"smooth", {smooth}});
+    bounds.push_back(std::move(flowing));
     bounds.push_back(std::move(corner));
   }
   const std::vector<materials::KineticsParameters> kinetics = kinetics_of(scene);
@@ -305,9 +331,10 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
       if (!searches.back().bound.unknown_for.empty()) leave_unknown(searches.back());
     }
   }
+  KnownLaunches known;
   for (auto launches = launches_of(study.study, searches); !launches.empty();
        launches = launches_of(study.study, searches)) {
-    add_points(study, launches, run);
+    add_points(study, launches, run, known);
     for (const Search& search : searches) {
       std::ranges::sort(search.answer->points, {}, &ClosingPoint::gap);
       narrow(*search.answer);
@@ -323,11 +350,12 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
   // An odd bit of round-off is no halving.
   const double halvings = std::ceil(std::log2(widest / study.tolerance) - 1e-9);
   const std::size_t gaps = scanned.size() + static_cast<std::size_t>(halvings);
-  const std::vector<ClosingBound> bounds = closing_bounds(input, study.in_detail);
-  std::size_t launches = bounds.front().terms.size();  // without a gap
-  for (const ClosingBound& bound : bounds)
-    if (bound.unknown_for.empty()) launches += (gaps - 1) * bound.terms.size();
-  return launches;
+  std::set<std::string> of_a_gap;
+  for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
+    for (const ClosingTerms& terms : bound.terms)
+      if (bound.unknown_for.empty()) of_a_gap.insert(run_on(input, terms, scanned.back()).hash);
+  const std::size_t without_a_gap = kinetics_of(input.scene.scene).size();
+  return without_a_gap + (gaps - 1) * of_a_gap.size();
 }
 
 /// A thinner gap that ignites says that this one does too: T max need not rise with the gap. Nor need the

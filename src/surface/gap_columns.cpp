@@ -78,14 +78,27 @@ void GapColumns::advance(std::size_t column, double length, double begin, double
   intervals_[column].length = length;
 }
 
+/// m/s, of air which an interval has left in the state `conducted`, before an isentropic change gives it the
+/// volume of an opening (m): what conduction did to its volume in the interval, over what its temperature was
+/// above that of the walls.
+double GapColumns::exchange_of(const Interval& interval, const EnclosedAir& conducted, double opening,
+                               double usual) {
+  const auto excess_of = [](const EnclosedAir& air) { return 1.0 - air.volume_at_walls / air.volume; };
+  const double excess = 0.5 * (excess_of(interval.air) + excess_of(conducted));
+  if (!(interval.length > 0.0) || !(std::abs(excess) > least_excess)) return usual;
+  const double shrunk = -std::log(conducted.volume / interval.air.volume) -
+                        std::log(conducted.pressure / interval.air.pressure) / interval.air.exponent;
+  return std::clamp(shrunk / excess * 0.5 * (interval.opening + opening) / interval.length,
+                    usual / largest_ratio, usual * largest_ratio);
+}
+
 EnclosedAir GapColumns::fit(std::size_t column, double opening) {
   detail::FilmStation& station = columns_[column];
   Interval& interval = intervals_[column];
   const detail::FilmColumn& film = station.column();
-  const double excess = 0.5 * (interval.excess + 1.0 - temperature_of_walls(film) / film.mean_air());
-  // What conduction did to the volume, beside the isentropic change.
-  const double conducted = std::log(film.air_volume() / interval.air.volume) +
-                           std::log(film.pressure() / interval.air.pressure) / interval.air.exponent;
+  const auto at_walls = [&] { return film.air_volume() * temperature_of_walls(film) / film.mean_air(); };
+  const EnclosedAir conducted{
+      .pressure = film.pressure(), .volume = film.air_volume(), .volume_at_walls = at_walls()};
   EnclosedAir now;
   now.volume = opening - film.covolume();
   for (int count = 0; count < most_iterations; ++count) {
@@ -96,14 +109,9 @@ EnclosedAir GapColumns::fit(std::size_t column, double opening) {
   }
   now.pressure = film.pressure();
   if (station.ignited()) return now;
-  const double walls = temperature_of_walls(film), mean = film.mean_air();
-  now.volume_at_walls = now.volume * walls / mean;
-  const double usual = usual_exchange(film);
-  now.exchange = usual;
-  if (interval.length > 0.0 && std::abs(excess) > least_excess)
-    now.exchange = std::clamp(-conducted / excess * 0.5 * (interval.opening + opening) / interval.length,
-                              usual / largest_ratio, usual * largest_ratio);
-  interval = {0.0, opening, 1.0 - walls / mean, now};
+  now.volume_at_walls = at_walls();
+  now.exchange = exchange_of(interval, conducted, opening, usual_exchange(film));
+  interval = {0.0, opening, now};
   return now;
 }
 
@@ -116,12 +124,17 @@ EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>&
     return sum / area;
   };
   const auto volume = [](std::size_t, const detail::FilmColumn& film) { return film.air_volume(); };
+  // What has ignited is compressed without conduction.
+  const auto at_walls = [&](std::size_t i, const detail::FilmColumn& film) {
+    return film.air_volume() * (columns_[i].ignited() ? 1.0 : temperature_of_walls(film) / film.mean_air());
+  };
   const double opening = mean([&](std::size_t i, const auto&) { return openings[i]; });
+  for (detail::FilmStation& column : columns_) column.compress_to(pressure);
+  const EnclosedAir conducted{.pressure = pressure, .volume = mean(volume), .volume_at_walls = mean(at_walls)};
   EnclosedAir now;
   now.volume = opening - mean([](std::size_t, const auto& film) { return film.covolume(); });
-  for (detail::FilmStation& column : columns_) column.compress_to(pressure);
   for (int count = 0; count < most_iterations; ++count) {
-    const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto&film) {
+    const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto& film) {
                                           return std::abs(openings[i] - film.air_volume() - film.covolume());
                                         });
     now.exponent =
@@ -132,15 +145,14 @@ EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>&
     move_air(openings, areas);
   }
   now.pressure = pressure;
-  // What has ignited is compressed without conduction.
-  now.volume_at_walls = mean([&](std::size_t i, const auto& film) {
-    const double share = columns_[i].ignited() ? 1.0 : temperature_of_walls(film) / film.mean_air();
-    return film.air_volume() * share;
-  });
-  now.exchange =
+  now.volume_at_walls = mean(at_walls);
+  const double usual =
       opening / now.volume * mean([&](std::size_t i, const auto& film) {
         return columns_[i].ignited() ? 0.0 : film.air_volume() * usual_exchange(film) / openings[i];
       });
+  shared_.length = intervals_.front().length;
+  now.exchange = exchange_of(shared_, conducted, opening, usual);
+  shared_ = {0.0, opening, now};
   return now;
 }
 

@@ -180,7 +180,7 @@ TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
 }
 
 TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
-  // Each on the bound before it: 2, 3 and 15 K, and melting on the insulated base alone.
+  // Each on the bound before it: 2, 3, 4 and 11 K, and melting on the insulated base alone.
   CriticalGapResult result = one_case();
   CaseOutcome& outcome = result.details.at(0);
   outcome.input.closing = outcome.input.scene.scene.surface;
@@ -188,6 +188,7 @@ TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
                                           {"insulated", 402.0},
                                           {"melting", 380.0},
                                           {"smooth", 405.0},
+                                          {"flowing", 409.0},
                                           {"corner", 420.0}})
     outcome.closing.push_back(
         {name,
@@ -197,7 +198,8 @@ TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
   EXPECT_DOUBLE_EQ(rows[0]["own_terms_K"], 400.0);
   EXPECT_DOUBLE_EQ(rows[0]["of_base_K"], 2.0);
   EXPECT_DOUBLE_EQ(rows[0]["of_roughness_K"], 3.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_release_K"], 15.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_air_flow_K"], 4.0);
+  EXPECT_DOUBLE_EQ(rows[0]["of_release_K"], 11.0);
   EXPECT_DOUBLE_EQ(rows[0]["corner_K"], 420.0);
   EXPECT_DOUBLE_EQ(rows[0]["of_melting_K"], -22.0);
 }

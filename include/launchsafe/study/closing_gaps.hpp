@@ -32,14 +32,14 @@ struct ClosingBound {
 
 /// "conducting" and "insulated": a case's own terms with either base. Where the corner is asked for, also
 /// - "melting": insulated, and the charge melts; nothing rests on it.
-/// - "smooth": insulated and with air that stays, with the smoothest faces of the plausible ones or the
-/// case's own, let go over the
+/// - "smooth": insulated, with the smoothest faces of the plausible ones or the case's own, let go over the
 ///   time that sound takes through the charge or over the case's own where that is shorter.
+/// - "flowing": the same with air that stays and with air that flows.
 /// - "corner": the same with a charge that is free from the start, or as the case has it, or held until the
 ///   load has a quarter, a half, three quarters, and all of its peak. Of a charge that anything holds by a
 ///   bond the corner is not known: when bonds let go is not looked at.
 /// Each but melting holds all of the one before, so that the difference of two that follow each other is what
-/// the worst end of one interval does: of the heat to the base, of the faces, of the
+/// the worst end of one interval does: of the heat to the base, of the faces, of the air's flow, of the
 /// release. On all of them every kinetics of kinetics_of counts, the first to ignite.
 std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner = true);
 

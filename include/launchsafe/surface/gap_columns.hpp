@@ -53,22 +53,24 @@ class GapColumns {
   const detail::FilmStation& operator[](std::size_t column) const { return columns_[column]; }
 
  private:
-  /// A column at the begin of its interval, and since then.
+  /// Air at the begin of an interval, and since then.
   struct Interval {
-    double length = 0;   ///< s
-    double opening = 0;  ///< m, at the begin
-    double excess = 0;   ///< of the air's temperature over that of the walls, as a share of it, at the begin
+    double length = 0;     ///< s
+    double opening = 0;    ///< m, at the begin
     EnclosedAir air = {};  ///< at the begin
   };
 
   double temperature_of_walls(const detail::FilmColumn& film) const;
   double usual_exchange(const detail::FilmColumn& film) const;
+  static double exchange_of(const Interval& interval, const EnclosedAir& conducted, double opening,
+                            double usual);
   void move_air(const std::vector<double>& openings, const std::vector<double>& areas);
 
   SkinModel model_;
   detail::FilmGrid grid_;
   std::vector<detail::FilmStation> columns_;
   std::vector<Interval> intervals_;
+  Interval shared_;  ///< of the air of all columns, where they share it
 };
 
 }  // namespace launchsafe::surface
