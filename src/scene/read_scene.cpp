@@ -52,8 +52,9 @@ Fault read_curve_file(SceneFile& file) {
 }
 
 /// The scene from its bodies, its points and the given keys, applied in the order of their declaration. The
-/// file of a measured curve is read unless the scene has it already.
-Fault rebuild(SceneFile& file, bool has_curve) {
+/// file of a measured curve is read unless the scene has it already. What is known to be valid is not held
+/// against all that a scene must be.
+Fault rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
@@ -80,7 +81,7 @@ Fault rebuild(SceneFile& file, bool has_curve) {
   if (file.scene.surface.model == GapModel::closing && has_charge(file.scene) &&
       !file.given.contains("gap.release_duration"))
     file.scene.surface.release_duration = transit_time(file.scene);
-  return validate(file);
+  return is_valid ? std::nullopt : validate(file);
 }
 
 /// The interface of a body; a bonded one where the scene says nothing of it.
@@ -306,7 +307,7 @@ Value value_in(const SceneFile& file, const std::string& name) {
   return key->get(file);
 }
 
-Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes) {
+Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes, bool is_valid) {
   SceneFile changed = file;
   bool other_curve = false;
   for (const KeyChange& change : changes)
@@ -325,7 +326,7 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
     changed.given[name] = {place, value};
     other_curve = other_curve || name == "load.curve";
   }
-  if (auto error = rebuild(changed, !other_curve)) return *error;
+  if (auto error = rebuild(changed, !other_curve, is_valid)) return *error;
   return changed;
 }
 

@@ -91,7 +91,7 @@ StudyCase known_case(const Start& start, const std::vector<double>& coordinates)
   std::vector<scene::KeyChange> changes;
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     changes.push_back({start.axes[i].key.name, coordinates[i], {}});
-  auto scene = scene::with_keys(start.scene, changes);
+  auto scene = scene::with_keys(start.scene, changes, true);
   assert(scene);
   return varied_case(start, coordinates, std::move(*scene));
 }
