@@ -69,30 +69,28 @@ const FiringSettings& settings_in(const study::Study& study) {
 
 const std::vector<Key<Firing>> firing_row_keys{
     scene::text_key("name", Standing::input, "What the rounds are called.", "series of March", &Firing::name),
-    scene::required(scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
-                                    {{"no ignition", false}, {"ignition", true}}, &Firing::ignited)),
+    scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
+                    {{"no ignition", false}, {"ignition", true}}, &Firing::ignited) |
+        scene::required(),
     scene::number_key("rounds", Dimension::count, scene::between(1, study::most_rounds), Standing::input,
                       "How many rounds.", &Firing::rounds),
-    scene::usually(scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9),
-                                     Standing::input, "Their mean peak pressure.", &Firing::pressure),
-                   "that of the scene"),
-    scene::usually(
-        scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
-                          "Its standard deviation from round to round.", &Firing::pressure_spread),
-        "2 % of it"),
-    scene::usually(
-        scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
-                          "Mean temperature of charge and air.", &Firing::temperature),
-        "that of the scene"),
-    scene::usually(
-        scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
-                          Standing::input, "Its standard deviation from round to round.",
-                          &Firing::temperature_spread),
-        "6 K"),
-    scene::required(scene::value_or_range(
-        scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
-                         "The gap of the rounds, or between which lengths it was; then the smaller counts.",
-                         &Firing::gap, &Firing::most_gap))),
+    scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9), Standing::input,
+                      "Their mean peak pressure.", &Firing::pressure) |
+        scene::usually("that of the scene"),
+    scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
+                      "Its standard deviation from round to round.", &Firing::pressure_spread) |
+        scene::usually("2 % of it"),
+    scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
+                      "Mean temperature of charge and air.", &Firing::temperature) |
+        scene::usually("that of the scene"),
+    scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
+                      Standing::input, "Its standard deviation from round to round.",
+                      &Firing::temperature_spread) |
+        scene::usually("6 K"),
+    scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
+                     "The gap of the rounds, or between which lengths it was; then the smaller counts.",
+                     &Firing::gap, &Firing::most_gap) |
+        scene::value_or_range() | scene::required(),
 };
 
 /// What a firing leaves out is of the scene, or assumed.

@@ -24,9 +24,9 @@ Sentences names_of_invariants() {
 
 /// Of a [[group]], which its cases take over, and of a case.
 const std::vector<Key<StressCase>> case_keys{
-    scene::required(scene::text_key("name", Standing::input,
-                                    "Of the group, or of a case of it, unique in the group.", "load",
-                                    &StressCase::name)),
+    scene::text_key("name", Standing::input, "Of the group, or of a case of it, unique in the group.", "load",
+                    &StressCase::name) |
+        scene::required(),
     scene::text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
                     "stability/thin_shell.toml", &StressCase::scene),
     words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",

@@ -38,10 +38,10 @@ Key<Study> because_key(const std::string& name, double Study::*member) {
 
 /// Of a temperature, K: NAME = { value = "1 K", because = "..." }.
 StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member) {
-  return {plausibly(study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
-                                 std::move(sentence), member),
-                    between(1, 1000),
-                    "no published temperature is met, and no mesh known to be exact, to a kelvin"),
+  return {study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
+                       std::move(sentence), member) |
+              plausibly(between(1, 1000),
+                        "no published temperature is met, and no mesh known to be exact, to a kelvin"),
           because_key(name, member)};
 }
 
@@ -65,7 +65,8 @@ Key<Reference> reference_number(std::string name, Dimension dimension, std::stri
 }
 
 const std::vector<Key<Reference>> published_row_keys{
-    scene::required(reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap)),
+    reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap) |
+        scene::required(),
     reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                      &Reference::maximum_temperature),
     scene::text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
@@ -142,9 +143,9 @@ const StudyKeys& common_keys() {
       scene::text_key("title", Standing::input,
                       "What this study is, for reports; the scene's title where there is none.",
                       "Critical gap of the 155 mm shell", &Study::title),
-      scene::required(scene::text_key("scene", Standing::input,
-                                      "Path of the scene from the study file's folder.", "scene_155mm.toml",
-                                      &Study::scene)),
+      scene::text_key("scene", Standing::input, "Path of the scene from the study file's folder.",
+                      "scene_155mm.toml", &Study::scene) |
+          scene::required(),
       scene::flag_key("demonstration", Standing::input,
                       "True where the shell, its launch or its firings are invented: every verdict and every "
                       "page says so, of studies that rest on such firings too.",
@@ -162,12 +163,13 @@ StudyKeys gaps_keys() {
 
 StudyKeys search_keys() {
   return {
-      plausibly(study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
-                             "Largest width of the bracket of the critical gap.", &Study::tolerance),
-                between(1e-9, 2e-4), "a wider bracket says little of gaps that are tenths of a millimetre"),
-      plausibly(study_number("largest_gap", Dimension::length, above_to(0, 0.01),
-                             "Where the search for the critical gap ends.", &Study::largest_gap),
-                between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
+      study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
+                   "Largest width of the bracket of the critical gap.", &Study::tolerance) |
+          plausibly(between(1e-9, 2e-4),
+                    "a wider bracket says little of gaps that are tenths of a millimetre"),
+      study_number("largest_gap", Dimension::length, above_to(0, 0.01),
+                   "Where the search for the critical gap ends.", &Study::largest_gap) |
+          plausibly(between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
   };
 }
 

@@ -56,10 +56,11 @@ std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& sc
 /// The keys of an entry that varies this key of a scene.
 std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
   return keys::joined<VaryText>(
-      {{scene::required(scene::text_key(
+      {{scene::text_key(
             "key", scene::Standing::input,
             "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-            "peak_pressure", &VaryText::name)),
+            "peak_pressure", &VaryText::name) |
+            scene::required(),
         scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
                         "Its values, in a unit of the key; every combination with other keys is a case.",
                         &VaryText::values),
@@ -333,8 +334,9 @@ Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
 std::vector<scene::Key<VariantText>> variant_keys() {
   using scene::Standing;
   return {
-      scene::required(scene::text_key("name", Standing::input, "What it is called in tables; each once.",
-                                      "bonded charge", &VariantText::name)),
+      scene::text_key("name", Standing::input, "What it is called in tables; each once.", "bonded charge",
+                      &VariantText::name) |
+          scene::required(),
       scene::text_key("description", Standing::input, "What it is, a phrase.",
                       "the charge is glued to the wall", &VariantText::description),
       scene::text_key("calibration", Standing::input,

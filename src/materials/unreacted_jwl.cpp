@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace launchsafe::materials {
-using keys::above_to, keys::between, keys::Dimension, keys::Key, keys::Standing;
+using keys::above_to, keys::between, keys::Dimension, keys::Key, keys::Standing, keys::then;
 
 namespace {
 
@@ -15,8 +15,8 @@ void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 
 std::vector<Key<JwlParameters>> constants_keys() {
   const auto constant = [](const char* name, Dimension dimension, keys::Limits limits, const char* sentence,
                            double JwlParameters::*member, keys::Limits plausible, const char* because) {
-    return plausibly(then(number_key(name, dimension, limits, Standing::paper, sentence, member), balance),
-                     plausible, because);
+    return number_key(name, dimension, limits, Standing::paper, sentence, member) | then(balance) |
+           plausibly(plausible, because);
   };
   return {
       constant("jwl.a", Dimension::pressure, above_to(0, 1e17), "A of the unreacted JWL.", &JwlParameters::a,

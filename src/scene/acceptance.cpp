@@ -166,18 +166,20 @@ Fault check_reason(const std::string& text, const Place& place, const std::strin
 
 const std::vector<Key<Acceptance>>& acceptance_keys() {
   static const std::vector<Key<Acceptance>> keys{
-      required(text_key(
+      text_key(
           "key", Standing::input,
           "Key, or quantity that follows from keys, whose value is meant though it is not plausible or not "
           "the calibrated one.",
-          "load.peak", &Acceptance::key)),
+          "load.peak", &Acceptance::key) |
+          required(),
       text_key(
           "value", Standing::input,
           "The value that is meant, as it is written or printed, or a range of numbers up to a factor of 2; "
           "of another value nothing is accepted.",
           "620 MPa", &Acceptance::value),
-      required(text_key("because", Standing::input, "Why, in words; printed beside every verdict.",
-                        "proof shots are fired at this pressure", &Acceptance::because)),
+      text_key("because", Standing::input, "Why, in words; printed beside every verdict.",
+               "proof shots are fired at this pressure", &Acceptance::because) |
+          required(),
   };
   return keys;
 }

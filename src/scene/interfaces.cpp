@@ -117,30 +117,28 @@ bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
 
 const std::vector<Key<Interface>>& interface_keys() {
   static const std::vector<Key<Interface>> keys = {
-      always_plausible(
-          required(word_key("condition", Standing::input,
-                            "How a body and the charge hold each other: bonded, or sliding with friction, "
-                            "free to part. Bodies without a table are bonded.",
-                            {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}},
-                            &Interface::condition)),
-          "launches are published with bonded charges, and shells are loaded with and without a bond",
-          of_model),
-      plausibly(
-          optional_number_key<Interface>(
-              "friction", Dimension::number, between(0, largest_friction),
-              "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
-              &Interface::friction),
-          between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6", of_model),
-      plausibly(
-          optional_number_key<Interface>("tension_strength", Dimension::pressure, above_to(0, 1e12),
-                                         "Tension at which the bond breaks for good; none: it never does.",
-                                         &Interface::tension_strength),
-          above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
-      plausibly(
-          optional_number_key<Interface>("shear_strength", Dimension::pressure, above_to(0, 1e12),
-                                         "Shear at which the bond breaks for good; none: it never does.",
-                                         &Interface::shear_strength),
-          above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
+      word_key("condition", Standing::input,
+               "How a body and the charge hold each other: bonded, or sliding with friction, "
+               "free to part. Bodies without a table are bonded.",
+               {{"bonded", Condition::bonded}, {"sliding", Condition::sliding}}, &Interface::condition) |
+          required() |
+          always_plausible(
+              "launches are published with bonded charges, and shells are loaded with and without a bond",
+              of_model),
+      optional_number_key<Interface>(
+          "friction", Dimension::number, between(0, largest_friction),
+          "Coulomb's coefficient between the faces; to be given where they can slide, 0 for smooth ones.",
+          &Interface::friction) |
+          plausibly(between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6",
+                    of_model),
+      optional_number_key<Interface>("tension_strength", Dimension::pressure, above_to(0, 1e12),
+                                     "Tension at which the bond breaks for good; none: it never does.",
+                                     &Interface::tension_strength) |
+          plausibly(above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
+      optional_number_key<Interface>("shear_strength", Dimension::pressure, above_to(0, 1e12),
+                                     "Shear at which the bond breaks for good; none: it never does.",
+                                     &Interface::shear_strength) |
+          plausibly(above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
   };
   return keys;
 }
@@ -233,9 +231,9 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
 
 const std::vector<Key<NamedContact>>& contact_keys() {
   static const std::vector<Key<NamedContact>> keys =
-      keys::joined({{always_plausible(text_key("title", Standing::input, "What the contact is, for reports.",
-                                               "smooth faces", &NamedContact::title),
-                                      "it is for people")},
+      keys::joined({{text_key("title", Standing::input, "What the contact is, for reports.", "smooth faces",
+                              &NamedContact::title) |
+                     always_plausible("it is for people")},
                     keys::keys_of_part("", &NamedContact::faces, interface_keys())});
   return keys;
 }

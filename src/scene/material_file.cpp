@@ -165,17 +165,20 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
 const std::vector<Key<Decomposition>>& decomposition_keys() {
   using materials::KineticsParameters;
   static const std::vector<Key<Decomposition>> keys = keys::joined(
-      {{required(text_key("title", Standing::input, "Of which explosive, for reports.", "RDX",
-                          &Decomposition::title))},
+      {{text_key("title", Standing::input, "Of which explosive, for reports.", "RDX", &Decomposition::title) |
+        required()},
        keys::keys_of_part(
            "", &Decomposition::kinetics,
-           {required(number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
-                                Standing::literature, "Activation energy over the gas constant, E/R.",
-                                &KineticsParameters::activation_temperature)),
-            required(number_key("frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature,
-                                "Frequency factor Z.", &KineticsParameters::frequency)),
-            required(number_key("heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8),
-                                Standing::literature, "Heat Q.", &KineticsParameters::heat_of_reaction))})});
+           {number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
+                       Standing::literature, "Activation energy over the gas constant, E/R.",
+                       &KineticsParameters::activation_temperature) |
+                required(),
+            number_key("frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature,
+                       "Frequency factor Z.", &KineticsParameters::frequency) |
+                required(),
+            number_key("heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8), Standing::literature,
+                       "Heat Q.", &KineticsParameters::heat_of_reaction) |
+                required()})});
   return keys;
 }
 
@@ -197,22 +200,21 @@ materials::KineticsParameters flame_kinetics(const Scene& scene) {
 
 const std::vector<Key<Source>>& source_keys() {
   using enum Standing;
-  const auto for_people = [](Key<Source> key) {
-    return always_plausible(std::move(key), "it is for people");
-  };
+  const auto for_people = always_plausible("it is for people");
   static const std::vector<Key<Source>> keys{
-      for_people(required(keys_of_source_key())),
-      for_people(word_key("standing", literature,
-                          "What the values are: published, derived from such, assumed or calibrated.",
-                          {{"literature", literature},
-                           {"paper", paper},
-                           {"derived", derived},
-                           {"assumed", assumed},
-                           {"calibrated", calibrated}},
-                          &Source::standing)),
-      for_people(
-          required(text_key("citation", input, "Where the values come from, in words.",
-                            "Gibbs and Popolato, LASL Explosive Property Data, 1980", &Source::citation))),
+      keys_of_source_key() | required() | for_people,
+      word_key("standing", literature,
+               "What the values are: published, derived from such, assumed or calibrated.",
+               {{"literature", literature},
+                {"paper", paper},
+                {"derived", derived},
+                {"assumed", assumed},
+                {"calibrated", calibrated}},
+               &Source::standing) |
+          for_people,
+      text_key("citation", input, "Where the values come from, in words.",
+               "Gibbs and Popolato, LASL Explosive Property Data, 1980", &Source::citation) |
+          required() | for_people,
   };
   return keys;
 }

@@ -159,19 +159,19 @@ Fault complete_all(std::vector<NamedMaterial>& materials, const std::vector<Name
 
 const std::vector<Key<NamedMaterial>>& material_keys() {
   static const std::vector<Key<NamedMaterial>> keys = [] {
-    Key<NamedMaterial> law = required(text_key("law", Standing::input, "Law whose numbers the table gives.",
-                                               "charge", &NamedMaterial::law));
+    Key<NamedMaterial> law = text_key("law", Standing::input, "Law whose numbers the table gives.", "charge",
+                                      &NamedMaterial::law) |
+                             required();
     law.kind = KeyKind::word;
     for (const Material& material : usual_materials()) law.words.push_back(material.name);
     return std::vector<Key<NamedMaterial>>{
-        always_plausible(law, "the numbers are judged"),
-        always_plausible(text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
-                                  &NamedMaterial::title),
-                         "it is for people"),
-        always_plausible(text_key("like", Standing::input,
-                                  "Material whose values stand for those that are not given here.", "comp-b",
-                                  &NamedMaterial::like),
-                         "the numbers are judged")};
+        law | always_plausible("the numbers are judged"),
+        text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
+                 &NamedMaterial::title) |
+            always_plausible("it is for people"),
+        text_key("like", Standing::input, "Material whose values stand for those that are not given here.",
+                 "comp-b", &NamedMaterial::like) |
+            always_plausible("the numbers are judged")};
   }();
   return keys;
 }

@@ -14,13 +14,11 @@ using Keys = std::vector<Key<Scene>>;
 /// What the scene's first material of a law is, for people.
 template <class Law>
 Key<Scene> title_key() {
-  return always_plausible(
-      written_where(
-          text_key<Scene>(
-              fmt::format("{}.title", Law::name), Standing::assumed, "What the material is, for reports.",
-              "PBX 9501", [](auto& scene) -> auto& { return scene.template material<Law>().title; }),
-          [](const Scene& scene) { return !scene.material<Law>().title.empty(); }),
-      "it is for people", remark);
+  return text_key<Scene>(
+             fmt::format("{}.title", Law::name), Standing::assumed, "What the material is, for reports.",
+             "PBX 9501", [](auto& scene) -> auto& { return scene.template material<Law>().title; }) |
+         written_where([](const Scene& scene) { return !scene.material<Law>().title.empty(); }) |
+         always_plausible("it is for people", remark);
 }
 
 /// The keys of a law as those of the scene's first material of it.
@@ -55,44 +53,37 @@ bool couples_back(const Scene& scene) { return scene.coupling == Coupling::two_w
 
 Keys general_keys() {
   return {
-      always_plausible(text_key("title", Standing::assumed, "What this scene is, for reports.",
-                                "155 mm shell, Composition B", &Scene::title),
-                       "it is for people", remark),
-      always_plausible(
-          word_key("symmetry", Standing::paper,
-                   "Full shell of revolution, or a slice of unit depth (half model).",
-                   {{"axisymmetric", Symmetry::axisymmetric}, {"plane-strain", Symmetry::plane_strain}},
-                   &Scene::symmetry),
-          "both are shapes that are asked about"),
-      always_plausible(
-          word_key("frame", Standing::assumed,
-                   "Grid that accelerates with the projectile, or a grid at rest that it flies through.",
-                   {{"co-moving", Frame::co_moving}, {"lab", Frame::lab}}, &Scene::frame),
-          "a run at rest that errs gets a validity warning by the distance that it flew",
-          setting_exact_at("co-moving")),
-      always_plausible(
-          word_key("barrel", Standing::assumed,
-                   "Frictionless rigid barrel around the outer surface, or a free outer surface.",
-                   {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel),
-          "a free shell is the harder case"),
-      plausibly(
-          then(number_key("initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
-                          "Temperature of all bodies and of the gap's air before launch.",
-                          &Scene::initial_temperature),
-               [](Scene& s) {
-                 materials::AirParameters& air = s.surface.air;
-                 air.initial_temperature = s.initial_temperature;
-                 air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
-               }),
-          between(219, 345), "shells are stored and fired from -54 to 71 degC", over_range),
-      always_plausible(
-          written_where(
-              word_key("coupling", Standing::assumed,
-                       "Whether the run of a gap that ignites goes on through combustion, with burning "
-                       "explosive turned to gas that acts on charge and shell, or ends with the launch.",
-                       {{"one-way", Coupling::one_way}, {"two-way", Coupling::two_way}}, &Scene::coupling),
-              couples_back),
-          "until ignition both are the same", of_combustion),
+      text_key("title", Standing::assumed, "What this scene is, for reports.", "155 mm shell, Composition B",
+               &Scene::title) |
+          always_plausible("it is for people", remark),
+      word_key("symmetry", Standing::paper,
+               "Full shell of revolution, or a slice of unit depth (half model).",
+               {{"axisymmetric", Symmetry::axisymmetric}, {"plane-strain", Symmetry::plane_strain}},
+               &Scene::symmetry) |
+          always_plausible("both are shapes that are asked about"),
+      word_key("frame", Standing::assumed,
+               "Grid that accelerates with the projectile, or a grid at rest that it flies through.",
+               {{"co-moving", Frame::co_moving}, {"lab", Frame::lab}}, &Scene::frame) |
+          always_plausible("a run at rest that errs gets a validity warning by the distance that it flew",
+                           setting_exact_at("co-moving")),
+      word_key("barrel", Standing::assumed,
+               "Frictionless rigid barrel around the outer surface, or a free outer surface.",
+               {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel) |
+          always_plausible("a free shell is the harder case"),
+      number_key("initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
+                 "Temperature of all bodies and of the gap's air before launch.",
+                 &Scene::initial_temperature) |
+          then([](Scene& s) {
+            materials::AirParameters& air = s.surface.air;
+            air.initial_temperature = s.initial_temperature;
+            air.density = materials::air_density(air.initial_temperature, air.initial_pressure);
+          }) |
+          plausibly(between(219, 345), "shells are stored and fired from -54 to 71 degC", over_range),
+      word_key("coupling", Standing::assumed,
+               "Whether the run of a gap that ignites goes on through combustion, with burning "
+               "explosive turned to gas that acts on charge and shell, or ends with the launch.",
+               {{"one-way", Coupling::one_way}, {"two-way", Coupling::two_way}}, &Scene::coupling) |
+          written_where(couples_back) | always_plausible("until ignition both are the same", of_combustion),
   };
 }
 
@@ -112,20 +103,19 @@ Key<Combustion> flame_kinetics_key() {
 
 std::vector<Key<Combustion>> combustion_keys() {
   return {
-      always_plausible(flame_kinetics_key(), "it neither decides nor confirms ignition"),
-      always_plausible(
-          word_key("release", Standing::paper,
-                   "Heat of burning explosive: as much as brings it to T2, or all of its heat of reaction.",
-                   {{"to-burnt-temperature", HeatRelease::to_burnt_temperature}, {"full", HeatRelease::full}},
-                   &Combustion::release),
-          "the published model stops at T2, and explosives release all of it"),
-      plausibly(number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
-                           "Time after the first ignition at which the run ends.", &Combustion::duration),
-                between(1e-5, 5e-3), "a skin of 0.1 mm burns through in 3 ms"),
-      plausibly(number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
-                           "Pressure at the charge's bottom at which the run ends before.",
-                           &Combustion::stop_pressure),
-                between(5e8, 1e10), "launches press with some hundred MPa, and detonations with 30 GPa"),
+      flame_kinetics_key() | always_plausible("it neither decides nor confirms ignition"),
+      word_key("release", Standing::paper,
+               "Heat of burning explosive: as much as brings it to T2, or all of its heat of reaction.",
+               {{"to-burnt-temperature", HeatRelease::to_burnt_temperature}, {"full", HeatRelease::full}},
+               &Combustion::release) |
+          always_plausible("the published model stops at T2, and explosives release all of it"),
+      number_key("duration", Dimension::time, above_to(0, 1), Standing::assumed,
+                 "Time after the first ignition at which the run ends.", &Combustion::duration) |
+          plausibly(between(1e-5, 5e-3), "a skin of 0.1 mm burns through in 3 ms"),
+      number_key("stop_pressure", Dimension::pressure, above_to(0, 1e11), Standing::assumed,
+                 "Pressure at the charge's bottom at which the run ends before.",
+                 &Combustion::stop_pressure) |
+          plausibly(between(5e8, 1e10), "launches press with some hundred MPa, and detonations with 30 GPa"),
   };
 }
 
@@ -136,105 +126,98 @@ std::vector<Key<Combustion>> combustion_keys() {
 /// lines say nothing. By the time step T max moves by less than 0.1 K (reports/accuracy).
 std::vector<Key<Numerics>> numerics_keys() {
   return {
-      always_plausible(word_key("formulation", Standing::assumed,
-                                "Gradients on the lattice at rest, whose lines run through all edges of "
-                                "bodies, or uGIMP on an even background grid (the paper's method).",
-                                {{"total-lagrangian", Formulation::total_lagrangian},
-                                 {"updated-lagrangian", Formulation::updated_lagrangian}},
-                                &Numerics::formulation),
-                       "constants are calibrated for one of them", vanishing_setting),
-      plausibly(number_key("cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
-                           "Largest cell length at the refined lines, and everywhere on an even grid; the "
-                           "grid is fitted to the bodies with cells no longer than this.",
-                           &Numerics::cell_size),
-                between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains",
-                vanishing_setting),
-      plausibly(
-          number_key("growth_x", Dimension::number, between(1, 2), Standing::assumed,
-                     "Ratio of neighbouring cells along x away from the refined lines; 1 is an even grid.",
-                     &Numerics::growth_x),
-          between(1, 1.5), "cells that grow faster were never compared with a reference",
-          setting_exact_at(1.0)),
-      plausibly(
-          number_key("growth_r", Dimension::number, between(1, 2), Standing::assumed,
-                     "Ratio of neighbouring cells along r away from the refined lines; 1 is an even grid.",
-                     &Numerics::growth_r),
-          between(1, 1.5), "cells that grow faster were never compared with a reference",
-          setting_exact_at(1.0)),
-      plausibly(number_key("largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
-                           "Length up to which cells grow; along r no further than station.width.",
-                           &Numerics::largest_cell),
-                between(1e-4, 2e-2), "shells are some cells thick", vanishing_setting),
-      always_plausible(
-          may_be_empty(list_key("refined_x", Dimension::length, between(-10, 10), Standing::assumed,
-                                "Places along x where cells are smallest; empty for the charge's bottom.",
-                                &Numerics::refined_x)),
-          "they only say where cells are small", vanishing_setting),
-      always_plausible(
-          may_be_empty(list_key("refined_r", Dimension::length, between(0, 10), Standing::assumed,
-                                "Radii where cells are smallest; empty for the charge's edges.",
-                                &Numerics::refined_r)),
-          "they only say where cells are small", vanishing_setting),
-      plausibly(number_key("hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
-                           "Stiffness against hourglassing with one particle a cell, as a share of the shear "
-                           "stiffness, in a charge of a fifth of it.",
-                           &Numerics::hourglass_stiffness),
-                between(0.03, 1),
-                "without it neighbours alternate, and more than the shear stiffness holds bending back",
-                vanishing_setting),
-      plausibly(number_key("particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
-                           "Particles per cell in each direction.", &Numerics::particles_per_cell),
-                between(1, 4), "more were never compared with a reference", vanishing_setting),
-      plausibly(number_key("time_step_factor", Dimension::number, above_to(0, 2), Standing::assumed,
-                           "Time step over the time sound takes through a cell (CFL); steps are proved "
-                           "stable up to 0.68, updated-Lagrangian ones up to 0.57.",
-                           &Numerics::time_step_factor),
-                between(0.01, 0.68), "steps are proved stable up to 0.68, updated-Lagrangian ones to 0.57",
-                minor_setting),
-      plausibly(
-          number_key(
-              "inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
-              "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
-              &Numerics::inertial_scaling),
-          between(1, 100), "larger ones moved temperatures by tens of kelvin", setting_exact_at(1.0)),
-      usually(
-          plausibly(number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
-                               "Multiple of the step that the smallest cells allow; cells that allow less "
-                               "get the inertia for it (selective mass scaling). 1 is true inertia.",
-                               &Numerics::selective_inertia),
-                    between(1, 8), "larger ones were never compared with a reference", setting_exact_at(1.0)),
-          "4, or 1 where that was not measured: two-way coupling, measured curves, rises below 0.5 ms, "
-          "other scaled inertia, no charge, the lab frame, updated-Lagrangian"),
-      zero_or_plausibly(number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
-                                   "Decay time of the relative velocity; \"0 ms\" for no damping.",
-                                   &Numerics::damping_time),
-                        between(1e-3, 1), "a faster one takes out motion that the load makes",
-                        setting_exact_at(0.0)),
-      plausibly(number_key("pic_fraction", Dimension::number, between(0, 1), Standing::assumed,
-                           "Share of PIC in the velocity update; 0 is pure FLIP.", &Numerics::pic_fraction),
-                between(0, 0.02), "a larger share takes out motion as damping does", setting_exact_at(0.0)),
-      plausibly(number_key("energy_drift_limit", Dimension::number, above_to(0, 100), Standing::assumed,
-                           "Energy drift, as a share of the energy scale, past which a run is indeterminate.",
-                           &Numerics::energy_drift_limit),
-                between(1e-4, 0.1), "a run that invents or loses a tenth of its energy is broken",
-                Role{ActsOn::numerics, Part::free}),
+      word_key("formulation", Standing::assumed,
+               "Gradients on the lattice at rest, whose lines run through all edges of "
+               "bodies, or uGIMP on an even background grid (the paper's method).",
+               {{"total-lagrangian", Formulation::total_lagrangian},
+                {"updated-lagrangian", Formulation::updated_lagrangian}},
+               &Numerics::formulation) |
+          always_plausible("constants are calibrated for one of them", vanishing_setting),
+      number_key("cell_size", Dimension::length, between(1e-5, 1), Standing::assumed,
+                 "Largest cell length at the refined lines, and everywhere on an even grid; the "
+                 "grid is fitted to the bodies with cells no longer than this.",
+                 &Numerics::cell_size) |
+          plausibly(between(1e-4, 1e-2), "shells are some cells thick, and cells hold many grains",
+                    vanishing_setting),
+      number_key("growth_x", Dimension::number, between(1, 2), Standing::assumed,
+                 "Ratio of neighbouring cells along x away from the refined lines; 1 is an even grid.",
+                 &Numerics::growth_x) |
+          plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
+                    setting_exact_at(1.0)),
+      number_key("growth_r", Dimension::number, between(1, 2), Standing::assumed,
+                 "Ratio of neighbouring cells along r away from the refined lines; 1 is an even grid.",
+                 &Numerics::growth_r) |
+          plausibly(between(1, 1.5), "cells that grow faster were never compared with a reference",
+                    setting_exact_at(1.0)),
+      number_key("largest_cell", Dimension::length, between(1e-5, 1), Standing::assumed,
+                 "Length up to which cells grow; along r no further than station.width.",
+                 &Numerics::largest_cell) |
+          plausibly(between(1e-4, 2e-2), "shells are some cells thick", vanishing_setting),
+      list_key("refined_x", Dimension::length, between(-10, 10), Standing::assumed,
+               "Places along x where cells are smallest; empty for the charge's bottom.",
+               &Numerics::refined_x) |
+          may_be_empty() | always_plausible("they only say where cells are small", vanishing_setting),
+      list_key("refined_r", Dimension::length, between(0, 10), Standing::assumed,
+               "Radii where cells are smallest; empty for the charge's edges.", &Numerics::refined_r) |
+          may_be_empty() | always_plausible("they only say where cells are small", vanishing_setting),
+      number_key("hourglass_stiffness", Dimension::number, between(0, 10), Standing::assumed,
+                 "Stiffness against hourglassing with one particle a cell, as a share of the shear "
+                 "stiffness, in a charge of a fifth of it.",
+                 &Numerics::hourglass_stiffness) |
+          plausibly(between(0.03, 1),
+                    "without it neighbours alternate, and more than the shear stiffness holds bending back",
+                    vanishing_setting),
+      number_key("particles_per_cell", Dimension::count, between(1, 16), Standing::assumed,
+                 "Particles per cell in each direction.", &Numerics::particles_per_cell) |
+          plausibly(between(1, 4), "more were never compared with a reference", vanishing_setting),
+      number_key("time_step_factor", Dimension::number, above_to(0, 2), Standing::assumed,
+                 "Time step over the time sound takes through a cell (CFL); steps are proved "
+                 "stable up to 0.68, updated-Lagrangian ones up to 0.57.",
+                 &Numerics::time_step_factor) |
+          plausibly(between(0.01, 0.68),
+                    "steps are proved stable up to 0.68, updated-Lagrangian ones to 0.57", minor_setting),
+      number_key("inertial_scaling", Dimension::number, between(1, 1e4), Standing::assumed,
+                 "Factor on the inertia of the motion relative to the accelerating frame; an accuracy knob.",
+                 &Numerics::inertial_scaling) |
+          plausibly(between(1, 100), "larger ones moved temperatures by tens of kelvin",
+                    setting_exact_at(1.0)),
+      number_key("selective_inertia", Dimension::number, between(1, 100), Standing::assumed,
+                 "Multiple of the step that the smallest cells allow; cells that allow less "
+                 "get the inertia for it (selective mass scaling). 1 is true inertia.",
+                 &Numerics::selective_inertia) |
+          plausibly(between(1, 8), "larger ones were never compared with a reference",
+                    setting_exact_at(1.0)) |
+          usually(
+              "4, or 1 where that was not measured: two-way coupling, measured curves, rises below 0.5 ms, "
+              "other scaled inertia, no charge, the lab frame, updated-Lagrangian"),
+      number_key("damping_time", Dimension::time, between(0, 1), Standing::assumed,
+                 "Decay time of the relative velocity; \"0 ms\" for no damping.", &Numerics::damping_time) |
+          zero_or_plausibly(between(1e-3, 1), "a faster one takes out motion that the load makes",
+                            setting_exact_at(0.0)),
+      number_key("pic_fraction", Dimension::number, between(0, 1), Standing::assumed,
+                 "Share of PIC in the velocity update; 0 is pure FLIP.", &Numerics::pic_fraction) |
+          plausibly(between(0, 0.02), "a larger share takes out motion as damping does",
+                    setting_exact_at(0.0)),
+      number_key("energy_drift_limit", Dimension::number, above_to(0, 100), Standing::assumed,
+                 "Energy drift, as a share of the energy scale, past which a run is indeterminate.",
+                 &Numerics::energy_drift_limit) |
+          plausibly(between(1e-4, 0.1), "a run that invents or loses a tenth of its energy is broken",
+                    Role{ActsOn::numerics, Part::free}),
   };
 }
 
 std::vector<Key<Output>> output_keys() {
   return {
-      plausibly(number_key("trace_interval", Dimension::time, above_to(0, 1), Standing::assumed,
-                           "Interval between samples of the bottom trace.", &Output::trace_interval),
-                between(1e-8, 5e-4), "the load changes within a millisecond", minor_setting),
-      always_plausible(may_be_empty(list_key("snapshots", Dimension::time, between(0, 1), Standing::assumed,
-                                             "Times at which the fields of all particles are stored.",
-                                             &Output::snapshot_times)),
-                       "they change nothing of the launch", judged_elsewhere),
-      always_plausible(written_where(words_key("snapshot_events", Standing::assumed,
-                                               "Events at which they are stored too; empty for none.",
-                                               event_words(), &Output::snapshot_events),
-                                     [](const Output& output) { return !output.snapshot_events.empty(); }),
-                       "they change nothing of the launch", judged_elsewhere),
+      number_key("trace_interval", Dimension::time, above_to(0, 1), Standing::assumed,
+                 "Interval between samples of the bottom trace.", &Output::trace_interval) |
+          plausibly(between(1e-8, 5e-4), "the load changes within a millisecond", minor_setting),
+      list_key("snapshots", Dimension::time, between(0, 1), Standing::assumed,
+               "Times at which the fields of all particles are stored.", &Output::snapshot_times) |
+          may_be_empty() | always_plausible("they change nothing of the launch", judged_elsewhere),
+      words_key("snapshot_events", Standing::assumed, "Events at which they are stored too; empty for none.",
+                event_words(), &Output::snapshot_events) |
+          written_where([](const Output& output) { return !output.snapshot_events.empty(); }) |
+          always_plausible("they change nothing of the launch", judged_elsewhere),
   };
 }
 
@@ -242,23 +225,25 @@ std::vector<Key<Physics>> physics_keys() {
   const std::vector<std::pair<std::string, Switch>> switches{
       {"auto", Switch::automatic}, {"on", Switch::on}, {"off", Switch::off}};
   return {
-      always_plausible(word_key("conduction", Standing::assumed,
-                                "Heat conduction between particles: as the plan decides, or forced.",
-                                switches, &Physics::conduction),
-                       "only \"off\" where the plan has it in gives a validity warning", judged_elsewhere),
-      always_plausible(word_key("bulk_reaction", Standing::assumed,
-                                "Reaction heat in the bulk of the charge: as the plan decides, or forced.",
-                                switches, &Physics::bulk_reaction),
-                       "only \"off\" where the plan has it in gives a validity warning", judged_elsewhere),
-      plausibly(number_key("conduction_bound", Dimension::number, at_least(0), Standing::assumed,
-                           "Diffusion length over cell size below which conduction is left out.",
-                           &Physics::conduction_bound),
-                between(0, 0.5), "heat that reaches the next cell is not to be left out", judged_elsewhere),
-      plausibly(
-          number_key("reaction_bound", Dimension::temperature_difference, at_least(0), Standing::assumed,
-                     "Self-heating over the run below which the bulk reaction is left out.",
-                     &Physics::reaction_bound),
-          between(0, 1), "self-heating by a kelvin is not to be left out", judged_elsewhere),
+      word_key("conduction", Standing::assumed,
+               "Heat conduction between particles: as the plan decides, or forced.", switches,
+               &Physics::conduction) |
+          always_plausible("only \"off\" where the plan has it in gives a validity warning",
+                           judged_elsewhere),
+      word_key("bulk_reaction", Standing::assumed,
+               "Reaction heat in the bulk of the charge: as the plan decides, or forced.", switches,
+               &Physics::bulk_reaction) |
+          always_plausible("only \"off\" where the plan has it in gives a validity warning",
+                           judged_elsewhere),
+      number_key("conduction_bound", Dimension::number, at_least(0), Standing::assumed,
+                 "Diffusion length over cell size below which conduction is left out.",
+                 &Physics::conduction_bound) |
+          plausibly(between(0, 0.5), "heat that reaches the next cell is not to be left out",
+                    judged_elsewhere),
+      number_key("reaction_bound", Dimension::temperature_difference, at_least(0), Standing::assumed,
+                 "Self-heating over the run below which the bulk reaction is left out.",
+                 &Physics::reaction_bound) |
+          plausibly(between(0, 1), "self-heating by a kelvin is not to be left out", judged_elsewhere),
   };
 }
 
@@ -266,7 +251,7 @@ std::vector<Key<Physics>> physics_keys() {
 Keys written_combustion_keys() {
   Keys keys =
       keys::keys_of_part("combustion.", &Scene::combustion, keys::in_role(of_combustion, combustion_keys()));
-  for (Key<Scene>& key : keys) key = written_where(std::move(key), couples_back);
+  for (Key<Scene>& key : keys) written_where(couples_back)(key);
   return keys;
 }
 
@@ -316,36 +301,35 @@ keys::Role role_of(std::string_view key) {
 
 const std::vector<Key<Body>>& body_keys() {
   static const std::vector<Key<Body>> keys = {
-      always_plausible(
-          required(text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name)),
-          "it is for people", remark),
-      always_plausible(
-          required(text_key(
-              "material", Standing::input,
-              "What the body is made of: a law, whose table gives the numbers, or a material by name.",
-              "comp-b", &Body::material)),
-          "the numbers of each are judged", judged_elsewhere),
-      plausibly(required(range_key("x", Dimension::length, between(0, 10), Standing::input,
-                                   "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end)),
-                between(5e-4, 2), "parts of shells are half a millimetre to two metres long"),
-      plausibly(required(range_key("r", Dimension::length, between(0, 10), Standing::input,
-                                   "Radial extent, from the axis outward.", &Body::r_begin, &Body::r_end)),
-                between(5e-4, 0.25), "naval guns had calibres up to 46 cm, and walls are millimetres thick"),
+      text_key("name", Standing::input, "Name of the body, unique.", "wall", &Body::name) | required() |
+          always_plausible("it is for people", remark),
+      text_key("material", Standing::input,
+               "What the body is made of: a law, whose table gives the numbers, or a material by name.",
+               "comp-b", &Body::material) |
+          required() | always_plausible("the numbers of each are judged", judged_elsewhere),
+      range_key("x", Dimension::length, between(0, 10), Standing::input,
+                "Axial extent, from the nose to the base.", &Body::x_begin, &Body::x_end) |
+          required() |
+          plausibly(between(5e-4, 2), "parts of shells are half a millimetre to two metres long"),
+      range_key("r", Dimension::length, between(0, 10), Standing::input,
+                "Radial extent, from the axis outward.", &Body::r_begin, &Body::r_end) |
+          required() |
+          plausibly(between(5e-4, 0.25),
+                    "naval guns had calibres up to 46 cm, and walls are millimetres thick"),
   };
   return keys;
 }
 
 const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   static const std::vector<Key<ObservationPoint>> keys = {
-      always_plausible(required(text_key("name", Standing::input, "Name of the point, unique.", "G2",
-                                         &ObservationPoint::name)),
-                       "it is for people", judged_elsewhere),
-      always_plausible(required(number_key("x", Dimension::length, between(0, 10), Standing::input,
-                                           "Axial position at rest.", &ObservationPoint::x)),
-                       "it has to lie at the charge's bottom", judged_elsewhere),
-      always_plausible(required(number_key("r", Dimension::length, between(0, 10), Standing::input,
-                                           "Radial position at rest.", &ObservationPoint::r)),
-                       "it has to lie at the charge's bottom", judged_elsewhere),
+      text_key("name", Standing::input, "Name of the point, unique.", "G2", &ObservationPoint::name) |
+          required() | always_plausible("it is for people", judged_elsewhere),
+      number_key("x", Dimension::length, between(0, 10), Standing::input, "Axial position at rest.",
+                 &ObservationPoint::x) |
+          required() | always_plausible("it has to lie at the charge's bottom", judged_elsewhere),
+      number_key("r", Dimension::length, between(0, 10), Standing::input, "Radial position at rest.",
+                 &ObservationPoint::r) |
+          required() | always_plausible("it has to lie at the charge's bottom", judged_elsewhere),
   };
   return keys;
 }

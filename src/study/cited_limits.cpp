@@ -9,16 +9,18 @@ using scene::Dimension, scene::Key, scene::Standing;
 
 const std::vector<Key<CitedLimit>>& cited_limit_keys() {
   static const std::vector<Key<CitedLimit>> keys{
-      scene::required(scene::number_key<CitedLimit>(
+      scene::number_key<CitedLimit>(
           "gap", Dimension::length, scene::above(0), Standing::literature, "Largest gap that others allow.",
-          [](auto& l) -> auto& { return l.gap; })),
+          [](auto& l) -> auto& { return l.gap; }) |
+          scene::required(),
       scene::number_key<CitedLimit>(
           "peak_pressure", Dimension::pressure, scene::above(0), Standing::literature,
           "Peak pressure that it was found for; absent where none was stated.",
           [](auto& l) -> auto& { return l.peak_pressure; }),
-      scene::required(scene::text_key<CitedLimit>(
+      scene::text_key<CitedLimit>(
           "source", Standing::literature, "Who found it, and how.", "firing tests of 1998, table 3",
-          [](auto& l) -> auto& { return l.source; })),
+          [](auto& l) -> auto& { return l.source; }) |
+          scene::required(),
   };
   return keys;
 }

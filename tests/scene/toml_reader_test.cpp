@@ -21,11 +21,11 @@ std::vector<Key<Thing>> thing_keys() {
       number_key("length", Dimension::length, above(0), Standing::paper, "A length.", &Thing::length),
       number_key("part.count", Dimension::count, between(1, 9), Standing::assumed, "A count.", &Thing::count),
       flag_key("part.flag", Standing::assumed, "A flag.", &Thing::flag),
-      formerly(word_key("colour", Standing::assumed, "A word.",
-                        {{"red", Colour::red}, {"green", Colour::green}}, &Thing::colour),
-               {"verdant", "green"}),
-      may_be_empty(
-          list_key("times", Dimension::time, at_least(0), Standing::assumed, "A list.", &Thing::times)),
+      word_key("colour", Standing::assumed, "A word.", {{"red", Colour::red}, {"green", Colour::green}},
+               &Thing::colour) |
+          formerly({"verdant", "green"}),
+      list_key("times", Dimension::time, at_least(0), Standing::assumed, "A list.", &Thing::times) |
+          may_be_empty(),
       number_key("share", Dimension::number, between(0, 1), Standing::assumed, "A share.", &Thing::share),
   };
 }

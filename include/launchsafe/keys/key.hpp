@@ -6,6 +6,7 @@
 #include "launchsafe/keys/role.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
@@ -347,90 +348,83 @@ std::vector<Key<Owner>> in_role(const Role& role, std::vector<Key<Owner>> keys) 
   return keys;
 }
 
-/// The same key, but without a default: the user must give it.
-template <class Owner>
-Key<Owner> required(Key<Owner> key) {
-  key.required = true;
+// --- What else there is to say about a key: number_key(...) | written_where(...) | plausibly(...). ---
+
+template <class Owner, std::invocable<Key<Owner>&> Change>
+Key<Owner> operator|(Key<Owner> key, const Change& change) {
+  change(key);
   return key;
 }
 
-/// The same key, whose default follows from others; whoever reads the file sets it.
-template <class Owner>
-Key<Owner> usually(Key<Owner> key, std::string words) {
-  key.usual = std::move(words);
-  return key;
+/// It has no default: the user must give it.
+inline auto required() {
+  return [](KeyDescription& key) { key.required = true; };
 }
 
-/// The same key with what is plausible of it, which are limits or words (of a flag "true"), why, and its
-/// role.
-template <class Owner, class What>
-Key<Owner> plausibly(Key<Owner> key, What what, std::string because, std::optional<Role> role = {}) {
-  key.plausible = {.because = std::move(because)};
-  if constexpr (std::is_same_v<What, Limits>)
-    key.plausible.limits = what;
-  else
-    key.plausible.words = std::move(what);
-  key.stated_role = std::move(role);
-  return key;
-}
-/// The same key, of which also 0 is plausible, where it stands for "none".
-template <class Owner>
-Key<Owner> zero_or_plausibly(Key<Owner> key, Limits limits, std::string because,
-                             std::optional<Role> role = {}) {
-  key = plausibly(std::move(key), limits, std::move(because), std::move(role));
-  key.plausible.or_zero = true;
-  return key;
-}
-/// The same key, of which all that is allowed is plausible, and why.
-template <class Owner>
-Key<Owner> always_plausible(Key<Owner> key, std::string because, std::optional<Role> role = {}) {
-  return plausibly(std::move(key), any_number(), std::move(because), std::move(role));
+/// Its default follows from others; whoever reads the file sets it.
+inline auto usually(std::string words) {
+  return [words = std::move(words)](KeyDescription& key) { key.usual = words; };
 }
 
-/// The same key with something that follows from it done to its owner after it is set.
-template <class Owner, class Consequence>
-Key<Owner> then(Key<Owner> key, Consequence consequence) {
-  key.set = [set = std::move(key.set), consequence = std::move(consequence)](Owner& owner,
-                                                                             const Value& value) {
-    set(owner, value);
-    consequence(owner);
+/// What is plausible of it, which are limits or words (of a flag "true"), why, and its role.
+template <class What>
+auto plausibly(What what, std::string because, std::optional<Role> role = {}) {
+  return [=](KeyDescription& key) {
+    key.plausible = {.because = because};
+    if constexpr (std::is_same_v<What, Limits>)
+      key.plausible.limits = what;
+    else
+      key.plausible.words = what;
+    key.stated_role = role;
   };
-  return key;
+}
+/// The same; 0 is plausible too, where it stands for "none".
+inline auto zero_or_plausibly(Limits limits, std::string because, std::optional<Role> role = {}) {
+  return [judge = plausibly(limits, std::move(because), std::move(role))](KeyDescription& key) {
+    judge(key);
+    key.plausible.or_zero = true;
+  };
+}
+/// All that is allowed is plausible, and why.
+inline auto always_plausible(std::string because, std::optional<Role> role = {}) {
+  return plausibly(any_number(), std::move(because), std::move(role));
 }
 
-/// The same key, which takes back earlier values of others that would contradict it.
-template <class Owner>
-Key<Owner> overriding(Key<Owner> key, std::vector<std::string> others) {
-  key.overrides = std::move(others);
-  return key;
+/// Something that follows from it is done to its owner after it is set.
+template <class Consequence>
+auto then(Consequence consequence) {
+  return [consequence]<class Owner>(Key<Owner>& key) {
+    key.set = [set = std::move(key.set), consequence](Owner& owner, const Value& value) {
+      set(owner, value);
+      consequence(owner);
+    };
+  };
 }
 
-/// The same key, written back only where a condition holds.
-template <class Owner>
-Key<Owner> written_where(Key<Owner> key, std::type_identity_t<std::function<bool(const Owner&)>> condition) {
-  key.is_written = std::move(condition);
-  return key;
+/// It takes back earlier values of others that would contradict it.
+inline auto overriding(std::vector<std::string> others) {
+  return [others = std::move(others)](KeyDescription& key) { key.overrides = others; };
 }
 
-/// The same word, one of which had another name in earlier versions.
-template <class Owner>
-Key<Owner> formerly(Key<Owner> key, FormerWord word) {
-  key.former_words.push_back(std::move(word));
-  return key;
+/// It is written back only where a condition on its owner holds.
+template <class Condition>
+auto written_where(Condition condition) {
+  return [condition = std::move(condition)]<class Owner>(Key<Owner>& key) { key.is_written = condition; };
 }
 
-/// The same range, which may also be one value.
-template <class Owner>
-Key<Owner> value_or_range(Key<Owner> key) {
-  key.may_be_value = true;
-  return key;
+/// Of a word: one had another name in earlier versions.
+inline auto formerly(FormerWord word) {
+  return [word = std::move(word)](KeyDescription& key) { key.former_words.push_back(word); };
 }
 
-/// The same list, which may also be [].
-template <class Owner>
-Key<Owner> may_be_empty(Key<Owner> key) {
-  key.may_be_empty = true;
-  return key;
+/// Of a range: it may also be one value.
+inline auto value_or_range() {
+  return [](KeyDescription& key) { key.may_be_value = true; };
+}
+
+/// Of a list: it may also be [].
+inline auto may_be_empty() {
+  return [](KeyDescription& key) { key.may_be_empty = true; };
 }
 
 }  // namespace launchsafe::keys

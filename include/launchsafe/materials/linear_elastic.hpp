@@ -72,9 +72,9 @@ inline std::vector<keys::Key<LinearElastic>> LinearElastic::parameters() {
   using keys::above_to, keys::between, keys::Dimension;
   const auto number = [](const char* key, Dimension dimension, keys::Limits limits, const char* sentence,
                          auto member, keys::Role role = {}) {
-    return keys::always_plausible(
-        keys::number_key(key, dimension, limits, keys::Standing::assumed, sentence, member),
-        "it is for checks against closed forms, and no published launch is of it", role);
+    return keys::number_key(key, dimension, limits, keys::Standing::assumed, sentence, member) |
+           keys::always_plausible("it is for checks against closed forms, and no published launch is of it",
+                                  role);
   };
   return keys::keys_of_part<LinearElastic>(
       "elastic.", std::identity{},
