@@ -1,7 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>

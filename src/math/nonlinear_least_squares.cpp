@@ -4,8 +4,6 @@
 #include <unsupported/Eigen/NonLinearOptimization>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace launchsafe::math {
 namespace {

@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 namespace launchsafe::math {

@@ -1,6 +1,5 @@
 #include "launchsafe/mpm/body.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <numeric>
 

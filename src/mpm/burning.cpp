@@ -1,7 +1,6 @@
 #include "launchsafe/mpm/body.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace launchsafe::mpm {
 

@@ -3,8 +3,6 @@
 #include "launchsafe/math/pack.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>

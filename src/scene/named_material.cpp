@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
-
 namespace launchsafe::scene {
 namespace {
 

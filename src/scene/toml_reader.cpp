@@ -30,12 +30,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// A key as found in a table, by its dotted name.
-struct Leaf {
-  std::string name;
-  const toml::node* node = nullptr;
-};
-
 void collect_leaves(const toml::table& table, const std::string& prefix,
                     const std::vector<std::string>& elsewhere, std::vector<Leaf>& leaves) {
   for (const auto& [key, node] : table) {
@@ -350,19 +344,33 @@ Fault visit_tables(const toml::table& root, const std::string& table, std::strin
   return std::nullopt;
 }
 
-Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
-                                    const std::vector<std::string>& elsewhere, const std::string& file) {
+Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
+                                                    const std::string& file, const std::string& allowed) {
+  std::vector<const toml::table*> tables;
+  const toml::node* node = root.get(name);
+  if (!node || (node->is_array() && node->as_array()->empty())) return tables;
+  if (!node->is_array_of_tables()) return error_at(place_of(*node, file), name, found_text(*node), allowed);
+  for (const toml::node& element : *node->as_array()) tables.push_back(element.as_table());
+  return tables;
+}
+
+std::vector<Leaf> leaves_as_written(const toml::table& table, const std::vector<std::string>& elsewhere) {
   std::vector<Leaf> leaves;
   collect_leaves(table, "", elsewhere, leaves);
   std::ranges::stable_sort(leaves, {}, [](const Leaf& leaf) {
     const auto& begin = leaf.node->source().begin;
     return std::pair(begin.line, begin.column);
   });
+  return leaves;
+}
+
+Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
+                                    const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<std::string> known = elsewhere;
   for (const KeyDescription* key : keys) known.push_back(key->name);
 
   ReadValues read;
-  for (const Leaf& leaf : leaves) {
+  for (const Leaf& leaf : leaves_as_written(table, elsewhere)) {
     const Place place = place_of(*leaf.node, file);
     const auto key = std::ranges::find_if(keys, [&](const auto* k) { return k->name == leaf.name; });
     if (key == keys.end()) {

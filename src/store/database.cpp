@@ -2,6 +2,7 @@
 
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
+#include "posix_file.hpp"
 
 #include <sqlite3.h>
 
@@ -74,10 +75,7 @@ Error Database::error(int code) const {
   std::string text =
       fmt::format("{}: {}", path_.string(), is_told ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
   if ((code & 0xff) == SQLITE_NOTADB)
-    return {Error::Kind::conflict,
-            fmt::format("{} is no results file of launchsafe, or its beginning is damaged, and nothing is "
-                        "overwritten; move it away or name another folder",
-                        path_.string())};
+    return refusal(path_, "is no results file of launchsafe, or its beginning is damaged");
   if (code == SQLITE_IOERR_LOCK || code == SQLITE_IOERR_RDLOCK)
     text +=
         "; its file system knows no locks, without which two programs may write at once: name another folder";
@@ -137,10 +135,7 @@ MaybeError Database::check_format() {
     if (!*each) return each->error();
   const auto number = [](const auto& found) { return std::get<std::int64_t>(found->front().front()); };
   if (number(id) == 0 && number(tables) == 0) return {};
-  if (number(id) != application_id)
-    return Error{Error::Kind::conflict, fmt::format("{} was not written by launchsafe, and nothing is "
-                                                    "overwritten; move it away or name another folder",
-                                                    path_.string())};
+  if (number(id) != application_id) return refusal(path_, foreign_file);
   if (number(version) != schema_version)
     return Error{
         Error::Kind::conflict,

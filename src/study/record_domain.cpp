@@ -16,7 +16,7 @@
 namespace launchsafe::study {
 namespace {
 
-using keys::ActsOn, keys::Hotter, keys::Part;
+using keys::ActsOn, keys::find_named, keys::Hotter, keys::Part;
 using scene::Body, scene::Interface, scene::Material, scene::Scene, scene::Value;
 
 /// m; much less than any tolerance of a drawing.
@@ -70,17 +70,12 @@ std::string interfaces_value(const Scene& scene) {
   return text.empty() ? "bonded for good" : text;
 }
 
-const Body* find_body(const Scene& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.bodies, name, &Body::name);
-  return found == scene.bodies.end() ? nullptr : &*found;
-}
-
 /// Whether the same faces slide in the same way. Those of the same shell are compared by their bodies'
 /// places: another scene may give them other names. Bodies of another shell are compared by name.
 bool same_interfaces(const Scene& scene, const Scene& recorded, bool shells_agree) {
   const auto ours = scene::sliding_interfaces(scene), theirs = scene::sliding_interfaces(recorded);
   const auto same = [&](const Interface& a, const Interface& b) {
-    const Body *body = find_body(scene, a.body), *other = find_body(recorded, b.body);
+    const Body *body = find_named(scene.bodies, a.body), *other = find_named(recorded.bodies, b.body);
     if (body == nullptr || other == nullptr) return false;
     const bool same_body = shells_agree ? share_place(*body, *other) : body->name == other->name;
     return same_body && a.condition == b.condition && a.friction == b.friction && a.against == b.against &&

@@ -12,7 +12,6 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 
 namespace launchsafe::study {
 namespace {

@@ -14,17 +14,6 @@ using scene::InputError, scene::KeyDescription, scene::KeyKind, scene::Place;
 
 using Tables = std::vector<const toml::table*>;
 
-scene::Expected<Tables> listed_tables(const toml::table& root, const std::string& name,
-                                      const std::string& file, const std::string& allowed) {
-  Tables tables;
-  const toml::node* node = root.get(name);
-  if (!node || (node->is_array() && node->as_array()->empty())) return tables;
-  if (!node->is_array_of_tables())
-    return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node), allowed);
-  for (const toml::node& element : *node->as_array()) tables.push_back(element.as_table());
-  return tables;
-}
-
 std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -52,18 +41,6 @@ InputError unfit_key(const StudyFile& study, const std::string& name, const std:
                          unknown.suggestion);
 }
 
-void collect_leaves(const toml::table& table, const std::string& prefix, std::vector<Leaf>& leaves) {
-  for (const auto& [key, node] : table) {
-    const std::string name = prefix + std::string(key.str());
-    const toml::table* inner = node.as_table();
-    if (inner) {
-      collect_leaves(*inner, name + ".", leaves);
-    } else {
-      leaves.push_back({name, &node});
-    }
-  }
-}
-
 /// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
 /// never do.
 Fault check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
@@ -79,13 +56,13 @@ Fault check_load_axis(const StudyFile& study, const std::string& key, const std:
 }  // namespace
 
 scene::Expected<Tables> tables_of(const toml::table& root, const std::string& name, const std::string& file) {
-  return listed_tables(root, name, file, fmt::format("tables, each written [[{}]]", name));
+  return scene::tables_of(root, name, file, fmt::format("tables, each written [[{}]]", name));
 }
 
 scene::Expected<Tables> some_tables_of(const toml::table& root, const std::string& name,
                                        const StudyFile& study, const std::string& content) {
   const std::string allowed = fmt::format("at least one table, written [[{}]], {}", name, content);
-  auto tables = listed_tables(root, name, study.file, allowed);
+  auto tables = scene::tables_of(root, name, study.file, allowed);
   if (!tables || !tables->empty()) return tables;
   return scene::error_at(place_of_key(study, root.contains(name) ? name : "kind"), name, "no " + name,
                          allowed);
@@ -101,12 +78,8 @@ scene::Expected<std::string> read_named_file(const StudyFile& study, const std::
 }
 
 std::vector<Leaf> leaves_as_written(const toml::table& table) {
-  std::vector<Leaf> leaves;
-  collect_leaves(table, "", leaves);
-  std::ranges::stable_sort(leaves, [](const Leaf& a, const Leaf& b) {
-    const auto &first = a.node->source().begin, &second = b.node->source().begin;
-    return std::pair(first.line, first.column) < std::pair(second.line, second.column);
-  });
+  std::vector<Leaf> leaves = scene::leaves_as_written(table, {});
+  std::erase_if(leaves, [](const Leaf& leaf) { return leaf.node->is_table(); });
   return leaves;
 }
 

@@ -1,10 +1,10 @@
 #include "launchsafe/surface/air_energy.hpp"
 
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace launchsafe::surface {
 
@@ -66,10 +66,9 @@ double highest_pressure(const detail::Intervals& intervals, const trace::BottomT
 }
 
 bool belongs(const SkinHistory& history, const trace::BottomTrace& trace) {
-  const auto is_finite = [](double value) { return std::isfinite(value); };
   return trace.samples() > 0 && history.time.size() == trace.samples() &&
          history.temperature.size() == trace.samples() * trace.stations.size() &&
-         std::all_of(history.temperature.begin(), history.temperature.end(), is_finite);
+         math::all_finite(history.temperature);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include "launchsafe/math/pack.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
@@ -12,6 +13,8 @@
 #include <utility>
 
 namespace launchsafe::surface {
+
+using math::all_finite;
 
 namespace {
 
@@ -90,10 +93,6 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
     }
   }
   return history;
-}
-
-bool all_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
 }  // namespace

@@ -86,6 +86,15 @@ struct ReadValues {
 std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
                                                const Place& place);
 
+/// A key of a table by its dotted name.
+struct Leaf {
+  std::string name;
+  const toml::node* node = nullptr;
+};
+/// All keys of a table and of the tables in it, as people wrote them: toml++ sorts a table by key. One
+/// without keys is a leaf itself. `elsewhere` names keys and tables that others read.
+std::vector<Leaf> leaves_as_written(const toml::table& table, const std::vector<std::string>& elsewhere);
+
 /// Checks a table against keys; sub-tables are dotted names. Reports the first fault by line. `elsewhere`
 /// names keys and tables of the same file that others read.
 Expected<ReadValues> read_described(const toml::table& table, const std::vector<const KeyDescription*>& keys,
@@ -121,20 +130,22 @@ Expected<std::map<std::string, Place>> read_table(const toml::table& table,
   return std::move(read->places);
 }
 
-/// Reads all tables of an array of that name, none if there is no such array: what each says, and where. A
-/// fault within one is that of the key "name.key". `allowed`: what the fault says of anything else than
-/// tables under that name.
+/// All tables of an array of that name, none if there is no such array. `allowed`: what the fault says of
+/// anything else than tables under that name.
+Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
+                                                    const std::string& file, const std::string& allowed);
+
+/// Reads them: what each says, and where. A fault within one is that of the key "name.key".
 template <class Owner>
 Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_tables(
     const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
     const std::string& file, const std::string& allowed) {
   std::vector<std::pair<Owner, std::map<std::string, Place>>> owners;
-  const toml::node* node = root.get(name);
-  if (!node || (node->is_array() && node->as_array()->empty())) return owners;
-  if (!node->is_array_of_tables()) return error_at(place_of(*node, file), name, found_text(*node), allowed);
-  for (const toml::node& element : *node->as_array()) {
+  const auto tables = tables_of(root, name, file, allowed);
+  if (!tables) return tables.error();
+  for (const toml::table* table : *tables) {
     Owner owner;
-    auto places = read_table(*element.as_table(), keys, {}, file, owner);
+    auto places = read_table(*table, keys, {}, file, owner);
     if (!places) return within(name, places.error());
     owners.push_back({std::move(owner), std::move(*places)});
   }

@@ -77,12 +77,8 @@ scene::Expected<std::string> read_named_file(const StudyFile& study, const std::
                                              const std::string& key, const std::string& name,
                                              const std::string& wanted);
 
-/// A key of a table by its dotted name.
-struct Leaf {
-  std::string name;
-  const toml::node* node = nullptr;
-};
-/// All keys of a table and of the tables in it, as people wrote them: toml++ sorts a table by key.
+using scene::Leaf;
+/// All keys of a table and of the tables in it, as people wrote them.
 std::vector<Leaf> leaves_as_written(const toml::table& table);
 
 /// Short names of scene keys that studies vary most, and the scene keys.
