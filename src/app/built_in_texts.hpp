@@ -1,6 +1,8 @@
-// What --help says below the options, and files that launchsafe init and launchsafe emit write, as they are
-// in the source. Names in double braces stand for values; see report/page_texts.hpp.
+// What --help says below the options, what commands print for people, and files that launchsafe init and
+// launchsafe emit write, as they are in the source. Names in double braces stand for values; see report/page_texts.hpp.
 #pragma once
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <map>
 #include <string>
@@ -9,6 +11,9 @@ namespace launchsafe::app {
 
 /// By command, "run.txt"; "launchsafe.txt" is that of all.
 const std::map<std::string, std::string>& help_texts();
+
+/// A text for people, of such facts as programs have as JSON: "forecast.txt".
+std::string told(const std::string& name, const nlohmann::ordered_json& facts);
 
 extern const char* const scene_template;
 extern const char* const study_template;

@@ -130,27 +130,6 @@ std::string user_options(const SlurmStudy& study, bool of_merge) {
   return lines;
 }
 
-std::string memory_text(const SlurmStudy& study) {
-  if (study.asked.memory) {
-    return fmt::format("{} as given, nine tenths of it for the cases that run side by side.",
-                       size_text(*study.asked.memory));
-  }
-  return fmt::format(
-      "{:.0f} MiB are predicted for the program, its plan and the cases that run side by side; asked for are "
-      "{} times that.",
-      study.needs.memory / mebibyte, memory_factor);
-}
-
-/// The limits of a shard, as options of the program.
-std::string limits_of(const SlurmStudy& study) {
-  std::string options;
-  if (study.asked.memory)
-    options += " --memory " + size_text(std::floor(share_for_cases * *study.asked.memory));
-  if (study.asked.time_limit)
-    options += " --time-limit " + amount(*study.asked.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
-  return options;
-}
-
 SlurmRequest request_of(const SlurmStudy& study) {
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
   const long minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
@@ -187,31 +166,36 @@ std::string predicted_time(const SlurmStudy& study) {
 /// The text depends on what is given alone.
 NamedTexts slurm_scripts(const SlurmStudy& study) {
   const SlurmRequest request = request_of(study);
-  const report::Row values{
-      {"folder", shell_quoted(slurm_folder(study.asked.output).string())},
+  const EmitArguments& asked = study.asked;
+  report::Row values{
+      {"folder", shell_quoted(slurm_folder(asked.output).string())},
       {"job", job_name(study)},
-      {"status", study.asked.shards > 1
-                     ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", study.asked.shards)
-                     : std::string("status.json")},
-      {"jobs", std::to_string(study.asked.jobs)},
-      {"least_minutes", std::to_string(least_minutes)},
-      {"limits", limits_of(study)},
+      {"status", asked.shards > 1 ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", asked.shards)
+                                  : std::string("status.json")},
+      {"jobs", asked.jobs},
+      {"least_minutes", least_minutes},
       {"logs", log_folder(study)},
-      {"mebibytes", std::to_string(request.mebibytes)},
-      {"memory_text", memory_text(study)},
+      {"mebibytes", request.mebibytes},
+      {"predicted_mebibytes", fmt::format("{:.0f}", study.needs.memory / mebibyte)},
+      {"memory_factor", fmt::format("{}", memory_factor)},
       {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
-      {"merge_mebibytes", std::to_string(request.merge_mebibytes)},
+      {"merge_mebibytes", request.merge_mebibytes},
       {"merge_options", user_options(study, true)},
-      {"output", shell_quoted(study.asked.output.string())},
+      {"output", shell_quoted(asked.output.string())},
       {"program", shell_quoted(study.program.string())},
       {"rate", fmt::format("{:.3g}", run::cautious_update_rate / 1e6)},
       {"shard_limit", slurm_time(request.minutes)},
       {"shard_options", user_options(study, false)},
-      {"shards", std::to_string(study.asked.shards)},
-      {"shards_text", report::counted(study.asked.shards, "shard")},
-      {"study", shell_quoted(study.asked.study.string())},
+      {"shards", asked.shards},
+      {"study", shell_quoted(asked.study.string())},
       {"time", predicted_time(study)},
       {"time_factor", fmt::format("{:.3g}", time_factor)}};
+  if (asked.memory) {
+    values["memory"] = size_text(*asked.memory);
+    values["memory_for_cases"] = size_text(std::floor(share_for_cases * *asked.memory));
+  }
+  if (asked.time_limit)
+    values["time_limit"] = amount(*asked.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
   return {{"shard.sbatch", report::filled(shard_template, {&values})},
           {"merge.sbatch", report::filled(merge_template, {&values})},
           {std::string(submit_name), report::filled(submit_template, {&values})}};

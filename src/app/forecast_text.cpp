@@ -1,3 +1,4 @@
+#include "built_in_texts.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -42,10 +43,6 @@ std::string run_list(const Forecast& forecast) {
   return text;
 }
 
-std::string forecast_line(std::string_view label, const std::string& value) {
-  return fmt::format("  {:<21} {}\n", label, value);
-}
-
 /// What the runs of a forecast add up to.
 struct Totals {
   std::size_t stored = 0, refused = 0, to_run = 0;
@@ -66,43 +63,6 @@ Totals totals_of(const Forecast& forecast) {
   return totals;
 }
 
-std::string runs_text(const Forecast& forecast) {
-  const Totals totals = totals_of(forecast);
-  std::string text = fmt::format("{} for {}", forecast.run_count,
-                                 report::counted(static_cast<std::int64_t>(forecast.cases), "case"));
-  if (forecast.runs.size() < forecast.run_count)
-    text += fmt::format("; what follows is estimated from {} of them", forecast.runs.size());
-  if (totals.refused > 0) text += fmt::format("; {} refused", totals.refused);
-  if (totals.stored > 0 || totals.refused > 0)
-    text += fmt::format("; {} stored, {} to run", totals.stored, totals.to_run);
-  return text;
-}
-
-/// How those runs go, and how much of the time is theirs.
-std::string confirmation_text(const scene::Scene& scene, const Forecast& forecast) {
-  std::string text;
-  if (scene.surface.air_model == scene::AirModel::reservoir &&
-      scene.surface.model == scene::GapModel::reservoir)
-    text += fmt::format(": from checkpoints of the launch and, after ignition, {} through combustion",
-                        scene::time_text(scene.combustion.duration));
-  if (forecast.confirmation_time > 0.0)
-    text += fmt::format("; about {} of the time", report::duration(forecast.confirmation_time));
-  return text;
-}
-
-std::string time_text(const Forecast& forecast, const std::filesystem::path& folder) {
-  const Totals totals = totals_of(forecast);
-  if (totals.refused > 0 && totals.to_run == 0) return "none: nothing is left that may run";
-  if (totals.stored == forecast.run_count) return "next to none: every mechanical run is stored";
-  const std::string origin =
-      forecast.learned_from == 0
-          ? "measured now"
-          : fmt::format("learned from {} in {}", report::counted(forecast.learned_from, "run"),
-                        folder.string());
-  return fmt::format("about {} at {:.3g} particle updates per second on a core, {}",
-                     report::duration(forecast.time), forecast.update_rate, origin);
-}
-
 /// More than fit into a core's own cache, and few enough to be made in a moment.
 constexpr std::int64_t most_particles = 50'000;
 
@@ -121,32 +81,33 @@ scene::Scene measurable(scene::Scene scene) {
 
 std::string forecast_text(const study::StudyFile& file, const Forecast& forecast,
                           const std::filesystem::path& folder, std::optional<std::time_t> begin) {
-  std::string text = file.study.title.empty() ? std::string{} : file.study.title + "\n\n";
-  text += "Study\n";
-  text += forecast_line("kind", file.study.kind.name);
-  text += forecast_line("scene", file.study.scene);
-  for (const auto& [key, value] : file.overrides) text += forecast_line("  " + key, value);
-  text += forecast_line("mechanical runs", runs_text(forecast));
-  const bool closes = file.scene.scene.surface.model == scene::GapModel::closing;
-  if (forecast.confirmations > 0)
-    text += forecast_line("coupled runs", fmt::format("at most {} more, {}{}", forecast.confirmations,
-                                                      closes ? "a launch for every gap that closes"
-                                                             : "to confirm the critical gap",
-                                                      confirmation_text(file.scene.scene, forecast)));
-  if (file.study.kind.judges_gaps)
-    text += forecast_line(
-        "gaps", fmt::format("{} on the trace of each run, then a bisection", file.study.gaps.size()));
-  text += forecast_line("at a time", fmt::format("{}", forecast.jobs));
-  text += forecast_line("memory", fmt::format("about {:.3g} MB", forecast.memory / 1e6));
-  if (forecast.disk > 0)
-    text += forecast_line("disk", fmt::format("about {:.3g} MB of cases, rather less as they are compressed",
-                                              forecast.disk / 1e6));
-  text += forecast_line("time", time_text(forecast, folder));
+  const scene::Scene& scene = file.scene.scene;
+  const bool closes = scene.surface.model == scene::GapModel::closing;
+  const bool from_checkpoints = scene.surface.air_model == scene::AirModel::reservoir && !closes;
+  const Totals totals = totals_of(forecast);
+  const auto megabytes = [](double bytes) { return fmt::format("{:.3g}", bytes / 1e6); };
+  Json facts = forecast_json(file, forecast);
+  facts.update({{"scene", file.study.scene},
+                {"folder", folder.string()},
+                {"judges_gaps", file.study.kind.judges_gaps},
+                {"closes", closes},
+                {"combustion", from_checkpoints ? scene::time_text(scene.combustion.duration) : ""},
+                {"some_left_out", totals.stored + totals.refused > 0},
+                {"memory_MB", megabytes(forecast.memory)},
+                {"disk_MB", forecast.disk > 0 ? megabytes(forecast.disk) : ""},
+                {"time", report::duration(forecast.time)},
+                {"rate", fmt::format("{:.3g}", forecast.update_rate)},
+                {"list", run_list(forecast)}});
+  facts[totals.refused > 0 && totals.to_run == 0 ? "may_not_run"
+        : totals.stored == forecast.run_count    ? "all_stored"
+                                                 : "takes_time"] = true;
+  if (forecast.confirmation_time > 0.0)
+    facts["confirmation_time"] = report::duration(forecast.confirmation_time);
   if (begin && forecast.time > 0)
-    text += forecast_line(
-        "end", fmt::format("about {} if it began now, an estimate",
-                           report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin)));
-  return text + "\n" + run_list(forecast);
+    facts["end"] = report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin);
+  for (const auto& [key, value] : file.overrides)
+    facts["overrides"].push_back(fmt::format("{:<19} {}", key, value));
+  return told("forecast.txt", facts);
 }
 
 Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {

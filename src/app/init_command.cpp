@@ -30,57 +30,29 @@ std::string scaled_length(double published, double factor) {
   return fmt::format("{:g}", std::round(2.0 * published * factor) / 2.0);
 }
 
-constexpr const char* expected_velocity_line =
-    "\n# expected_velocity = \"... m/s\"   # type it from the range table, and a pressure in a wrong unit is "
-    "found";
-
-/// Of an accuracy study: a load that is no measured curve is computed with selective inertia, which the
-/// lattices that tell the limit do not have.
-constexpr const char* selective_inertia_lines =
-    "\n[set]\nnumerics.selective_inertia = 1\n[[settings]]\nnumerics.selective_inertia = [4]\n";
-
-/// The lines of [load].
-std::string load_lines(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
-  if (curve) {
-    const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve));
-    return fmt::format(
-        "curve = \"pressure.csv\"         # measured; `launchsafe explain scene.toml` tells its roughness\n"
-        "# muzzle_exit = \"{:.4g} ms\"    # when the shot leaves the barrel: needed where the record "
-        "ends above 1 % of its peak{}",
-        1e3 * curve->time.back(),
-        window ? fmt::format("\nsmoothing = \"{}\"           # noise heats falsely; what this takes counts "
-                             "as uncertainty",
-                             scene::time_text(*window))
-               : "");
-  }
-  // A gun that is scaled launches as fast, in a time that is scaled too.
-  const double factor = arguments.calibre / published_calibre;
-  const scene::Load published;
-  return fmt::format(
-      "peak = \"{}\"              # largest chamber pressure\n"
-      "peak_time = \"{:.4g} ms\"           # time scales as lengths do\n"
-      "width = \"{:.4g} ms\"               # of the bell that the pressure is over time\n"
-      "muzzle_exit = \"{:.4g} ms\"         # when the shot leaves the barrel; or muzzle_travel = \"5 m\"\n"
-      "# curve = \"pressure.csv\"       # a measured curve instead; launchsafe import-curve makes one of a "
-      "gauge's record",
-      scene::pressure_text(arguments.peak.value_or(published.peak)), 1e3 * factor * published.peak_time,
-      1e3 * factor * published.width, 1e3 * factor * published_exit);
-}
-
 NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve,
                     const std::string& csv) {
+  // A gun that is scaled launches as fast, in a time that is scaled too.
   const double factor = arguments.calibre / published_calibre;
   const double duration = curve ? curve->time.back() : factor * published_exit;
-  const report::Row values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
-                           {"factor", fmt::format("{:.4g}", factor)},
-                           {"charge_begin", scaled_length(118, factor)},
-                           {"charge_end", scaled_length(678, factor)},
-                           {"length", scaled_length(740, factor)},
-                           {"bore", scaled_length(65, factor)},
-                           {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-                           {"load", load_lines(arguments, curve) + expected_velocity_line},
-                           {"selective_inertia", curve ? "" : selective_inertia_lines},
-                           {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  const scene::Load published;
+  const auto milliseconds = [](double time) { return fmt::format("{:.4g}", 1e3 * time); };
+  report::Row values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
+                     {"factor", fmt::format("{:.4g}", factor)},
+                     {"charge_begin", scaled_length(118, factor)},
+                     {"charge_end", scaled_length(678, factor)},
+                     {"length", scaled_length(740, factor)},
+                     {"bore", scaled_length(65, factor)},
+                     {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+                     {"curve", curve.has_value()},
+                     {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
+                     {"peak_time", milliseconds(factor * published.peak_time)},
+                     {"width", milliseconds(factor * published.width)},
+                     {"exit", milliseconds(duration)},
+                     {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  if (curve)
+    if (const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve)))
+      values["smoothing"] = scene::time_text(*window);
   NamedTexts files{{"scene.toml", report::filled(scene_template, {&values})},
                    {"critical_gap.toml", report::filled(study_template, {&values})},
                    {"accuracy.toml", report::filled(accuracy_template, {&values})},

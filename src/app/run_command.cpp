@@ -1,9 +1,11 @@
 // launchsafe run: one case.
+#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
@@ -33,8 +35,6 @@ struct RunArguments {
   std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
 };
 
-using scene::labelled;
-
 bool has_observation_points(const trace::BottomTrace& trace) {
   return std::ranges::any_of(trace.stations,
                              [](const trace::Station& station) { return station.observation; });
@@ -55,55 +55,6 @@ std::string ignition_text(const std::optional<surface::Ignition>& ignition, cons
 
 std::string kilojoules(double joules) {
   return report::in_words(joules, keys::significant(6, keys::kilojoule));
-}
-
-std::string energy_text(const run::EnergyBalance& energy) {
-  std::string text = "Energy balance at the end\n";
-  text += labelled("kinetic", kilojoules(energy.kinetic));
-  text += labelled("internal", kilojoules(energy.internal));
-  text += labelled("  plastic", kilojoules(energy.plastic));
-  text += labelled("  viscous", kilojoules(energy.viscous));
-  text += labelled("  crack", kilojoules(energy.crack));
-  text += labelled("damping", kilojoules(energy.damping));
-  if (energy.contact != 0.0) text += labelled("friction and contact", kilojoules(energy.contact));
-  text += labelled("external work", kilojoules(energy.external));
-  text += labelled("frame's body force", kilojoules(energy.body_force));
-  text += labelled(
-      "drift", fmt::format("{} of {}", report::in_words(energy.drift(), keys::significant(3, keys::percent)),
-                           kilojoules(energy.scale())));
-  return text;
-}
-
-std::string limiter_text(const run::LimiterCounts& limiters) {
-  std::string text;
-  const auto add = [&text](std::string_view what, std::uint64_t count) {
-    if (count > 0) text += labelled(what, fmt::format("{} particle-steps", count));
-  };
-  add("crack at its bound", limiters.crack_at_bound);
-  add("tension cut-off", limiters.tension_cutoff);
-  add("Hugoniot guard", limiters.hugoniot_guard);
-  return text.empty() ? text : "Limiters that acted\n" + text;
-}
-
-std::string cost_text(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
-  const char* unit = scene.symmetry == scene::Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
-  std::string text = "Run\n";
-  text += labelled("status", mechanics.status == run::RunStatus::completed
-                                 ? run::to_string(mechanics.status)
-                                 : fmt::format("{}: {}", run::to_string(mechanics.status), mechanics.reason));
-  text += labelled("simulated", scene::time_text(mechanics.end_time));
-  std::string masses;
-  for (const run::MaterialMass& each : mechanics.masses)
-    masses += fmt::format("{}{} {:.6g}", masses.empty() ? "" : ", ", each.material, each.mass);
-  text += labelled("mass", fmt::format("{} {}", masses, unit));
-  text += labelled("particles", fmt::format("{}", mechanics.particles));
-  text += labelled("steps", fmt::format("{}", mechanics.steps));
-  text += labelled("wall time", report::duration(mechanics.wall_time));
-  if (!(mechanics.processor_time > 0)) return text;
-  text += labelled("processor time", report::duration(mechanics.processor_time));
-  return text +
-         labelled("update rate", fmt::format("{:.2f} million particle updates per second of processor time",
-                                             mechanics.update_rate() / 1e6));
 }
 
 report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
@@ -199,50 +150,7 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   return table;
 }
 
-std::string combustion_text(const scene::Scene& scene, const run::CaseResult& result) {
-  constexpr std::size_t history_rows = 12;
-  const report::Table table = report::combustion_table(scene, result);
-  if (table.rows.empty()) return {};
-  std::string text = report::to_text(table, width_of_output()) + "\n";
-  for (const run::GapResult& gap : result.gaps)
-    if (gap.combustion)
-      text += report::to_text(report::combustion_history_table(*gap.combustion, gap.gap, history_rows),
-                              width_of_output()) +
-              "\n";
-  return text;
-}
-
-/// What a person who knows the gun recognises.
-std::string launch_text(const scene::Scene& scene) {
-  std::string text = "Launch\n";
-  if (const std::string exit = scene::exit_text(scene); !exit.empty()) text += labelled("muzzle exit", exit);
-  text += labelled("end of the launch", scene::end_text(scene));
-  if (const std::string measured = scene::measured_load_text(scene.load); !measured.empty())
-    text += labelled("load", measured);
-  return text + "\n";
-}
-
-/// The launch, a table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
-std::string case_text(const scene::Scene& scene, const run::CaseResult& result) {
-  std::string text = launch_text(scene);
-  if (!result.gaps.empty()) {
-    text += report::to_text(gap_table(scene, result), width_of_output()) + "\n";
-    const bool closes = scene.surface.model == scene::GapModel::closing;
-    text += report::to_text(closes ? report::closing_table(result) : air_table(scene, result),
-                            width_of_output()) +
-            "\n";
-    text += combustion_text(scene, result);
-  }
-  if (const report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
-    text += report::to_text(faces, width_of_output()) + "\n";
-  const auto& monitor = result.mechanics.monitor;
-  if (!monitor.empty()) text += energy_text(monitor.back().energy) + "\n";
-  const std::string limiters = limiter_text(result.mechanics.limiters);
-  if (!limiters.empty()) text += limiters + "\n";
-  return text + cost_text(scene, result.mechanics);
-}
-
-/// The same for programs, in SI units but for the gaps (see the keys).
+/// For programs, in SI units but for the gaps (see the keys).
 Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
   Json object{{"title", scene.title},
@@ -267,6 +175,53 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
                       {"processor_time_s", mechanics.processor_time},
                       {"updates_per_second", mechanics.update_rate()}};
   return object;
+}
+
+/// The gaps, what burnt in them, and the faces that slide.
+std::vector<report::Table> tables_of(const scene::Scene& scene, const run::CaseResult& result) {
+  constexpr std::size_t history_rows = 12;
+  std::vector<report::Table> tables;
+  if (!result.gaps.empty()) {
+    const bool closes = scene.surface.model == scene::GapModel::closing;
+    tables = {gap_table(scene, result), closes ? report::closing_table(result) : air_table(scene, result)};
+    if (report::Table burnt = report::combustion_table(scene, result); !burnt.rows.empty())
+      tables.push_back(std::move(burnt));
+    for (const run::GapResult& gap : result.gaps)
+      if (gap.combustion)
+        tables.push_back(report::combustion_history_table(*gap.combustion, gap.gap, history_rows));
+  }
+  if (report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
+    tables.push_back(std::move(faces));
+  return tables;
+}
+
+/// The launch, a table of the gaps, then the energy balance, the limiters that acted, and what the run cost.
+/// `facts`: those for programs.
+std::string case_text(const scene::Scene& scene, const run::CaseResult& result, Json facts) {
+  const run::MechanicsResult& mechanics = result.mechanics;
+  std::vector<std::string> masses;
+  for (const run::MaterialMass& each : mechanics.masses)
+    masses.push_back(fmt::format("{} {:.6g}", each.material, each.mass));
+  facts.update({{"exit", scene::exit_text(scene)},
+                {"end", scene::end_text(scene)},
+                {"measured", scene::measured_load_text(scene.load)},
+                {"completed", mechanics.status == run::RunStatus::completed},
+                {"limited", report::acted(mechanics.limiters)},
+                {"simulated", scene::time_text(mechanics.end_time)},
+                {"masses", masses},
+                {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},
+                {"wall_time", report::duration(mechanics.wall_time)},
+                {"updates", fmt::format("{:.2f}", mechanics.update_rate() / 1e6)}});
+  if (mechanics.processor_time > 0) facts["processor_time"] = report::duration(mechanics.processor_time);
+  for (const report::Table& table : tables_of(scene, result))
+    facts["tables"].push_back(report::to_text(table, width_of_output()));
+  if (mechanics.monitor.empty()) return told("run.txt", facts);
+  const run::EnergyBalance& energy = mechanics.monitor.back().energy;
+  for (auto& [key, value] : facts["energy"].items()) value = kilojoules(value.get<double>());
+  if (energy.contact == 0.0) facts["energy"].erase("contact_J");
+  facts["energy"]["drift"] = report::in_words(energy.drift(), keys::significant(3, keys::percent));
+  facts["energy"]["scale"] = kilojoules(energy.scale());
+  return told("run.txt", facts);
 }
 
 /// "12 s left" when a share 0..1 took `elapsed` seconds; "" while it is too early to say.
@@ -351,8 +306,8 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   const std::vector<std::string> missing = missing_events(scene, result);
   if (!missing.empty())
     console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
-  console.print_text(case_text(scene, result));
   Json object = case_json(scene, result);
+  console.print_text(case_text(scene, result, object));
   object["events_without_snapshot"] = missing;
   object["implausible"] = plausibility_json(scene);
   object["input_sha256"] = manifest.input_sha256;

@@ -16,5 +16,5 @@ shards=${shards%%;*}  # "ID;CLUSTER" where there are several clusters
 merge=$(sbatch --parsable --dependency="afterany:$shards" "$folder/merge.sbatch") ||
   fail "Slurm took the shards (job $shards) but not the merge; when they have ended: sbatch '$folder/merge.sbatch'"
 merge=${merge%%;*}
-echo "submitted: {{shards_text}} as job $shards, the merge as job $merge"
+echo "submitted: {{shards|counted shard}} as job $shards, the merge as job $merge"
 echo "to watch: launchsafe status "{{output}}"; squeue --jobs=$shards,$merge; logs in $folder"
