@@ -1,5 +1,6 @@
 // What --help says below the options, what commands print for people, and files that launchsafe init and
-// launchsafe emit write, as they are in the source. Names in double braces stand for values; see report/page_texts.hpp.
+// launchsafe emit write, as they are in the source. Names in double braces stand for values; see
+// report/page_texts.hpp.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

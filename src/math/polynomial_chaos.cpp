@@ -206,7 +206,8 @@ Vector vector_of(const std::vector<double>& values) {
 }  // namespace
 
 double coordinate(ChaosBasis basis, double u) {
-  // In double alone: by default Boost computes it in long double, which is a third of the time of a prediction.
+  // In double alone: by default Boost computes it in long double, which is a third of the time of a
+  // prediction.
   using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
   using Normal = boost::math::normal_distribution<double, InDouble>;
   return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(Normal(), u);

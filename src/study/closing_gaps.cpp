@@ -182,8 +182,8 @@ struct Asked {
   double gap;
 };
 
-/// Of every gap those on the next terms whose air flows alike: what ignites with air that stays needs none with
-/// air that flows, which takes longer.
+/// Of every gap those on the next terms whose air flows alike: what ignites with air that stays needs none
+/// with air that flows, which takes longer.
 std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& searches) {
   std::vector<Asked> launches;
   for (const Search& search : searches)
@@ -222,7 +222,8 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
       [&](std::size_t i, const FinishedRun& finished) { *points[i] = point_of(makers[i].make(), finished); });
   for (std::size_t i = 0; i < launches.size(); ++i) {
     const Search& search = *launches[i].search;
-    const ClosingPoint launch = with_share(*point_of_launch[i], study.cases[search.index], *launches[i].terms);
+    const ClosingPoint launch =
+        with_share(*point_of_launch[i], study.cases[search.index], *launches[i].terms);
     std::vector<ClosingPoint>& points_of_gaps = search.answer->points;
     const auto point = std::ranges::find(points_of_gaps, launches[i].gap, &ClosingPoint::gap);
     point == points_of_gaps.end() ? points_of_gaps.push_back(launch) : join(launch, *point);

@@ -130,11 +130,12 @@ EnclosedAir GapColumns::fit_together(double pressure, const std::vector<double>&
   };
   const double opening = mean([&](std::size_t i, const auto&) { return openings[i]; });
   for (detail::FilmStation& column : columns_) column.compress_to(pressure);
-  const EnclosedAir conducted{.pressure = pressure, .volume = mean(volume), .volume_at_walls = mean(at_walls)};
+  const EnclosedAir conducted{
+      .pressure = pressure, .volume = mean(volume), .volume_at_walls = mean(at_walls)};
   EnclosedAir now;
   now.volume = opening - mean([](std::size_t, const auto& film) { return film.covolume(); });
   for (int count = 0; count < most_iterations; ++count) {
-    const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto& film) {
+    const double filled = mean(volume), misplaced = mean([&](std::size_t i, const auto&film) {
                                           return std::abs(openings[i] - film.air_volume() - film.covolume());
                                         });
     now.exponent =

@@ -187,8 +187,8 @@ TEST(ClosingGap, KeepsTheEnergyOfTheLaunchAndOfAirThatFlows) {
 }
 
 TEST(ClosingGap, IsSettledInTheTurnsOfMotionAndHeatWhereAirFlowsAndFacesBounce) {
-  // Without a cushion of air that stays, faces of 1 um bounce, and what an interval has wrong feeds that: 10 K
-  // with the exchange of a film of even heating.
+  // Without a cushion of air that stays, faces of 1 um bounce, and what an interval has wrong feeds that: 10
+  // K with the exchange of a film of even heating.
   scene::Scene scene = parting_shell();
   scene.surface.air_flow = scene::AirFlow::common_pressure;
   scene.surface.roughness = 1e-6;

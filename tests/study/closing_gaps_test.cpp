@@ -157,9 +157,8 @@ TEST(ClosingGaps, WhatIgnitesWithAirThatStaysIsNotLaunchedWithAirThatFlows) {
   EXPECT_TRUE(answers.back().at(2e-4)->ignited);
   EXPECT_FALSE(answers.back().at(1e-4)->ignited);
   // The corner's five instants of release at 0.1 mm and where the bracket was narrowed down to from below.
-  const auto below = std::ranges::count_if(answers.back().points, [](const ClosingPoint& point) {
-    return point.gap > 0.0 && !point.ignited;
-  });
+  const auto below = std::ranges::count_if(
+      answers.back().points, [](const ClosingPoint& point) { return point.gap > 0.0 && !point.ignited; });
   EXPECT_EQ(flowing, 5u * static_cast<std::size_t>(below));
 }
 

@@ -37,8 +37,7 @@ Pushed push(const EnclosedAir& air, double covolume, double begin, double end, d
     const double before = now, opening = std::lerp(begin, end, double(step) / steps);
     const double middle = opening - 0.5 * (end - begin) / steps;
     const double left = std::exp(-time / steps * air.exchange / middle);
-    volume *=
-        left + (1.0 - left) * air.pressure * air.volume_at_walls / (at(middle) * (middle - covolume));
+    volume *= left + (1.0 - left) * air.pressure * air.volume_at_walls / (at(middle) * (middle - covolume));
     now = at(opening);
     mean += 0.5 * (before + now) / steps;
   }
@@ -256,8 +255,8 @@ TEST(GapColumns, ThatShareTheirAirAreThoseThatKeepItWhereAllCloseAlike) {
 }
 
 TEST(GapColumns, ThatShareTheirAirSettleInTheirIntervals) {
-  // By first order, as air flows at their ends; with the exchange of a film of even heating, in place of what the
-  // interval before tells, 50 of them are wrong by as much as a film's heat is.
+  // By first order, as air flows at their ends; with the exchange of a film of even heating, in place of what
+  // the interval before tells, 50 of them are wrong by as much as a film's heat is.
   SkinModel model = inert_model();
   model.base_conductivity = 0.0;
   const auto pressure = [&](int intervals) {

@@ -50,8 +50,8 @@ struct KeyChange {
 };
 /// The scene with some keys changed, validated anew: they need be valid only together, and lose no value to
 /// each other. Keys that would contradict the new ones lose their given value: setting charge.face_friction
-/// drops charge.crack_friction, setting kinetics.set drops the numbers of the law, ... `is_valid`: these changes
-/// were found valid before, and are not validated again.
+/// drops charge.crack_friction, setting kinetics.set drops the numbers of the law, ... `is_valid`: these
+/// changes were found valid before, and are not validated again.
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes,
                               bool is_valid = false);
 /// The same of one key with the value as written: "0.1 mm", "true", "comp-b".

@@ -85,7 +85,7 @@ struct ClosingPoint {
   /// K, up to which T max may be by mesh, steps and columns of its launches, of which the hottest need not be
   /// the worst known.
   double at_most = not_a_number;
-  bool recorded = false;      ///< that rests on accuracy records alone
+  bool recorded = false;     ///< that rests on accuracy records alone
   std::size_t launches = 1;  ///< that it was taken from
 };
 
