@@ -1,5 +1,6 @@
 // launchsafe plot: pictures of one case, or their numbers.
 #include "common_options.hpp"
+#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
@@ -14,11 +15,12 @@ namespace launchsafe::app {
 namespace {
 
 struct PlotArguments {
-  std::filesystem::path file;                   ///< of a case
-  std::optional<std::filesystem::path> output;  ///< folder; none: CASE_pictures beside the file
-  std::optional<std::string> what;              ///< words of kinds of pictures; none: all with data
-  std::optional<std::string> times;             ///< with units, of fields and profiles
-  bool tables = false;                          ///< CSV files of numbers instead
+  std::filesystem::path file;                       ///< of a case
+  std::optional<std::filesystem::path> output;      ///< folder; none: CASE_pictures beside the file
+  std::optional<std::string> what;                  ///< words of kinds of pictures; none: all with data
+  std::optional<std::string> times;                 ///< with units, of fields and profiles
+  std::optional<std::filesystem::path> references;  ///< file of published rows, of histories and profiles
+  bool tables = false;                              ///< CSV files of numbers instead
 };
 
 using report::CasePicture;
@@ -173,6 +175,7 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
     return console.refuse(file.error().message +
                           "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
   report::DrawnCase drawn{file->scene, file->stored.result};
+  if (arguments.references) drawn.published = console.value_of(kinds::read_references(*arguments.references));
   const bool tables = arguments.tables;
   std::vector<std::string> named;
   if (arguments.what) named = console.value_of(named_kinds(*arguments.what));
@@ -207,6 +210,8 @@ void add_plot(CLI::App& app, CommandLine& line) {
       ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
   add_optional(command, "--times", plot.times, "LIST",
                "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
+  add_optional(command, "--references", plot.references, "FILE",
+               "What was published of this launch, [[reference]], beside histories and profiles");
   command.add_flag("--csv", plot.tables,
                    "Their numbers instead of pictures: pressure, fields and histories, as CSV files");
 }

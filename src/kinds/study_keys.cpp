@@ -290,4 +290,11 @@ Fault read_references(const StudySource& source, StudyFile& study) {
   return check_references(study);
 }
 
+scene::Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
+  StudyFile study;
+  study.study.references_file = file.string();
+  if (Fault fault = read_references({toml::table(), {}, {}, {}}, study)) return *fault;
+  return study.study.references;
+}
+
 }  // namespace launchsafe::kinds

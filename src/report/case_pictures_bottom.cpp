@@ -49,6 +49,35 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
   return background;
 }
 
+/// A temperature of a gap as it was published, and where.
+struct Published {
+  double time, temperature;  ///< s, K
+  std::string point;
+};
+
+std::vector<Published> published_of(const DrawnCase& drawn, const run::GapResult& gap) {
+  std::vector<Published> all;
+  for (const study::Reference& row : drawn.published) {
+    if (!(std::abs(row.gap - gap.gap) <= 1e-9)) continue;
+    all.push_back({drawn.early_time, row.early_temperature, row.early_point});
+    // That of one that ignited is the burning skin's.
+    if (!row.ignited())
+      all.push_back({scene::read_time(drawn.scene.load), row.maximum_temperature, row.point});
+  }
+  std::erase_if(all, [](const Published& each) { return std::isnan(each.temperature); });
+  return all;
+}
+
+/// Adds them to a plot as hollow points, where there are any.
+void add_published(Series points, Plot& plot) {
+  if (points.x.empty()) return;
+  points.label = "published";
+  points.style = Style::points;
+  points.colour = 6;
+  points.mark = Mark::open_square;
+  plot.series.push_back(std::move(points));
+}
+
 /// The gaps of a case that hold what a kind of pictures needs.
 std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
                                              const DrawnCase& drawn) {
@@ -103,6 +132,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.x = {.label = distance_from_axis.label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature.label();
   plot.named_in_place = true;
+  Series published;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     const std::size_t samples = samples_before_ignition(skin);
@@ -115,6 +145,11 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
       series.add(shown_value(trace.stations[ring].r, distance_from_axis.form),
                  trace::interpolate(skin.time, temperatures_of(skin, ring, trace.stations.size()),
                                     std::min(time.value_or(last), last)));
+    for (const Published& each : published_of(drawn, *gap)) {
+      const auto point = std::ranges::find(trace.stations, each.point, &trace::Station::name);
+      if (point != trace.stations.end() && std::abs(each.time - time.value_or(last)) < 1e-6)
+        published.add(shown_value(point->r, distance_from_axis.form), each.temperature);
+    }
   }
   double spread = 0.0;
   for (const Series& series : plot.series) {
@@ -124,6 +159,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.title =
       fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
                   time ? "at " + in_words(*time, quantity::time_in_titles) : "at the end");
+  add_published(std::move(published), plot);
   return plot;
 }
 
@@ -238,6 +274,10 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
           return skin.temperature[sample * stations + station];
         },
         gap->at_stations.station);
+    Series published;
+    for (const Published& each : published_of(drawn, *gap))
+      published.add(shown_value(each.time, drawn_time().form), each.temperature);
+    add_published(std::move(published), skins);
     const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
     skins.horizontal_lines = {{ignition, "ignites at " + in_words(ignition, keys::significant(4, kelvin))}};
     Plot plot = titled_plot(drawn, history_title(drawn, *gap));

@@ -135,7 +135,15 @@ Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFa
     else  // ignition under two-way coupling goes on in a run of its own
       facts["other_histories"].push_back(*row);
   }
-  const DrawnCase drawn{stored.scene, shown_result};
+  DrawnCase drawn{stored.scene, shown_result};
+  drawn.early_time = number_of(judged.study->study, "early_time_ms") / in(millisecond, 1.0);
+  for (const Row& row : judged.study->rows("comparison"))
+    drawn.published.push_back({.gap = number_of(row, "gap_cm") / shown_gap(1.0),
+                               .maximum_temperature = number_of(row, "temperature_max_published_K"),
+                               .point = text_of(row, "temperature_max_published_place"),
+                               .early_temperature = number_of(row, "temperature_early_published_K"),
+                               .early_point = text_of(row, "temperature_early_published_place"),
+                               .ignition_time = number_of(row, "ignition_time_published_ms")});
   for (const PictureKind& kind : picture_kinds()) {
     const std::string word = kind.word;
     if (word != "pressure" && word != "histories" && word != "profile" && word != "fields") continue;

@@ -66,6 +66,18 @@ TEST_F(Plotted, ListsWhatItWroteAsJson) {
   EXPECT_EQ(all["left_out"][0]["what"], "combustion");
 }
 
+TEST_F(Plotted, DrawsWhatWasPublishedOfTheGapThatItWasPublishedOf) {
+  write("published.toml", "reference = [{ gap = \"0.01 cm\", maximum_temperature = \"310 K\" }]\n");
+  expect_refused({"shell.h5", "-o", "out", "--references", "none.toml"}, "none.toml");
+  expect_refused({"shell.h5", "-o", "out", "--references", "shell.toml"}, "another kind of file");
+  if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
+  const Outcome outcome =
+      run({"plot", "shell.h5", "-o", "out", "--what", "histories", "--references", "published.toml"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(read("out/histories_0.01cm.svg").find("published"), std::string::npos);
+  EXPECT_EQ(read("out/histories_0cm.svg").find("published"), std::string::npos);
+}
+
 TEST_F(Plotted, OverwritesNothing) {
   if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
   std::filesystem::create_directory(folder() / "mine");

@@ -64,6 +64,32 @@ TEST(CasePictures, OfProfilesGoFromTheAxisToTheWallWithoutObservationPoints) {
   EXPECT_NE(plot_of(last, "profile.svg").title.find("by up to 14 K"), std::string::npos);
 }
 
+TEST(CasePictures, HaveWhatWasPublishedAsHollowPointsWhereItWas) {
+  const RunScene run = written_by_hand();
+  DrawnCase drawn = run.drawn({2e-5, 3e-5});
+  const auto published_in = [](const Plot& plot) {
+    const auto found = std::ranges::find(plot.series, "published", &Series::label);
+    return found == plot.series.end() ? Series{} : *found;
+  };
+  const auto history = [&] {
+    return published_in(plot_of(pictures(drawn, "histories"), "histories_0.04cm.svg").panels.at(0));
+  };
+  EXPECT_TRUE(history().x.empty()) << "nothing is known";
+  drawn.early_time = 2e-5;
+  drawn.published = {
+      {.gap = 4e-4, .maximum_temperature = 335, .point = "S1", .early_temperature = 318, .early_point = "S2"},
+      {.gap = 1e-4, .maximum_temperature = 310, .point = "S1"}};
+  EXPECT_EQ(history().mark, Mark::open_square);
+  EXPECT_EQ(history().x, (std::vector<double>{0.02, 0.04})) << "ms";
+  EXPECT_EQ(history().y, (std::vector<double>{318, 335}));
+  const auto profiles = pictures(drawn, "profile");
+  EXPECT_EQ(published_in(plot_of(profiles, "profile_0.02ms.svg")).x, std::vector<double>{2.5});
+  EXPECT_EQ(published_in(plot_of(profiles, "profile_0.02ms.svg")).y, std::vector<double>{318});
+  EXPECT_TRUE(published_in(plot_of(profiles, "profile_0.03ms.svg")).x.empty()) << "of other times";
+  drawn.published[0].ignition_time = 3e-5;
+  EXPECT_EQ(history().y, std::vector<double>{318}) << "the burning skin says nothing of the gap";
+}
+
 TEST(CasePictures, OfTheSkinEndBeforeWhatBurns) {
   RunScene run = written_by_hand();
   run.result.gaps[0].skin.ignition = {3e-5, 0, surface::IgnitionCause::trigger, 0.1};

@@ -23,6 +23,9 @@ scene::Expected<study::StudyFile> read_study(const std::filesystem::path& file,
 scene::Expected<study::StudyFile> parse_study(std::string_view text, const std::filesystem::path& file,
                                               const StudyRequest& request = {});
 
+/// The published rows, [[reference]], of a file that studies name.
+scene::Expected<std::vector<study::Reference>> read_references(const std::filesystem::path& file);
+
 /// The keys of a study file and of its tables, "reference.gap" being that of one [[reference]], for
 /// documentation. Sentences end with the kinds that a key belongs to, unless it belongs to all.
 std::vector<scene::DocumentedKey> describe_study_keys();

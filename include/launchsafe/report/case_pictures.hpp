@@ -5,7 +5,7 @@
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 #include <optional>
 #include <string>
@@ -20,6 +20,9 @@ struct DrawnCase {
   /// s, of fields and profiles. Without any: every snapshot, and profiles at six times that divide the run
   /// evenly.
   std::vector<double> times = {};
+  /// What was published of this launch; temperatures of a gap that ignited until then alone.
+  std::vector<study::Reference> published = {};
+  double early_time = study::Study{}.early_time;  ///< s, of early temperatures
 };
 
 /// A picture and the name of its file, which follows from what it shows.
