@@ -133,7 +133,9 @@ struct GapLines {
                     .colour = 7,
                     .mark = Mark::open_circle};
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
+  std::map<double, std::vector<std::string>> shares = {};  ///< those assumed on each line, along the axis
   std::int64_t unknown = 0;
+  double highest = 0.0;  ///< cm, of all that is drawn
 
   void begin() {
     const std::vector<double> nothing(along.values.size(), study::not_a_number);
@@ -159,18 +161,53 @@ struct GapLines {
     const study::CriticalGap& gap = answer.critical;
     const double x = along.key.value(input.coordinates[along.index]);
     const CriticalGapKind kind = drawn_kind(gap);
-    // A bound stands at its end.
-    if (kind == CriticalGapKind::indeterminate)
+    if (kind == CriticalGapKind::indeterminate) {
       ++unknown;
-    else if (kind != CriticalGapKind::value)
-      marks.at(kind).add(x, shown_gap(kind == CriticalGapKind::all_ignite ? gap.upper : gap.lower));
-    if (kind != CriticalGapKind::value) return;
+      return;
+    }
+    // A bound stands at its end.
+    const double drawn = shown_gap(kind == CriticalGapKind::value        ? gap.value
+                                   : kind == CriticalGapKind::all_ignite ? gap.upper
+                                                                         : gap.lower);
+    highest = std::max(highest, drawn);
+    shares[x].push_back(assumed_shares(result.study.study, input, gap.value));
+    if (kind != CriticalGapKind::value) {
+      marks.at(kind).add(x, drawn);
+      return;
+    }
     const std::size_t place = place_in(along.values, x);
-    values[line].y[place] = shown_gap(gap.value);
+    values[line].y[place] = drawn;
     const double lower = shown_gap(gap.bounds.at_least);
     if (!std::isfinite(lower)) return;
     lower_bounds[line].y[place] = lower;
-    if (!assumed_shares(result.study.study, input, gap.value).empty()) assumed.add(x, lower);
+    if (!shares[x].back().empty()) assumed.add(x, lower);
+  }
+
+  /// "model form assumed": what is on every line at one value; empty for nothing.
+  std::string assumed_at(double x) const {
+    std::string text;
+    for (const char* share : {"computation", "model form"})
+      if (shares.contains(x) && std::ranges::all_of(shares.at(x), [share](const std::string& each) {
+            return each.find(share) != std::string::npos;
+          }))
+        text += (text.empty() ? "" : ", ") + std::string(share);
+    return text.empty() ? text : text + " assumed";
+  }
+
+  /// Hatched up to the next value at which it is otherwise.
+  std::vector<report::Band> assumed_bands() const {
+    std::vector<report::Band> bands;
+    const std::vector<double>& x = along.values;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const std::string text = assumed_at(x[i]);
+      if (text.empty()) continue;
+      const double from = x[i > 0 ? i - 1 : 0], to = x[std::min(i + 1, x.size() - 1)];
+      if (!bands.empty() && bands.back().label == text && bands.back().to >= x[i])
+        bands.back().to = to;
+      else
+        bands.push_back({from, to, text, true});
+    }
+    return bands;
   }
 
   /// Values on lines of two and more: what a picture is made for.
@@ -185,7 +222,12 @@ struct GapLines {
     plot.title = finding() + plot.title;
     for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
-    if (!assumed.x.empty()) plot.series.push_back(std::move(assumed));
+    for (std::size_t i = 0; i < assumed.x.size(); ++i)
+      if (!assumed_at(assumed.x[i]).empty()) assumed.y[i] = study::not_a_number;  // the hatching says it
+    if (known_of(assumed) > 0) plot.series.push_back(std::move(assumed));
+    plot.vertical_bands = assumed_bands();
+    // Room for their labels.
+    if (!plot.vertical_bands.empty()) plot.y.maximum = 1.15 * highest;
     if (unknown > 0)
       plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
     for (auto& [kind, series] : marks)

@@ -120,8 +120,10 @@ void add_bands(const Plot& plot, Commands& commands) {
       commands.add(fmt::format("{}{}", name, i),
                    fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
                                coordinate(bands[i].to, scale)),
-                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' {}", axes,
-                               title_of(bands[i].label)));
+                   fmt::format("1:2 axes {} with filledcurves closed {} {}", axes,
+                               bands[i].hatched ? "fillstyle pattern 4 fillcolor rgb '#c4c4c4'"
+                                                : "fillcolor rgb '#e4e4e4'",
+                               title_of(bands[i].hatched ? "" : bands[i].label)));
   };
   add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
   add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
@@ -160,7 +162,7 @@ Legend legend_of(const Plot& plot) {
   };
   for (const Series& series : plot.series)
     if (!named_at_end(plot, series) && !series.x.empty()) add(series.label);
-  for (const Band& band : plot.vertical_bands) add(band.label);
+  for (const Band& band : plot.vertical_bands) add(band.hatched ? "" : band.label);
   for (const Band& band : plot.horizontal_bands) add(band.label);
   if (!plot.named_in_place) {
     for (const Line& line : plot.vertical_lines) add(line.label);
@@ -275,6 +277,11 @@ std::string names_in_place(const Plot& plot, std::size_t width) {
     text += fmt::format("set label {} at first {}, graph 0.97 {} front textcolor rgb '#444444'\n",
                         quoted(line.label), exact(line.at),
                         along_x.of(line.at) < 0.5 ? "left offset 0.8, 0" : "right offset -0.8, 0");
+  for (const Band& band : plot.vertical_bands)
+    if (band.hatched)
+      text += fmt::format("set label {} at first {}, graph 0.97 center front textcolor rgb '#444444'\n",
+                          quoted(band.label),
+                          exact(along_x.at(0.5 * (along_x.of(band.from) + along_x.of(band.to)))));
   return text + fmt::format("set rmargin {}\n", right_margin(width));
 }
 

@@ -273,6 +273,25 @@ TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundHasACircleAndTheRowSaysWhic
   EXPECT_EQ(shown_text(cell(critical_gap_table(result), 15, "assumed_shares")), "computation, model form");
 }
 
+// By hand: of the pressures 350, 400, 450 MPa and so on the first two.
+TEST(SweepPictures, WhereAShareIsAssumedOnEveryLineThePictureIsHatchedAndSaysWhich) {
+  CriticalGapResult result = made_sweep();
+  EXPECT_EQ(gap_pictures(result).pictures.front().plot.vertical_bands.size(), 1u) << "all is assumed";
+  result.study.study.model_form_uncertainty = 1.0;
+  EXPECT_TRUE(gap_pictures(result).pictures.front().plot.vertical_bands.empty());
+  result.study.cases.complete_with([](study::StudyCase& made) {
+    made.numerical_uncertainty_assumed = made.scene.scene.load.peak < 430e6;
+  });
+  const Plot plot = gap_pictures(result).pictures.front().plot;
+  ASSERT_EQ(plot.vertical_bands.size(), 1u);
+  EXPECT_EQ(plot.vertical_bands[0].from, 350);
+  EXPECT_EQ(plot.vertical_bands[0].to, 450) << "the next value at which it is otherwise";
+  EXPECT_EQ(plot.vertical_bands[0].label, "computation assumed");
+  EXPECT_TRUE(plot.vertical_bands[0].hatched);
+  const auto circles = std::ranges::find(plot.series, "computation or model form assumed", &Series::label);
+  EXPECT_EQ(circles, plot.series.end()) << "the hatching says it";
+}
+
 TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   const auto made = gap_pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
   ASSERT_EQ(made.pictures.size(), 3u);

@@ -189,6 +189,16 @@ TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
   EXPECT_NE(text.find("title \"where it may be\""), std::string::npos);
 }
 
+TEST(Plot, HatchedBandsAreNamedInPlace) {
+  Plot plot = sample();
+  plot.named_in_place = true;
+  plot.vertical_bands = {{0.01, 0.02, "assumed", true}};
+  const std::string text = to_gnuplot(plot);
+  EXPECT_NE(text.find("fillstyle pattern"), std::string::npos) << text;
+  EXPECT_NE(text.find("set label \"assumed\" at first 0.015, graph 0.97 center"), std::string::npos) << text;
+  EXPECT_EQ(text.find("title \"assumed\""), std::string::npos) << "no entry of the legend";
+}
+
 TEST(Plot, BarsNeedTheirEnds) {
   Plot plot = sample();
   plot.series[0].style = Style::vertical_bars;
