@@ -99,6 +99,11 @@ void add_mark(const AccuracyRow& row, Series& series) {
   series.add(row.setting.processor_time, row.largest_temperature_error);
 }
 
+bool is_of_paper(const AccuracyRow& row) {
+  const auto found = row.setting.setting.find("numerics.formulation");
+  return found != row.setting.setting.end() && found->second == scene::Value("updated-lagrangian");
+}
+
 /// From cheap to costly, each nearer to the limit than all before it, up to one that cannot be told from it.
 std::vector<const AccuracyRow*> steps_to_the_limit(std::vector<const AccuracyRow*> rows, double known_to) {
   std::ranges::sort(rows, {}, [](const AccuracyRow* row) { return row->setting.processor_time; });
@@ -124,7 +129,7 @@ Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
 }  // namespace
 
 Plot error_plot(const VariantAccuracy& variant) {
-  constexpr int blue = 0, orange = 1, black = 6, grey = 7;
+  constexpr int blue = 0, orange = 1, green = 2, black = 6, grey = 7;
   const double known_to = variant.reference_uncertainty();
   Plot plot;
   plot.x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic};
@@ -137,14 +142,25 @@ Plot error_plot(const VariantAccuracy& variant) {
       .label = "other settings", .style = report::Style::points, .colour = grey, .mark = Mark::circle};
   Series meshes{
       .label = "reference meshes", .style = report::Style::points, .colour = blue, .mark = Mark::open_square};
+  Series paper{.label = "updated-Lagrangian (the paper's method)",
+               .style = report::Style::points,
+               .colour = green,
+               .mark = Mark::up_triangle};
+  Series late{.style = report::Style::points, .colour = grey, .mark = Mark::open_circle};
+  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study.study).times;
+  if (!times.empty())
+    late.label = fmt::format("all at {}, gap {}", report::milliseconds(times.back()),
+                             report::centimetres(variant.study.study.gaps.front()));
   std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
     shown.push_back(&row);
     if (row.setting.reference) add_mark(row, meshes);
-    if (!row.setting.reference && !row.baseline) add_mark(row, others);
+    if (!row.setting.reference && !row.baseline) add_mark(row, is_of_paper(row) ? paper : others);
+    if (!row.error_at_times.empty())
+      late.add(row.setting.processor_time, std::abs(row.error_at_times.back()));
   }
-  plot.series = {std::move(others), std::move(meshes)};
+  plot.series = {std::move(late), std::move(others), std::move(paper), std::move(meshes)};
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
   const auto named = [&](const AccuracyRow& row, std::string label, int colour, Mark mark) {
     add_mark(row,

@@ -139,6 +139,26 @@ TEST(AccuracyReport, ThePictureShowsDistancesAndWhatTheLimitIsKnownTo) {
   EXPECT_TRUE(plot.subtitle.empty());
 }
 
+TEST(AccuracyReport, ThePictureTellsThePapersMethodApartAndHasTheLastTime) {
+  VariantAccuracy result = made_accuracy().variants.front();
+  settings_of<AccuracySettings>(result.study.study).times = {10e-3, 18e-3};
+  for (AccuracyRow& row : result.rows) row.error_at_times = {1.0, -0.25};
+  AccuracyRow paper = result.rows[2];
+  paper.baseline = false;
+  paper.setting.reference = false;
+  paper.setting.setting["numerics.formulation"] = "updated-lagrangian";
+  paper.largest_temperature_error = 7.0;
+  paper.error_at_times = {1.0, 3.0};
+  result.rows.push_back(paper);
+  const report::Plot plot = kinds::error_plot(result);
+  const report::Series* method = series_named(plot, "updated-Lagrangian (the paper's method)");
+  ASSERT_NE(method, nullptr);
+  EXPECT_EQ(method->y, std::vector<double>{7.0});
+  ASSERT_TRUE(plot.series[0].label.starts_with("all at 18 ms, gap ")) << plot.series[0].label;
+  EXPECT_EQ(plot.series[0].y.front(), 0.25);
+  EXPECT_EQ(plot.series[0].y.back(), 3.0);
+}
+
 // By hand: from cheap to costly 8, 9, 0.5 and 0.1 K, where the limit is known to 1 K.
 TEST(AccuracyReport, ThePictureNamesSettingsThatComeNearerUntilOneIsWithinWhatIsKnown) {
   VariantAccuracy result = made_accuracy().variants.front();
