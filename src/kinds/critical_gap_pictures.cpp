@@ -135,7 +135,8 @@ struct GapLines {
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
   std::map<double, std::vector<std::string>> shares = {};  ///< those assumed on each line, along the axis
   std::int64_t unknown = 0;
-  double highest = 0.0;  ///< cm, of all that is drawn
+  double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
+  double least_uncertainty = HUGE_VAL;      ///< cm, of all values
 
   void begin() {
     const std::vector<double> nothing(along.values.size(), study::not_a_number);
@@ -169,6 +170,7 @@ struct GapLines {
     const double drawn = shown_gap(kind == CriticalGapKind::value        ? gap.value
                                    : kind == CriticalGapKind::all_ignite ? gap.upper
                                                                          : gap.lower);
+    lowest = std::min(lowest, drawn);
     highest = std::max(highest, drawn);
     shares[x].push_back(assumed_shares(result.study.study, input, gap.value));
     if (kind != CriticalGapKind::value) {
@@ -178,6 +180,7 @@ struct GapLines {
     const std::size_t place = place_in(along.values, x);
     values[line].y[place] = drawn;
     const double lower = shown_gap(gap.bounds.at_least);
+    least_uncertainty = std::min(least_uncertainty, std::isfinite(lower) ? drawn - lower : 0.0);
     if (!std::isfinite(lower)) return;
     lower_bounds[line].y[place] = lower;
     if (!shares[x].back().empty()) assumed.add(x, lower);
@@ -210,9 +213,11 @@ struct GapLines {
     return bands;
   }
 
-  /// Values on lines of two and more: what a picture is made for.
+  /// Values on lines of two and more, which a picture is made for; none where all differ by less than the
+  /// best of them is known to.
   std::size_t joined() const {
     std::size_t joined = 0;
+    if (highest - lowest < least_uncertainty) return joined;
     for (const Series& line : values)
       if (const std::size_t known = known_of(line); known > 1) joined += known;
     return joined;

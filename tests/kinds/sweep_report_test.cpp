@@ -292,6 +292,20 @@ TEST(SweepPictures, WhereAShareIsAssumedOnEveryLineThePictureIsHatchedAndSaysWhi
   EXPECT_EQ(circles, plot.series.end()) << "the hatching says it";
 }
 
+TEST(SweepPictures, WhatDiffersByLessThanItIsKnownToIsNotDrawn) {
+  const auto pictures_of = [](double difference) {
+    study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
+    file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6})};
+    return gap_pictures(swept(std::move(file),
+                              [=](const study::Study& study, const std::vector<double>& at) {
+                                return value_answer(study, 4e-4 + difference * (at[0] > 401e6));
+                              }))
+        .pictures.size();
+  };
+  EXPECT_EQ(pictures_of(3.9e-6), 0u) << "of lower bounds that are 4 um below";
+  EXPECT_EQ(pictures_of(4.1e-6), 1u);
+}
+
 TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   const auto made = gap_pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
   ASSERT_EQ(made.pictures.size(), 3u);
@@ -348,7 +362,7 @@ TEST(SweepPictures, WhereNoLineJoinsTwoValuesAnotherAxisIsDrawn) {
                      axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
   const GapPictures made =
       gap_pictures(swept(std::move(file), [](const study::Study& study, const std::vector<double>& at) {
-        study::CaseAnswer answer = value_answer(study, 4e-4);
+        study::CaseAnswer answer = value_answer(study, at[1] < 2e-5 ? 4e-4 : 3e-4);
         if (at[0] > 401e6) answer.critical.kind = study::CriticalGapKind::indeterminate;
         return answer;
       }));
