@@ -151,12 +151,13 @@ struct FollowingRuns {
 };
 
 /// The launches of gaps that close, for those of the cases (or answers) that ask for them: what they say of
-/// each.
+/// each. `counted`: the tracker has these cases as done, or else each is once its gaps are found.
 template <class Case>
 std::map<std::size_t, std::vector<study::ClosingAnswer>> run_closing_gaps(const std::vector<Case>& cases,
                                                                           CriticalGapResult& result,
                                                                           const StudyOptions& options,
-                                                                          ProgressTracker& tracker) {
+                                                                          ProgressTracker& tracker,
+                                                                          bool counted) {
   tracker.begin(study::Phase::closing_gaps);
   const study::RunBatch run = [&](std::vector<PlannedRun> runs, const auto& done) {
     run_each(std::move(runs), options, tracker, result.timing, done);
@@ -164,7 +165,9 @@ std::map<std::size_t, std::vector<study::ClosingAnswer>> run_closing_gaps(const 
   std::vector<std::size_t> closing;
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (cases[i].completed() && result.study.cases[i].closing) closing.push_back(i);
-  auto answers = find_closing_gaps(result.study, closing, run);
+  auto answers = find_closing_gaps(result.study, closing, run, [&](std::size_t) {
+    if (!counted && !stop_requested(options)) tracker.cases_ended(1, {});
+  });
   std::map<std::size_t, std::vector<study::ClosingAnswer>> found;
   for (std::size_t i = 0; i < closing.size(); ++i) found[closing[i]] = std::move(answers[i]);
   return found;
@@ -203,7 +206,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   tracker.expect(0, -foreseen);
   following.run(tracker);
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  for (auto& [i, closing] : run_closing_gaps(result.details, result, options, tracker))
+  for (auto& [i, closing] : run_closing_gaps(result.details, result, options, tracker, true))
     result.details[i].closing = std::move(closing);
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
@@ -217,7 +220,13 @@ void run_many(CriticalGapResult& result, const StudyOptions& options) {
   result.answers = answer_cases(result.study, options, result.timing);
   if (result.study.scene.scene.surface.model != scene::GapModel::closing) return;
   ProgressTracker tracker(options.progress);
-  for (auto& [i, closing] : run_closing_gaps(result.answers, result, options, tracker))
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const study::CaseAnswer& answer = result.answers[i];
+    if (answer.outcome == study::RunOutcome::other_shard) continue;
+    tracker.expect_cases(1);
+    if (!answer.completed() || !result.study.cases[i].closing) tracker.cases_ended(1, answer.failure);
+  }
+  for (auto& [i, closing] : run_closing_gaps(result.answers, result, options, tracker, false))
     take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
 }
 

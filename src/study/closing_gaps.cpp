@@ -319,7 +319,8 @@ const ClosingPoint* ClosingAnswer::at(double gap) const {
 
 std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
                                                           const std::vector<std::size_t>& cases,
-                                                          const RunBatch& run) {
+                                                          const RunBatch& run,
+                                                          const std::function<void(std::size_t)>& on_done) {
   std::vector<std::vector<ClosingAnswer>> answers(cases.size());
   std::vector<Search> searches;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -333,8 +334,14 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
     }
   }
   KnownLaunches known;
-  for (auto launches = launches_of(study.study, searches); !launches.empty();
-       launches = launches_of(study.study, searches)) {
+  std::set<std::size_t> open(cases.begin(), cases.end());
+  while (!open.empty()) {
+    const std::vector<Asked> launches = launches_of(study.study, searches);
+    std::set<std::size_t> sought;
+    for (const Asked& each : launches) sought.insert(each.search->index);
+    for (const std::size_t index : open)
+      if (!sought.contains(index)) on_done(index);
+    open = std::move(sought);
     add_points(study, launches, run, known);
     for (const Search& search : searches) {
       std::ranges::sort(search.answer->points, {}, &ClosingPoint::gap);

@@ -54,9 +54,10 @@ TEST(Sweep, IsJudgedAtTheGapThatCoolingOpensInEachCase) {
     const double further = i < 2 ? 1.25 * (gaps[i] + 24.024e-6 * 12.0) - gaps[i] : 0.0;
     const auto share = std::ranges::find(answer.critical.shares, ShareKind::cooling, &GapShare::kind);
     ASSERT_EQ(share != answer.critical.shares.end(), i < 2);
-    if (i < 2)
+    if (i < 2) {
       EXPECT_NEAR(move_towards_ignition(answer.critical.lower, *share),
                   std::min(further, answer.critical.lower), 2e-6);
+    }
   }
   const std::string page = to_markdown(critical_gap_table(result));
   EXPECT_NE(page.find("0.0192"), std::string::npos) << page;
@@ -96,6 +97,21 @@ TEST(Sweep, OfGapsThatOpenByCoolingIsRefusedWhereItCouldNotFollowThem) {
             "scene");
   EXPECT_EQ(key_of(critical_text + "surrogate = true\n" + vary({{"peak_pressure", "400, 496 MPa"}})),
             "surrogate");
+}
+
+TEST(Sweep, WhileItsGapsCloseItsCasesAreCountedUntilTheyAreFound) {
+  Counting counting;
+  StudyOptions options = closing_options(counting, [](const auto&, double gap) { return gap > 0.0003; });
+  std::vector<Progress> told;
+  options.progress = [&](const Progress& progress) {
+    if (progress.phase == Phase::closing_gaps) told.push_back(progress);
+  };
+  run_critical_gap(parting_sweep_of(closes), options);
+  ASSERT_FALSE(told.empty());
+  for (const Progress& each : told) EXPECT_EQ(each.cases, 2u);
+  EXPECT_EQ(told.front().cases_done, 0u);
+  EXPECT_EQ(told.back().cases_done, 2u);
+  EXPECT_EQ(told.back().cases_failed, 0u);
 }
 
 // The worst corner of how a gap closes is not computed in a sweep, whatever is stored of the reservoir.

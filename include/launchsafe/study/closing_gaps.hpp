@@ -55,10 +55,11 @@ using RunBatch = std::function<void(std::vector<PlannedRun> runs,
 /// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study up to the largest
 /// one of its search are computed, then the first that ignites is narrowed down to the study's tolerance. In
 /// detail all of them and a scan between them, with the corner; of many cases from the thinnest up to the
-/// first that ignites or is not known, without the corner.
-std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
-                                                          const std::vector<std::size_t>& cases,
-                                                          const RunBatch& run);
+/// first that ignites or is not known, without the corner. `on_done` is called of each case of which nothing
+/// is sought any more.
+std::vector<std::vector<ClosingAnswer>> find_closing_gaps(
+    const StudyFile& study, const std::vector<std::size_t>& cases, const RunBatch& run,
+    const std::function<void(std::size_t index)>& on_done = [](std::size_t) {});
 /// Launches of a case that may be asked for, at most.
 std::size_t most_closing_launches(const Study& study, const StudyCase& input);
 
