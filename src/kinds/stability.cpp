@@ -119,7 +119,7 @@ Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mec
 /// `runs`: the launch, then those through the ignition of gaps or in which they close. How far one came that
 /// was cut off depends on the machine, and says nothing of the computation: that leaves the case without a
 /// finding.
-StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<study::FinishedRun>& runs) {
+StressRun run_from(const StudyFile& study, std::size_t index, std::vector<study::FinishedRun>& runs) {
   StressRun run;
   // After a launch that was stopped no other is begun.
   const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
@@ -142,6 +142,7 @@ StressRun run_from(const StudyFile& study, std::size_t index, const std::vector<
   run.end_time = mechanics.end_time;
   if (!run.answer.completed()) {
     run.findings = {judge_stopped(asked, mechanics)};
+    runs.front().expected = asked.run == index && asked.expects(run.findings.front().outcome);
     return run;
   }
   run.violations = violations_of({scene, mechanics, asked.gaps}, asked);
@@ -217,12 +218,14 @@ bool StressCase::has(std::string_view invariant) const {
                              [invariant](std::size_t i) { return all_invariants()[i].name == invariant; });
 }
 
+bool StressCase::expects(Outcome outcome) const {
+  if (outcome == Outcome::wrong) return false;
+  return expected.empty() || std::ranges::count(expected, outcome) > 0;
+}
+
 bool StressCaseRow::computed() const { return was_computed(answer); }
 
-bool StressCaseRow::is_as_expected() const {
-  if (!computed() || is(Outcome::wrong)) return false;
-  return asked.expected.empty() || std::ranges::count(asked.expected, finding.outcome) > 0;
-}
+bool StressCaseRow::is_as_expected() const { return computed() && asked.expects(finding.outcome); }
 
 std::size_t StabilityResult::count(Outcome outcome) const {
   return static_cast<std::size_t>(

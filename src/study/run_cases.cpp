@@ -198,10 +198,11 @@ class CaseLoop {
     const FinishedRun* lacking = run_without_result(open.runs);
     const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
     const bool ended = decisive.outcome != RunOutcome::interrupted;
-    std::string reason = decisive.failure;
+    std::string reason;
     std::optional<std::string> failure;
     try {
       on_done_(i, open.runs);
+      if (!decisive.expected) reason = decisive.failure;
     } catch (const std::exception& error) {
       failure = error.what();
     }

@@ -257,6 +257,25 @@ TEST(Stability, WhatIsNotExpectedNotComputedOrNotRefusedIsCounted) {
   EXPECT_EQ(outcome.failures.size(), 3u) << "a case that is WRONG or not as expected fails the study";
 }
 
+TEST(Stability, ARunThatStopsAsExpectedIsTellingProgressOfNoFailure) {
+  const StudyFile study = study_of(
+      head +
+      group_of("{ name = \"any\", set = { numerics.time_step_factor = 0.3 } },\n"
+               "{ name = \"caught\", expect = \"caught\", set = { numerics.time_step_factor = 0.4 } },\n"
+               "{ name = \"not so\", expect = \"held\", set = { numerics.time_step_factor = 0.5 } },\n"));
+  StudyOptions options = options_with([](const scene::Scene& scene) {
+    MechanicsResult result = sound_mechanics(scene);
+    result.status = run::RunStatus::energy_drift;
+    result.reason = "by hand";
+    return result;
+  });
+  Progress told;
+  options.progress = [&told](const Progress& progress) { told = progress; };
+  run_stability(study, options);
+  EXPECT_EQ(told.cases_done, 3u);
+  EXPECT_EQ(told.cases_failed, 1u) << "the one that was to hold";
+}
+
 TEST(Stability, TheImpulseOfTheLoadIsTheMomentumInTheLabFrame) {
   const StudyFile study = study_of(head + group_of("{ name = \"lab\", set = { frame = \"lab\" } },\n"));
   const scene::Scene& scene = study.cases[0].scene.scene;

@@ -58,6 +58,7 @@ struct StressCase {
 
   std::string label() const { return group + ": " + name; }
   bool has(std::string_view invariant) const;
+  bool expects(Outcome outcome) const;
 };
 
 /// What a study file of this kind says besides.

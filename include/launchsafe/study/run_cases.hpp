@@ -71,6 +71,7 @@ struct FinishedRun {
   std::string failure;     ///< why it is no basis for a verdict; empty for a completed run
   run::CaseResult result;  ///< no gaps for the mechanics alone; empty unless the run began or was stored
   std::string hash;        ///< of its identity, likewise
+  bool expected = false;   ///< that it is no basis for a verdict is what the study asks for
   /// Whether there is a result, if perhaps of a run that broke off or ended by itself before its time.
   bool has_result() const;
 };
