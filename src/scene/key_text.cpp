@@ -39,23 +39,37 @@ const std::string& stored_word(const KeyDescription& key, const std::string& wor
   return word;
 }
 
-/// That of the dimension; of a number that may not be this, the end of its range.
+/// Two values that are allowed: the ends of what is plausible, or else of the range.
+std::pair<double, double> example_ends(const KeyDescription& key) {
+  const Limits &limits = key.limits, &plausible = key.plausible.limits;
+  if (limits.contain(plausible.lowest) && limits.contain(plausible.highest) &&
+      std::isfinite(plausible.highest - plausible.lowest))
+    return {plausible.lowest, plausible.highest};
+  return {limits.contain(limits.lowest) ? limits.lowest : 0.5 * limits.highest, limits.highest};
+}
+
+/// That of the dimension, or of a number that may not be this another one.
 std::string example_of_number(const KeyDescription& key) {
   const std::string usual(example_of(key.dimension));
   const bool has_unit = !units_of(key.dimension).empty();
   const auto value = parse_quantity(has_unit ? usual.substr(1, usual.size() - 2) : usual, key.dimension);
   if (!value || key.limits.contain(*value)) return usual;
-  const double end = key.limits.contain(key.limits.lowest) && key.limits.lowest != 0.0 ? key.limits.lowest
-                                                                                       : key.limits.highest;
+  const double end = example_ends(key).second;
   return has_unit ? fmt::format("\"{}\"", format_quantity(end, key.dimension)) : fmt::format("{:g}", end);
 }
 
-/// Its upper end within the range that is allowed.
-std::string example_of_range(const KeyDescription& key) {
-  const std::string usual = "2.5" + first_unit(key.dimension);
-  const auto value = parse_quantity(usual, key.dimension);
-  const bool is_allowed = !value || !std::isfinite(key.limits.highest) || *value <= key.limits.highest;
-  return fmt::format("\"0 to {}\"", is_allowed ? usual : format_quantity(key.limits.highest, key.dimension));
+/// Those of the usual numbers, in the first unit, that are allowed, or other ones.
+std::string example_of_numbers(const KeyDescription& key, std::vector<double> usual,
+                               std::string_view between) {
+  const std::string unit = first_unit(key.dimension);
+  std::erase_if(usual, [&](double number) {
+    const auto value = parse_quantity(fmt::format("{:g}{}", number, unit), key.dimension);
+    return value && !key.limits.contain(*value);
+  });
+  if (usual.size() > 1) return fmt::format("\"{:g}{}\"", fmt::join(usual, between), unit);
+  const auto [low, high] = example_ends(key);
+  return fmt::format("\"{}{}{}\"", format_quantity(low, key.dimension), between,
+                     format_quantity(high, key.dimension));
 }
 
 /// As toml++ writes it, which is in single quotes wherever nothing needs an escape.
@@ -90,9 +104,9 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::text:
       return fmt::format("\"{}\"", key.example);
     case KeyKind::list:
-      return fmt::format("\"0, 1.5, 2{}\"", first_unit(key.dimension));
+      return example_of_numbers(key, {0, 1.5, 2}, ", ");
     case KeyKind::range:
-      return example_of_range(key);
+      return example_of_numbers(key, {0, 2.5}, " to ");
     case KeyKind::number:
       return example_of_number(key);
   }

@@ -200,6 +200,15 @@ TEST(ReadStudy, ACalibrationNeedsItsRows) {
 }
 
 // A message that names what is allowed must not give an example that is not.
+TEST(ReadStudy, TheExampleOfSeveralNumbersHasNoneThatTheKeyRefuses) {
+  scene::KeyDescription key = *scene::find_key(scene::scene_keys(), "gap.roughness");
+  EXPECT_EQ(scene::example_of(key), "\"30 µm\"") << "an end of what is plausible";
+  key.kind = scene::KeyKind::list;
+  EXPECT_EQ(scene::example_of(key), "\"1 µm, 30 µm\"");
+  key.kind = scene::KeyKind::range;
+  EXPECT_EQ(scene::example_of(key), "\"1 µm to 30 µm\"");
+}
+
 TEST(ReadStudy, TheExampleOfANumberWithoutUnitIsOneThatTheKeyAllows) {
   int checked = 0;
   for (const scene::DocumentedKey& each : kinds::describe_study_keys()) {

@@ -87,7 +87,7 @@ TEST(ClosingGap, IsRefusedWhereAnyPartOfTheBaseIsBonded) {
 
 TEST(ClosingGap, ARoughnessOfNothingIsRefusedWithOneThatIsAllowed) {
   const std::string text = closing("model = \"closing\"\nroughness = \"0 um\"\n");
-  expect_error(error_of(text), line_of(text, "roughness ="), "gap.roughness", "0 um", "such as \"0.1 cm\"");
+  expect_error(error_of(text), line_of(text, "roughness ="), "gap.roughness", "0 um", "such as \"30 µm\"");
 }
 
 TEST(ClosingGap, LettingGoTakesNoTimeWhereNothingHoldsTheCharge) {
