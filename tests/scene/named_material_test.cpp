@@ -74,8 +74,12 @@ TEST(NamedMaterial, OfTheSceneIsTheChargeWithItsNumbersSourcesAndTitle) {
   EXPECT_EQ(source_of(file.scene.sources, "charge.specific_heat")->standing, Standing::assumed);
   EXPECT_EQ(source_of(file.scene.sources, "charge.toughness"), nullptr);
   for (const ListedKey& key : list_keys(file)) {
-    if (key.name == "charge.density") EXPECT_EQ(key.citation, "our certificate 12");
-    if (key.name == "charge.toughness") EXPECT_EQ(key.standing, Standing::input);
+    if (key.name == "charge.density") {
+      EXPECT_EQ(key.citation, "our certificate 12");
+    }
+    if (key.name == "charge.toughness") {
+      EXPECT_EQ(key.standing, Standing::input);
+    }
   }
 }
 
@@ -263,8 +267,9 @@ TEST(NamedContact, ThatShipsHasASourceOfEveryKeyThatItGives) {
   ASSERT_GE(shipped_contacts().size(), 2U);
   for (const NamedContact& contact : shipped_contacts())
     for (const Key<Interface>& key : interface_keys())
-      if (!key.is_written || key.is_written(contact.faces))
+      if (!key.is_written || key.is_written(contact.faces)) {
         EXPECT_NE(source_of(contact.sources, key.name), nullptr) << contact.name << key.name;
+      }
 }
 
 TEST(Sources, OfASceneSpeakOfItsValues) {

@@ -11,6 +11,7 @@
 namespace {
 
 using namespace launchsafe;
+using namespace launchsafe::kinds;
 using namespace launchsafe::study;
 
 const std::string limit_text =

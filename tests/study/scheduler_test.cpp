@@ -12,13 +12,13 @@
 
 namespace {
 
+using namespace launchsafe::study;
+
 std::vector<WaitingTask> waiting(const std::vector<Task>& tasks) {
   std::vector<WaitingTask> all;
   for (const Task& task : tasks) all.push_back({task.cost, [&task] { return task; }});
   return all;
 }
-
-using namespace launchsafe::study;
 
 Task task_of(double cost, std::function<void()> work) {
   return {cost, [work = std::move(work)](const Allotment&) { work(); }};

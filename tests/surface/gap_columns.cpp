@@ -149,8 +149,12 @@ TEST(GapColumns, MeltBeforeTheyGetWarmer) {
   for (int i = 0; i < intervals; ++i) {
     columns.advance(0, 1e-4, air.pressure, air.pressure, air.pressure, 1e4);
     air = columns.fit(0, 1e-6);
-    if (i + 1 == 53) EXPECT_LT(melted_share(), 1e-3);
-    if (i + 1 == 60) EXPECT_NEAR(melted_share(), 7.0 / 60.0, 1e-3);
+    if (i + 1 == 53) {
+      EXPECT_LT(melted_share(), 1e-3);
+    }
+    if (i + 1 == 60) {
+      EXPECT_NEAR(melted_share(), 7.0 / 60.0, 1e-3);
+    }
   }
   EXPECT_NEAR(melted_share(), 0.22, 1e-9);
   EXPECT_NEAR(columns[0].hottest(), 300.0 + 100.0 - 22.0, 0.5) << "the air is compressed, and warmer";
