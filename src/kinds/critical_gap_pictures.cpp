@@ -133,7 +133,7 @@ struct GapLines {
                     .colour = 7,
                     .mark = Mark::open_circle};
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
-  std::map<double, std::vector<std::string>> shares = {};  ///< those assumed on each line, along the axis
+  std::map<double, study::AssumedShares> shares = {};  ///< assumed on every line, along the axis
   std::int64_t unknown = 0;
   double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
@@ -172,7 +172,9 @@ struct GapLines {
                                                                          : gap.lower);
     lowest = std::min(lowest, drawn);
     highest = std::max(highest, drawn);
-    shares[x].push_back(assumed_shares(result.study.study, input, gap.value));
+    const study::AssumedShares own = assumed_shares(result.study.study, input, gap.value);
+    study::AssumedShares& common = shares.try_emplace(x, own).first->second;
+    common = {common.computation && own.computation, common.model_form && own.model_form};
     if (kind != CriticalGapKind::value) {
       marks.at(kind).add(x, drawn);
       return;
@@ -183,18 +185,13 @@ struct GapLines {
     least_uncertainty = std::min(least_uncertainty, std::isfinite(lower) ? drawn - lower : 0.0);
     if (!std::isfinite(lower)) return;
     lower_bounds[line].y[place] = lower;
-    if (!shares[x].back().empty()) assumed.add(x, lower);
+    if (own.any()) assumed.add(x, lower);
   }
 
   /// "model form assumed": what is on every line at one value; empty for nothing.
   std::string assumed_at(double x) const {
-    std::string text;
-    for (const char* share : {"computation", "model form"})
-      if (shares.contains(x) && std::ranges::all_of(shares.at(x), [share](const std::string& each) {
-            return each.find(share) != std::string::npos;
-          }))
-        text += (text.empty() ? "" : ", ") + std::string(share);
-    return text.empty() ? text : text + " assumed";
+    const auto found = shares.find(x);
+    return found != shares.end() && found->second.any() ? found->second.text() + " assumed" : std::string{};
   }
 
   /// Hatched up to the next value at which it is otherwise.

@@ -146,7 +146,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
                             : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
          [study](const JudgedCase& row) {
-           return assumed_shares(study, row.input(), row.answer->critical.value);
+           return assumed_shares(study, row.input(), row.answer->critical.value).text();
          }},
         {quantity::recorded_uncertainty,
          [](const JudgedCase& row) { return row.input().recorded_uncertainty(); }}},

@@ -176,15 +176,18 @@ std::optional<double> stated_model_form_share(const Study& study, const StudyCas
   return (stated ? study.model_form_uncertainty : assumed_model_form) * (growth <= 1.0 ? 1.0 : growth);
 }
 
-std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
+std::string AssumedShares::text() const {
+  if (computation) return model_form ? "computation, model form" : "computation";
+  return model_form ? "model form" : "";
+}
+
+AssumedShares assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
   const auto recorded =
       study.model_form ? model_form_shift(*study.model_form, input.scene.scene) : CaseStatements{}.model_form;
-  const bool computation =
-      input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9);
-  const bool models =
-      !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input, recorded);
-  if (computation) return models ? "computation, model form" : "computation";
-  return models ? "model form" : "";
+  return {.computation =
+              input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9),
+          .model_form = !std::isfinite(study.model_form_uncertainty) &&
+                        stated_model_form_share(study, input, recorded)};
 }
 
 LoadCurveErrors load_curve_errors(const scene::Load& load) {

@@ -59,9 +59,14 @@ double heat_factor(const Study& study, const scene::Scene& scene, const trace::B
 /// Nothing where the record does: it gives a shift of the gap (`recorded`).
 std::optional<double> stated_model_form_share(const Study& study, const StudyCase& input,
                                               const ModelFormShift& recorded);
-/// Which shares of the bounds of a case with a critical gap (m) are assumed, as neither the study nor a
-/// record speaks of it: "computation, model form"; empty for none.
-std::string assumed_shares(const Study& study, const StudyCase& input, double critical_gap);
+/// Shares of the bounds of a case that are assumed, as neither the study nor a record speaks of it.
+struct AssumedShares {
+  bool computation = false, model_form = false;
+  bool any() const { return computation || model_form; }
+  std::string text() const;  ///< "computation, model form"; empty for none
+};
+/// Those of a case with a critical gap (m).
+AssumedShares assumed_shares(const Study& study, const StudyCase& input, double critical_gap);
 
 /// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 double stated_input_share(const Study& study, const StudyCase& input);
