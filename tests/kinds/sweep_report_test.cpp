@@ -279,9 +279,8 @@ TEST(SweepPictures, WhereAShareIsAssumedOnEveryLineThePictureIsHatchedAndSaysWhi
   EXPECT_EQ(gap_pictures(result).pictures.front().plot.vertical_bands.size(), 1u) << "all is assumed";
   result.study.study.model_form_uncertainty = 1.0;
   EXPECT_TRUE(gap_pictures(result).pictures.front().plot.vertical_bands.empty());
-  result.study.cases.complete_with([](study::StudyCase& made) {
-    made.numerical_uncertainty_assumed = made.scene.scene.load.peak < 430e6;
-  });
+  result.study.cases.complete_with(
+      [](study::StudyCase& made) { made.numerical_uncertainty_assumed = made.coordinates.at(0) < 430e6; });
   const Plot plot = gap_pictures(result).pictures.front().plot;
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
   EXPECT_EQ(plot.vertical_bands[0].from, 350);
