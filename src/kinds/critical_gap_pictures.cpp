@@ -121,6 +121,10 @@ std::vector<double> some_of(const std::vector<double>& values) {
   return some;
 }
 
+study::AssumedShares in_both(const study::AssumedShares& a, const study::AssumedShares& b) {
+  return {a.computation && b.computation, a.model_form && b.model_form};
+}
+
 /// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
 struct GapLines {
   const CriticalGapResult& result;
@@ -174,7 +178,7 @@ struct GapLines {
     highest = std::max(highest, drawn);
     const study::AssumedShares own = assumed_shares(result.study.study, input, gap.value);
     study::AssumedShares& common = shares.try_emplace(x, own).first->second;
-    common = {common.computation && own.computation, common.model_form && own.model_form};
+    common = in_both(common, own);
     if (kind != CriticalGapKind::value) {
       marks.at(kind).add(x, drawn);
       return;
@@ -188,26 +192,27 @@ struct GapLines {
     if (own.any()) assumed.add(x, lower);
   }
 
-  /// "model form assumed": what is on every line at one value; empty for nothing.
-  std::string assumed_at(double x) const {
-    const auto found = shares.find(x);
-    return found != shares.end() && found->second.any() ? found->second.text() + " assumed" : std::string{};
-  }
-
-  /// Hatched up to the next value at which it is otherwise.
+  /// Hatched where a share is assumed on every line, up to the next value at which none is, with those shares
+  /// that are assumed all along: "model form assumed".
   std::vector<report::Band> assumed_bands() const {
     std::vector<report::Band> bands;
     const std::vector<double>& x = along.values;
+    study::AssumedShares all_along;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const std::string text = assumed_at(x[i]);
-      if (text.empty()) continue;
+      if (!is_assumed_at(x[i])) continue;
       const double from = x[i > 0 ? i - 1 : 0], to = x[std::min(i + 1, x.size() - 1)];
-      if (!bands.empty() && bands.back().label == text && bands.back().to >= x[i])
-        bands.back().to = to;
-      else
-        bands.push_back({from, to, text, true});
+      const bool goes_on = i > 0 && is_assumed_at(x[i - 1]);
+      if (!goes_on) bands.push_back({from, to, {}, true});
+      all_along = goes_on ? in_both(all_along, shares.at(x[i])) : shares.at(x[i]);
+      bands.back().to = to;
+      bands.back().label = all_along.any() ? all_along.text() + " assumed" : "assumed";
     }
     return bands;
+  }
+
+  bool is_assumed_at(double x) const {
+    const auto found = shares.find(x);
+    return found != shares.end() && found->second.any();
   }
 
   /// Values on lines of two and more, which a picture is made for; none where all differ by less than the
@@ -225,7 +230,7 @@ struct GapLines {
     for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
     for (std::size_t i = 0; i < assumed.x.size(); ++i)
-      if (!assumed_at(assumed.x[i]).empty()) assumed.y[i] = study::not_a_number;  // the hatching says it
+      if (is_assumed_at(assumed.x[i])) assumed.y[i] = study::not_a_number;  // the hatching says it
     if (known_of(assumed) > 0) plot.series.push_back(std::move(assumed));
     plot.vertical_bands = assumed_bands();
     // Room for their labels.
