@@ -184,10 +184,10 @@ std::string AssumedShares::text() const {
 AssumedShares assumed_shares(const Study& study, const StudyCase& input, double critical_gap) {
   const auto recorded =
       study.model_form ? model_form_shift(*study.model_form, input.scene.scene) : CaseStatements{}.model_form;
-  return {.computation =
-              input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9),
-          .model_form = !std::isfinite(study.model_form_uncertainty) &&
-                        stated_model_form_share(study, input, recorded)};
+  return {
+      .computation = input.numerical_uncertainty_assumed || critical_gap > input.covered_gap * (1.0 + 1e-9),
+      .model_form =
+          !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input, recorded)};
 }
 
 LoadCurveErrors load_curve_errors(const scene::Load& load) {
