@@ -5,6 +5,7 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/raised_load.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>
@@ -189,6 +190,8 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   for (std::size_t i = 0; i < runs.size(); ++i) foreseen += following_cost(study, runs[i], longer[i]);
   tracker.expect(0, foreseen);
   run_cases(runs, options, tracker, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    const auto loads = neighbouring_loads(study, runs[i].members.front());
+    if (loads) interpolate_raised_load(*loads, finished);
     for (const std::size_t member : runs[i].members) {
       result.details[member] = judged(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
@@ -243,6 +246,35 @@ const std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys{
         &CriticalGapSettings::surrogate),
 };
 
+StudyKeys raised_load_keys() {
+  return {scene::word_key(
+      "raised_load", scene::Standing::assumed,
+      fmt::format(
+          "The launch of a case under a load {:.3g} % higher, for the spread of the peak pressure: one "
+          "of its own, or interpolated between the cases at neighbouring peak pressures, {:.3g} to "
+          "{:.3g} % apart, with what that misses the middle one of three by added to its heat. Cases "
+          "without two such neighbours have launches of their own.",
+          100.0 * study::assumed_load_spread, 100.0 * (study::least_load_ratio - 1.0),
+          100.0 * (study::largest_load_ratio - 1.0)),
+      {{"launched", study::RaisedLoad::launched}, {"interpolated", study::RaisedLoad::interpolated}},
+      &study::Study::raised_load)};
+}
+
+/// A raised load that is to be interpolated where none is needed, or between no cases.
+Fault check_raised_load(const study::StudyFile& study) {
+  if (study.study.raised_load == study::RaisedLoad::launched) return std::nullopt;
+  if (!propagates_spread(study.study))
+    return fault_at(study, "raised_load", "a raised load beside a stated input_uncertainty",
+                    "one of the two");
+  for (std::size_t i = 0; i < study.cases.size(); ++i)
+    if (neighbouring_loads(study, i)) return std::nullopt;
+  return fault_at(
+      study, "raised_load", "\"interpolated\", and no case with two neighbours in peak_pressure",
+      fmt::format("at least three peak pressures, each {:.3g} to {:.3g} % above the one before, and a "
+                  "launch whose end does not follow from load.muzzle_travel",
+                  100.0 * (study::least_load_ratio - 1.0), 100.0 * (study::largest_load_ratio - 1.0)));
+}
+
 Fault read_critical_gap(const StudySource& source, study::StudyFile& study) {
   if (Fault fault = read_references(source, study)) return fault;
   return read_cited_limits(source.root, study);
@@ -252,6 +284,7 @@ Fault make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
   if (settings_of<CriticalGapSettings>(study.study).surrogate)
     if (Fault fault = check_sweep_surrogate(study)) return fault;
   if (Fault fault = make_factorial(study)) return fault;
+  if (Fault fault = check_raised_load(study)) return fault;
   const bool few = study.cases.size() <= most_cases_in_detail;
   bool& confirm = settings_of<CriticalGapSettings>(study.study).confirm;
   if (!study.places.contains("confirm")) confirm = few;
@@ -291,7 +324,7 @@ Kind critical_gap_kind() {
   return {
       .traits = {.name = "critical-gap", .keeps_answers = true, .closing_gaps = study::ClosingGaps::beside},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys), judging_keys(),
-                      calibration_record_keys(), uncertainty_keys()}),
+                      calibration_record_keys(), uncertainty_keys(), raised_load_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},
       .varies = {.values = true},
       .read = read_critical_gap,

@@ -5,6 +5,7 @@
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/raised_load.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -127,11 +128,15 @@ std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& inp
 
 /// The key of the stored answer of a case: all that determines it and its runs. `analysis`: digest of what of
 /// the study does.
-std::string answer_key(const std::string& analysis, const StudyCase& input) {
+std::string answer_key(const std::string& analysis, const StudyCase& input,
+                       const std::optional<NeighbouringLoads>& loads) {
   scene::Scene scene = input.scene.scene;
   scene::clear_remarks(scene);
   scene.surface.gaps = {};
-  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") +
+  const std::string neighbours =
+      loads ? fmt::format(" between {} and {}, {}", loads->own_peak, loads->above_peak, loads->beside_peak)
+            : "";
+  return store::CaseIdentity(analysis + (input.own_conditions ? "own" : "other") + neighbours +
                              fmt::format(" {} {}\n", input.numerical_uncertainty, input.rise_of_uncertainty) +
                              scene::to_toml(scene))
       .hash();
@@ -177,10 +182,11 @@ class AnswerRunner {
   void fetch_answers(const CaseRuns& runs) {
     for (const std::size_t each : runs.members) {
       const StudyCase input = study_.cases[each];
+      const auto loads = neighbouring_loads(study_, each);
       // What is stored under such a key is the reservoir's.
       if (compares_closing(study_.study, input)) continue;
-      answers_[each] =
-          stored_answer(study_.study, input, answer_key(analysis_, input), runs.runs.size(), *options_.store);
+      answers_[each] = stored_answer(study_.study, input, answer_key(analysis_, input, loads),
+                                     runs.runs.size(), *options_.store);
     }
   }
 
@@ -192,7 +198,7 @@ class AnswerRunner {
       const bool answered = std::ranges::all_of(
           each.members, [this](std::size_t member) { return answers_[member].has_value(); });
       if (answered) {
-        timing_.reused += each.runs.size();
+        timing_.reused += own_runs(each);
         tracker.expect_cases(each.members.size());
         for (const std::size_t member : each.members) {
           tell(tracker, member);
@@ -207,7 +213,10 @@ class AnswerRunner {
     return open;
   }
 
-  void answer_members(const std::vector<std::size_t>& members, const std::vector<FinishedRun>& runs) {
+  void answer_members(const std::vector<std::size_t>& members, std::vector<FinishedRun>& runs) {
+    std::vector<std::string> hashes;
+    for (const FinishedRun& run : runs) hashes.push_back(run.hash);
+    if (const auto loads = neighbouring_loads(study_, members.front())) interpolate_raised_load(*loads, runs);
     // Cores that find no further run help here. A thread that waits for them must not start another run.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
@@ -216,7 +225,7 @@ class AnswerRunner {
         // A study that was stopped, and a shard, report nothing: there may be a million such cases.
         if (lacking == nullptr ||
             !(lacking->outcome == RunOutcome::other_shard || stop_requested(options_))) {
-          answers_[members[i]] = answer(study_.cases[members[i]], runs);
+          answers_[members[i]] = answer(members[i], runs, hashes);
           return;
         }
         CaseAnswer& without_rows = answers_[members[i]].emplace();
@@ -226,7 +235,10 @@ class AnswerRunner {
     });
   }
 
-  CaseAnswer answer(const StudyCase& input, const std::vector<FinishedRun>& runs) {
+  /// `hashes`: of all runs that the answer rests on.
+  CaseAnswer answer(std::size_t member, const std::vector<FinishedRun>& runs,
+                    const std::vector<std::string>& hashes) {
+    const StudyCase input = study_.cases[member];
     const bool judged = run_without_result(runs) == nullptr;
     if (judged && stop_requested(options_))
       return failed_answer(study_.study, input, RunOutcome::interrupted,
@@ -235,8 +247,8 @@ class AnswerRunner {
     if (!judged || was_cut_off(runs.front())) return answer;
     if (options_.store != nullptr && !compares_closing(study_.study, input) &&
         std::ranges::none_of(runs, was_cut_off)) {
-      for (const FinishedRun& run : runs) answer.runs.push_back(run.hash);
-      save_answer(*options_.store, answer_key(analysis_, input), answer);
+      answer.runs = hashes;
+      save_answer(*options_.store, answer_key(analysis_, input, neighbouring_loads(study_, member)), answer);
       answer.runs.clear();
     }
     return answer;

@@ -1,8 +1,7 @@
 // Which runs the cases of a study need, which they share, and how they are divided over shards.
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/run_cases.hpp"
+#include "launchsafe/study/raised_load.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -109,11 +108,21 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
                       fmt::format("{}, {} {:.6g} cm", input.label,
                                   input.closing ? "closing from" : "through ignition at", 100.0 * gap));
     }});
-  if (propagates_spread(study.study))
-    cases.runs.push_back({[of, first] {
-      const StudyCase input = of->cases[first];
-      return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
-    }});
+  if (propagates_spread(study.study)) {
+    if (const auto loads = neighbouring_loads(study, first))
+      for (const std::size_t each : {loads->above, loads->beside}) {
+        cases.runs.push_back({[of, each] {
+          const StudyCase input = of->cases[each];
+          return mechanics_run(input.scene.scene, input.label);
+        }});
+        cases.runs.back().first_run_of = each;
+      }
+    else
+      cases.runs.push_back({[of, first] {
+        const StudyCase input = of->cases[first];
+        return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
+      }});
+  }
   if (longer) cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
 }
 
@@ -165,6 +174,10 @@ std::vector<int> shards_of(const std::vector<double>& costs, int count) {
     least.emplace(load + costs[at], shard);
   }
   return shards;
+}
+
+std::size_t own_runs(const CaseRuns& runs) {
+  return std::ranges::count_if(runs.runs, [](const PlannedRun& run) { return !run.first_run_of; });
 }
 
 std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {

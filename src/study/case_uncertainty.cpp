@@ -5,6 +5,7 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/raised_load.hpp"
 
 #include <fmt/format.h>
 
@@ -98,26 +99,6 @@ void complete_recorded(const std::shared_ptr<const AccuracyRecords>& records, St
 }
 
 }  // namespace
-
-bool propagates_spread(const Study& study) {
-  return study.kind.gives_verdicts && study.kind.bounds_critical_gaps &&
-         !std::isfinite(study.input_uncertainty);
-}
-
-std::string label_of_raised(const StudyCase& input) {
-  return fmt::format("{}, load +{:.3g} %", input.label, 100.0 * assumed_load_spread);
-}
-
-scene::Scene with_raised_load(const scene::Scene& scene) {
-  scene::Scene raised = scene;
-  const double factor = 1.0 + assumed_load_spread;
-  scene::Load& load = raised.load;
-  load.peak *= factor;
-  if (!load.rescale_to_peak) {
-    for (double& pressure : load.curve_pressure) pressure *= factor;
-  }
-  return raised;
-}
 
 double cooling_spread(const scene::Scene& scene) {
   const double colder = scene::gap_by_cooling(scene, assumed_temperature_spread);
@@ -274,6 +255,14 @@ std::string model_form_uncertainty_text(const StudyFile& study) {
 }
 
 std::string input_uncertainty_text(const Study& study) {
+  const std::string raised_load =
+      study.raised_load == RaisedLoad::launched
+          ? "by a run of its own"
+          : fmt::format(
+                "between the launches at neighbouring peak pressures, where two lie {:.3g} to {:.3g} "
+                "% apart, hotter by what that misses the middle one of three by, and by a run of its "
+                "own elsewhere",
+                100.0 * (least_load_ratio - 1.0), 100.0 * (largest_load_ratio - 1.0));
   const std::string spread =
       std::isfinite(study.input_uncertainty)
           ? fmt::format(
@@ -282,9 +271,9 @@ std::string input_uncertainty_text(const Study& study) {
                 study.input_uncertainty, heat_exponent)
           : fmt::format(
                 "the study states none, so that two standard deviations are assumed of each: the load "
-                "{:.3g} % higher, by a run of its own, its pulse {:.3g} % longer, and the initial "
-                "temperature {:.3g} K higher",
-                100.0 * assumed_load_spread, 100.0 * assumed_pulse_spread, assumed_temperature_spread);
+                "{:.3g} % higher, {}, its pulse {:.3g} % longer, and the initial temperature {:.3g} K higher",
+                100.0 * assumed_load_spread, raised_load, 100.0 * assumed_pulse_spread,
+                assumed_temperature_spread);
   const std::string cooling =
       study.gaps_by_cooling
           ? fmt::format(". A gap that cooling opens is thicker by what {:.3g} K more open, and by a quarter",

@@ -199,7 +199,10 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   const Reasons reasons(options.store);
   std::vector<CaseRuns> all = case_runs(study, options.shard.count, study.confirmations_per_case > 0);
   std::erase_if(all, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
-  for (const CaseRuns& each : all) {
+  for (CaseRuns& each : all) {
+    // Of a shard the other cases may be those of another, where it runs them itself.
+    if (options.shard.whole())
+      std::erase_if(each.runs, [](const PlannedRun& run) { return run.first_run_of.has_value(); });
     forecast.cases += each.members.size();
     forecast.run_count += each.runs.size();
   }

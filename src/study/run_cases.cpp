@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 namespace launchsafe::study {
 namespace {
@@ -51,6 +52,8 @@ class CaseLoop {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       open_[i].runs.resize(cases[i].runs.size());
       open_[i].left = cases[i].runs.size();
+      if (cases[i].shard == options.shard.index)
+        for (const std::size_t member : cases[i].members) case_of_member_.emplace(member, i);
     }
   }
 
@@ -65,6 +68,10 @@ class CaseLoop {
         continue;
       }
       for (std::size_t j = 0; j < cases_[i].runs.size(); ++j) {
+        if (const auto other = run_elsewhere(i, j)) {
+          open_[*other].takers.emplace_back(i, j);
+          continue;
+        }
         tasks.push_back({cases_[i].runs[j].cost, [this, i, j] { return task_of(i, j); }});
         places.emplace_back(i, j);
         tracker_.expect(1, tasks.back().cost);
@@ -87,7 +94,16 @@ class CaseLoop {
     std::vector<FinishedRun> runs;
     std::atomic<std::size_t> left{0};
     std::atomic<bool> spoilt{false};  ///< the first of them did not complete
+    /// The runs of other cases, by case and place, that are its first run.
+    std::vector<std::pair<std::size_t, std::size_t>> takers;
   };
+
+  /// The case of this loop whose first run is also that run of another case.
+  std::optional<std::size_t> run_elsewhere(std::size_t i, std::size_t j) const {
+    const auto& of_member = cases_[i].runs[j].first_run_of;
+    const auto found = of_member ? case_of_member_.find(*of_member) : case_of_member_.end();
+    return found == case_of_member_.end() ? std::nullopt : std::optional(found->second);
+  }
 
   /// Cheap where the result is stored.
   Task task_of(std::size_t i, std::size_t j) {
@@ -192,7 +208,10 @@ class CaseLoop {
 
   void finish(std::size_t i, std::size_t j, FinishedRun run) {
     OpenCase& open = open_[i];
-    if (j == 0 && !run.failure.empty()) open.spoilt = true;
+    if (j == 0) {
+      open.spoilt = !run.failure.empty();
+      for (const auto& [other, place] : open.takers) finish(other, place, run);
+    }
     open.runs[j] = std::move(run);
     if (--open.left > 0) return;
     const FinishedRun* lacking = run_without_result(open.runs);
@@ -222,6 +241,7 @@ class CaseLoop {
   Timing& timing_;
   const OnCaseDone& on_done_;
   std::vector<OpenCase> open_;
+  std::unordered_map<std::size_t, std::size_t> case_of_member_;  ///< of the shard that is run
   std::mutex mutex_;
 };
 

@@ -1,6 +1,7 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -46,6 +47,36 @@ BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t
     *means = combined_means(trace.time, *means, kept);
   for (auto& energy : result.friction) energy = picked_rows(energy, trace.stations.size(), kept);
   return result;
+}
+
+/// All pressures and energies of a trace: so many histories, with as many values at each sample or as many a
+/// station.
+constexpr std::size_t histories = 4 + traced_closures;
+
+template <class Trace>
+auto& history(Trace& trace, std::size_t index) {
+  switch (index) {
+    case 0:
+      return trace.chamber_pressure;
+    case 1:
+      return trace.bottom_pressure;
+    case 2:
+      return trace.mean_chamber_pressure;
+    case 3:
+      return trace.mean_bottom_pressure;
+    default:
+      return trace.friction[index - 4];
+  }
+}
+
+/// Whether two launches were sampled at the same stations, and times that differ by a twentieth of the
+/// interval between them at the most: they are ends of steps.
+bool are_alike(const BottomTrace& a, const BottomTrace& b) {
+  if (a.samples() != b.samples() || a.stations.size() != b.stations.size()) return false;
+  for (std::size_t i = 0; i < histories; ++i)
+    if (history(a, i).size() != history(b, i).size()) return false;
+  const double apart = a.samples() > 0 ? 0.05 * a.time.back() / static_cast<double>(a.samples()) : 0.0;
+  return std::ranges::equal(a.time, b.time, [&](double s, double t) { return std::abs(s - t) <= apart; });
 }
 
 }  // namespace
@@ -109,19 +140,38 @@ BottomTrace stretched(BottomTrace trace, double factor) {
 }
 
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other) {
+  if (!are_alike(trace, other)) return std::nullopt;
   BottomTrace result = trace;
-  bool same = trace.samples() == other.samples() && trace.stations.size() == other.stations.size();
-  const auto mirror = [&same](std::vector<double>& values, const std::vector<double>& others) {
-    same = same && values.size() == others.size();
-    for (std::size_t i = 0; same && i < values.size(); ++i)
-      if (others[i] > 0.0) values[i] *= values[i] / others[i];
-  };
-  for (const auto pressure : {&BottomTrace::chamber_pressure, &BottomTrace::bottom_pressure,
-                              &BottomTrace::mean_chamber_pressure, &BottomTrace::mean_bottom_pressure})
-    mirror(result.*pressure, other.*pressure);
-  for (std::size_t closure = 0; closure < traced_closures; ++closure)
-    mirror(result.friction[closure], other.friction[closure]);
-  if (!same) return std::nullopt;
+  for (std::size_t i = 0; i < histories; ++i) {
+    std::vector<double>& values = history(result, i);
+    const std::vector<double>& others = history(other, i);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (others[k] > 0.0) values[k] *= values[k] / others[k];
+  }
+  return result;
+}
+
+std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const LoadedTrace& other,
+                                   const LoadedTrace& third) {
+  if (!are_alike(own.trace, other.trace) || !are_alike(own.trace, third.trace)) return std::nullopt;
+  std::array<const LoadedTrace*, 3> ordered{&own, &other, &third};
+  std::ranges::sort(ordered, {}, &LoadedTrace::load);
+  const auto [lowest, middle, highest] = ordered;
+  const double share = (load - own.load) / (other.load - own.load);
+  const double middle_share = (middle->load - lowest->load) / (highest->load - lowest->load);
+  BottomTrace result = own.trace;
+  for (std::size_t i = 0; i < histories; ++i) {
+    std::vector<double>& values = history(result, i);
+    const std::vector<double>&others = history(other.trace, i), &low = history(lowest->trace, i),
+          &between = history(middle->trace, i), &high = history(highest->trace, i);
+    const std::size_t width = values.size() / std::max<std::size_t>(result.samples(), 1);
+    std::vector<double> missed(width, 0.0);  // so far, of each station
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      double& most = missed[k % width];
+      most = std::max(most, std::abs(between[k] - std::lerp(low[k], high[k], middle_share)));
+      values[k] = std::lerp(values[k], others[k], share) + most;
+    }
+  }
   return result;
 }
 

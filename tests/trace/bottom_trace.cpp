@@ -121,6 +121,53 @@ TEST(Trace, MirroredIsAsFarOnTheOtherSide) {
   EXPECT_FALSE(mirrored(whole, example(6)));
 }
 
+/// `example` with every pressure and energy times the square of a load.
+BottomTrace under(double load, std::size_t samples = 5) {
+  BottomTrace trace = example(samples);
+  for (auto* values : {&trace.chamber_pressure, &trace.bottom_pressure, &trace.mean_chamber_pressure,
+                       &trace.mean_bottom_pressure, &trace.friction[0], &trace.friction[1]})
+    for (double& value : *values) value *= load * load;
+  return trace;
+}
+
+/// Between 1 and 1.1 the line is at 1.084; it misses the 1 between 0.9^2 and 1.1^2 by 0.01. The square
+/// of 1.04 is 1.0816.
+TEST(TraceAtLoad, IsOnTheLineAndHigherByWhatThatMissesTheMiddleOfThreeBy) {
+  const BottomTrace own = under(1.0), above = under(1.1), below = under(0.9), beyond = under(1.2);
+  const auto found = at_load(1.04, {1.0, own}, {1.1, above}, {0.9, below});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->time, own.time);
+  for (std::size_t k = 0; k < own.samples(); ++k) {
+    EXPECT_NEAR(found->bottom_pressure[k], 1.094 * own.bottom_pressure[k], 1e-9);  // grows with time
+    EXPECT_NEAR(found->friction[1][2 * k], 1.094 * own.friction[1][2 * k], 1e-9);
+  }
+  // The middle one of a case without a lower neighbour is the one above: 1.21 where the line has 1.22.
+  const auto first = at_load(1.04, {1.0, own}, {1.1, above}, {1.2, beyond});
+  ASSERT_TRUE(first);
+  EXPECT_NEAR(first->friction[0].back(), 1.094 * own.friction[0].back(), 1e-9);
+}
+
+/// What was missed at a time is not forgotten later: 2 less below make the line miss the middle by 1 less
+/// 0.01 of its 1.
+TEST(TraceAtLoad, KeepsTheLargestMissSoFar) {
+  const BottomTrace own = under(1.0), above = under(1.1);
+  BottomTrace below = under(0.9);
+  below.friction[0][2] -= 2.0;  // G1 at the second sample
+  const auto found = at_load(1.04, {1.0, own}, {1.1, above}, {0.9, below});
+  ASSERT_TRUE(found);
+  for (std::size_t k = 1; k < own.samples(); ++k)
+    EXPECT_NEAR(found->friction[0][2 * k], 1.084 * own.friction[0][2 * k] + 0.99, 1e-9) << k;
+  EXPECT_NEAR(found->friction[0][3], 1.094 * own.friction[0][3], 1e-9) << "of that station alone";
+}
+
+TEST(TraceAtLoad, OfOtherSamplesIsNothing) {
+  const BottomTrace own = under(1.0), above = under(1.1), longer = under(0.9, 6);
+  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, longer}));
+  BottomTrace later = under(0.9);
+  later.time.back() += 0.5;
+  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, later}));
+}
+
 TEST(Trace, DelayedHoldsTheStateOfTheInstant) {
   const BottomTrace whole = example(9);
   const double instant = whole.time[5], delay = 0.7;

@@ -25,15 +25,6 @@ inline constexpr double assumed_pulse_spread = 0.05;
 /// the 155 mm shell yields, with its power of 3.6 (17 K of 116 K for 4 %). Rounded up.
 inline constexpr double heat_exponent = 4.0;
 
-/// Whether the uncertainty of the inputs is found by propagating the assumed spread, which takes a run with a
-/// raised load beside every case: where verdicts are given and the study states none.
-bool propagates_spread(const Study& study);
-
-/// The same launch with the pressure at the hot end of the assumed spread.
-scene::Scene with_raised_load(const scene::Scene& scene);
-/// "CASE, load +4 %".
-std::string label_of_raised(const StudyCase& input);
-
 /// How far a skin without reaction is heated (K) above the initial temperature: by friction, and by the air
 /// of a gap in addition.
 struct Rises {

@@ -32,6 +32,8 @@ store::CaseIdentity identity_of(const CaseRun& run);
 struct PlannedRun {
   std::function<CaseRun()> make;
   double cost = 1;  ///< predicted particle updates, > 0: of the run, or of one like it
+  /// The case, by its place in the study, whose first run it is: where that is run too, it is run once.
+  std::optional<std::size_t> first_run_of = {};
 };
 /// Of a run that is there already.
 PlannedRun planned_run(CaseRun run);
@@ -48,13 +50,17 @@ inline bool compares_closing(const Study& study, const StudyCase& input) {
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
-  /// The mechanics; then, where the study asks for it, under a raised load, or through the ignition of gaps;
+  /// The mechanics; then, where the study asks for it, under a raised load, or those of its two
+  /// neighbouring_loads, or through the ignition of gaps;
   /// or, where it compares gaps that close, theirs alone (compares_closing);
   /// at last, where `Study::in_detail` says so, the longer launch if there is one, which goes on from the
   /// first.
   std::vector<PlannedRun> runs;
   int shard = 1;
 };
+
+/// How many of them are not the first run of another case.
+std::size_t own_runs(const CaseRuns& runs);
 
 /// A scene with its scene::longer_launch; none where there is none.
 std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene);

@@ -185,6 +185,9 @@ struct StatedUncertainty {
   std::string because;  ///< the source, in words
 };
 
+/// The launch under a raised load, for the spread of the peak pressure.
+enum class RaisedLoad { launched, interpolated };
+
 /// What a study file says, in SI.
 struct Study {
   KindTraits kind;
@@ -231,6 +234,7 @@ struct Study {
   double fit_uncertainty = not_a_number;
   /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated
   double input_uncertainty = not_a_number;
+  RaisedLoad raised_load = RaisedLoad::launched;
 
   std::vector<StatedUncertainty> stated;  ///< by hand, as written
 

@@ -58,6 +58,18 @@ BottomTrace delayed(const BottomTrace& trace, double instant, double delay);
 /// `trace` and b of `other`. Nothing where the two do not have the same samples and stations.
 std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace& other);
 
+/// The history of a launch under a load, as its peak pressure (Pa).
+struct LoadedTrace {
+  double load;
+  const BottomTrace& trace;
+};
+
+/// That of a load near `own` and `other`, linear in the load between them, with every pressure and energy
+/// higher by the most by which the same estimate has missed, until then, the middle one of these two and
+/// `third`, which lies beside them. Nothing where the three do not have the same samples and stations.
+std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const LoadedTrace& other,
+                                   const LoadedTrace& third);
+
 /// The rings alone, which tile the bottom: what is asked of them costs half without observation points.
 BottomTrace of_rings(BottomTrace trace);
 
