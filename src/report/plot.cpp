@@ -239,7 +239,7 @@ std::vector<EndName> names_at_ends(const Plot& plot, const Places& along_y) {
       }
   }
   std::ranges::stable_sort(names, {}, &EndName::place);
-  const double apart = 18.0 / (plot.height - 150.0);
+  const double apart = 24.0 / (plot.height - 170.0);
   // Pushed up from below, then down from above.
   for (std::size_t i = 1; i < names.size(); ++i)
     names[i].place = std::max(names[i].place, names[i - 1].place + apart);

@@ -99,7 +99,7 @@ void interpolate_raised_load(const NeighbouringLoads& loads, std::vector<Finishe
       raised.result.mechanics.trace = std::move(*between);
     } else {
       raised = {};
-      raised.failure = "the run failed: launches of neighbouring peak pressures have other samples";
+      raised.failure = "the run failed: launches at neighbouring peak pressures end at other times";
     }
   }
   runs.erase(beside);

@@ -69,14 +69,33 @@ auto& history(Trace& trace, std::size_t index) {
   }
 }
 
-/// Whether two launches were sampled at the same stations, and times that differ by a twentieth of the
-/// interval between them at the most: they are ends of steps.
-bool are_alike(const BottomTrace& a, const BottomTrace& b) {
-  if (a.samples() != b.samples() || a.stations.size() != b.stations.size()) return false;
+/// Whether two launches have the same stations and closures, and as many samples unless `resampled`.
+bool are_alike(const BottomTrace& a, const BottomTrace& b, bool resampled = false) {
+  if (a.stations.size() != b.stations.size() || (!resampled && a.samples() != b.samples())) return false;
   for (std::size_t i = 0; i < histories; ++i)
-    if (history(a, i).size() != history(b, i).size()) return false;
-  const double apart = a.samples() > 0 ? 0.05 * a.time.back() / static_cast<double>(a.samples()) : 0.0;
-  return std::ranges::equal(a.time, b.time, [&](double s, double t) { return std::abs(s - t) <= apart; });
+    if (history(a, i).size() * b.samples() != history(b, i).size() * a.samples()) return false;
+  return true;
+}
+
+/// Linear between samples, and constant beyond the last.
+BottomTrace sampled_at(const std::vector<double>& times, const BottomTrace& trace) {
+  BottomTrace result = trace;
+  result.time = times;
+  for (std::size_t i = 0; i < histories; ++i) history(result, i).clear();
+  std::size_t after = 0;
+  for (const double time : times) {
+    while (after + 1 < trace.samples() && trace.time[after] < time) ++after;
+    const std::size_t before = after > 0 ? after - 1 : 0;
+    const double interval = trace.time[after] - trace.time[before];
+    const double share = interval > 0.0 ? std::clamp((time - trace.time[before]) / interval, 0.0, 1.0) : 0.0;
+    for (std::size_t i = 0; i < histories; ++i) {
+      const std::vector<double>& values = history(trace, i);
+      const std::size_t width = values.size() / trace.samples();
+      for (std::size_t k = 0; k < width; ++k)
+        history(result, i).push_back(std::lerp(values[before * width + k], values[after * width + k], share));
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -153,8 +172,16 @@ std::optional<BottomTrace> mirrored(const BottomTrace& trace, const BottomTrace&
 
 std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const LoadedTrace& other,
                                    const LoadedTrace& third) {
-  if (!are_alike(own.trace, other.trace) || !are_alike(own.trace, third.trace)) return std::nullopt;
-  std::array<const LoadedTrace*, 3> ordered{&own, &other, &third};
+  if (own.trace.samples() < 2) return std::nullopt;
+  const double interval = own.trace.time.back() / static_cast<double>(own.trace.samples() - 1);
+  for (const LoadedTrace* each : {&other, &third})
+    if (each->trace.samples() < 2 || !are_alike(own.trace, each->trace, true) ||
+        std::abs(each->trace.time.back() - own.trace.time.back()) > interval)
+      return std::nullopt;
+  const BottomTrace of_other = sampled_at(own.trace.time, other.trace),
+                    of_third = sampled_at(own.trace.time, third.trace);
+  const std::array launches{own, LoadedTrace{other.load, of_other}, LoadedTrace{third.load, of_third}};
+  std::array ordered{&launches[0], &launches[1], &launches[2]};
   std::ranges::sort(ordered, {}, &LoadedTrace::load);
   const auto [lowest, middle, highest] = ordered;
   const double share = (load - own.load) / (other.load - own.load);
@@ -162,7 +189,7 @@ std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const Lo
   BottomTrace result = own.trace;
   for (std::size_t i = 0; i < histories; ++i) {
     std::vector<double>& values = history(result, i);
-    const std::vector<double>&others = history(other.trace, i), &low = history(lowest->trace, i),
+    const std::vector<double>&others = history(of_other, i), &low = history(lowest->trace, i),
           &between = history(middle->trace, i), &high = history(highest->trace, i);
     const std::size_t width = values.size() / std::max<std::size_t>(result.samples(), 1);
     std::vector<double> missed(width, 0.0);  // so far, of each station

@@ -160,12 +160,33 @@ TEST(TraceAtLoad, KeepsTheLargestMissSoFar) {
   EXPECT_NEAR(found->friction[0][3], 1.094 * own.friction[0][3], 1e-9) << "of that station alone";
 }
 
-TEST(TraceAtLoad, OfOtherSamplesIsNothing) {
-  const BottomTrace own = under(1.0), above = under(1.1), longer = under(0.9, 6);
-  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, longer}));
-  BottomTrace later = under(0.9);
-  later.time.back() += 0.5;
-  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, later}));
+/// Sampled at other times it is the same history.
+TEST(TraceAtLoad, TakesLaunchesThatWereSampledAtOtherTimes) {
+  const BottomTrace own = under(1.0, 9), above = under(1.1, 9), below = under(0.9, 9);
+  BottomTrace finer = above;
+  finer.time.insert(finer.time.begin() + 4, 0.5 * (above.time[3] + above.time[4]));
+  for (auto* values : {&finer.chamber_pressure, &finer.bottom_pressure, &finer.mean_chamber_pressure,
+                       &finer.mean_bottom_pressure, &finer.steps})
+    values->insert(values->begin() + 4, 0.5 * ((*values)[3] + (*values)[4]));
+  for (auto& energy : finer.friction)
+    for (const int station : {0, 1})
+      energy.insert(energy.begin() + 8 + station, 0.5 * (energy[6 + station] + energy[8 + 2 * station]));
+  const auto found = at_load(1.04, {1.0, own}, {1.1, finer}, {0.9, below}),
+             expected = at_load(1.04, {1.0, own}, {1.1, above}, {0.9, below});
+  ASSERT_TRUE(found && expected);
+  for (std::size_t k = 0; k < own.samples(); ++k) {
+    EXPECT_NEAR(found->mean_bottom_pressure[k], expected->mean_bottom_pressure[k], 1e-9) << k;
+    for (const std::size_t station : {0, 1})
+      EXPECT_NEAR(found->friction[0][2 * k + station], expected->friction[0][2 * k + station], 1e-9) << k;
+  }
+}
+
+TEST(TraceAtLoad, OfALaunchThatEndsOtherwiseOrHasOtherStationsIsNothing) {
+  const BottomTrace own = under(1.0), above = under(1.1);
+  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, under(0.9, 7)}));
+  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, above}, {0.9, of_rings(under(0.9))}));
+  EXPECT_FALSE(at_load(1.04, {1.0, own}, {1.1, BottomTrace{}}, {0.9, under(0.9)}));
+  EXPECT_FALSE(at_load(1.04, {1.0, BottomTrace{}}, {1.1, above}, {0.9, under(0.9)}));
 }
 
 TEST(Trace, DelayedHoldsTheStateOfTheInstant) {
