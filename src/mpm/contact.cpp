@@ -33,23 +33,28 @@ void Contact::reset(const std::vector<Nodes>& nodes) {
     before_.r(m.point) = nodes[m.nodes].velocity_r[m.index];
   }
   pair(nodes);
-  last_dt_ = 0.0;
+  last_dt_ = last_kick_ = 0.0;
   damping_factor_ = 1.0;
   for (Row& row : rows_) row.normal = row.slide = row.from_gas = row.last_slide = row.last_from_gas = 0.0;
 }
 
-ContactTotals Contact::act(std::vector<Nodes>& nodes, double dt, double damping_factor) {
+ContactTotals Contact::act(std::vector<Nodes>& nodes, const StepInput& step) {
+  const double dt = step.dt;
+  kick_ = step.kick;
   damping_factor_before_ = damping_factor_;
-  damping_factor_ = damping_factor;
+  damping_factor_ = step.damping_factor;
   read_nodes(nodes);
   exchange_momentum();
   solve_impulses(dt);
-  const ContactTotals totals = add_up_energy();
+  const double change = change_of_step(step);
+  ContactTotals totals = add_up_energy();
+  totals.step_change = change;
   write_nodes(nodes, dt);
   ++steps_;
   advance_rows(dt);
   if (slid_ > pairing_slide * shortest_cell_ || steps_ >= pairing_steps) pair(nodes);
   last_dt_ = dt;
+  last_kick_ = kick_;
   return totals;
 }
 
@@ -130,7 +135,7 @@ void Contact::begin_impulses(double step_ratio) {
 
 /// Finds the impulses, from those of the last step on.
 void Contact::solve_impulses(double dt) {
-  const double step_ratio = last_dt_ > 0.0 ? dt / last_dt_ : 0.0;
+  const double step_ratio = last_kick_ > 0.0 ? kick_ / last_kick_ : 0.0;
   const bool same_pairs = steps_ > 0;
   begin_impulses(same_pairs ? step_ratio : 0.0);
   for (Row& row : rows_) {
@@ -154,7 +159,7 @@ void Contact::solve_impulses(double dt) {
 /// before damping.
 double Contact::gas_impulse(const Row& row, double speed, double dt) const {
   const double mean = row.gap + row.floor + 0.25 * (dt * speed - last_dt_ * row.opening);
-  return (row.gas.at(mean) - row.gas.outside) * row.area * dt * damping_factor_;
+  return (row.gas.at(mean) - row.gas.outside) * row.area * kick_ * damping_factor_;
 }
 
 /// The impulse of a row's gas where the faces would part with a speed (m/s) without it: that of the speed v
@@ -164,7 +169,7 @@ double Contact::push_by_gas(const Row& row, double speed, double dt) const {
   constexpr double exact = 1e-12;
   constexpr int most = 100;
   const double mobility = 1.0 / row.normal_inertia,
-               suction = row.gas.outside * row.area * dt * damping_factor_;
+               suction = row.gas.outside * row.area * kick_ * damping_factor_;
   const double free = row.gap + row.floor - row.gas.covolume - 0.25 * last_dt_ * row.opening;
   // Between the larger of the speeds that close the covolume and that the strongest suction leaves, and none.
   double low = std::max(-4.0 * free / dt, speed - mobility * suction);
@@ -231,7 +236,7 @@ double Contact::sweep(double dt) {
       normal = std::max(normal, row.from_gas);
       double limit = row.friction * (normal - row.from_gas);
       if (row.held) {
-        const double unit = row.area * dt * damping_factor_;
+        const double unit = row.area * kick_ * damping_factor_;
         limit = std::max(limit, row.shear_strength * unit);
         const double stop = row.normal - opening * row.normal_inertia;
         if (stop < 0.0) normal = std::max(stop, -row.tension_strength * unit);
@@ -258,7 +263,7 @@ bool Contact::break_bonds(double dt) {
   bool any = false;
   for (Row& row : rows_) {
     if (!row.bonded || !(row.area > 0.0)) continue;
-    const double unit = row.area * dt * damping_factor_;
+    const double unit = row.area * kick_ * damping_factor_;
     if (-row.normal <= row.tension_strength * unit && std::abs(row.slide) <= row.shear_strength * unit)
       continue;
     any = true;
@@ -271,6 +276,15 @@ bool Contact::break_bonds(double dt) {
     row.slide = slide;
   }
   return any;
+}
+
+/// Of what TotalLagrangian::change_of_step counts, the part of contact, whose impulses do all of their work.
+double Contact::change_of_step(const StepInput& step) const {
+  if (!step.changes()) return 0.0;
+  Pack work(0.0);
+  for (std::size_t i = 0; i < impulse_.size(); i += math::pack_width)
+    work += impulse_.load(i) * before_.load(i);
+  return -0.5 * step.share_beyond(step.kick_before) / damping_factor_before_ * sum(work);
 }
 
 /// What the impulses took out of the energies.
@@ -345,7 +359,7 @@ void Contact::loosen(double share) {
   for (Row& row : rows_) {
     if (!row.held) continue;
     if (row.bonded) {
-      const double unit = row.area * last_dt_ * damping_factor_;
+      const double unit = row.area * last_kick_ * damping_factor_;
       row.held_tension = unit > 0.0 ? std::max(-row.normal, 0.0) / unit : 0.0;
       row.held_shear = unit > 0.0 ? std::abs(row.slide) / unit : 0.0;
     }
@@ -405,7 +419,7 @@ std::vector<FaceState> Contact::state_of(std::size_t face) const {
   for (std::size_t i = 0; i < f.own.indices.size(); ++i) {
     const Row& row = rows_[f.first_row + i];
     const double per_impulse =
-        row.area > 0.0 && last_dt_ > 0.0 ? 1.0 / (row.area * last_dt_ * damping_factor_) : 0.0;
+        row.area > 0.0 && last_kick_ > 0.0 ? 1.0 / (row.area * last_kick_ * damping_factor_) : 0.0;
     states.push_back({f.own.rest[i], row.area, row.gap, row.normal * per_impulse,
                       direction * row.slide * per_impulse, row.friction_heat, row.slid, direction * row.slip,
                       row.largest_gap, row.overlap, row.bonded});

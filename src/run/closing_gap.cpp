@@ -39,6 +39,7 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
       often_(simulation.scene().surface.turns),
       columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load),
                surface::GapColumns::numerics_of(model_.surface)) {
+  simulation.centre_kicks();
   mpm::Contact& contact = contact_of(simulation);
   for (std::size_t face = 0; face < contact.faces(); ++face)
     if (is_bottom(simulation.scene(), contact, face))

@@ -141,10 +141,9 @@ class Contact {
   bool any() const { return !faces_.empty(); }
   /// Takes the nodes' velocities as those of the step before, without impulses. Broken bonds stay broken.
   void reset(const std::vector<Nodes>& nodes);
-  /// Acts on nodes that a step of dt (s) has moved freely, with damping that kept the share `damping_factor`
-  /// of their velocity. Tractions are those that the step would have had to apply before damping, as it does
-  /// forces.
-  ContactTotals act(std::vector<Nodes>& nodes, double dt, double damping_factor);
+  /// Acts on nodes that a step has moved freely. Tractions are those that the step would have had to apply,
+  /// for as long as it does forces, before damping.
+  ContactTotals act(std::vector<Nodes>& nodes, const StepInput& step);
 
   /// Faces in the order of the scene's interfaces.
   std::size_t faces() const { return faces_.size(); }
@@ -288,6 +287,7 @@ class Contact {
   void push_by_common_gas(double dt);
   double sweep(double dt);
   bool break_bonds(double dt);
+  double change_of_step(const StepInput& step) const;
   ContactTotals add_up_energy();
   void write_nodes(std::vector<Nodes>& nodes, double dt) const;
   void advance_rows(double dt);
@@ -312,6 +312,7 @@ class Contact {
   Field before_;                      ///< m/s, which the last step moved by
   Field impulse_;                     ///< kg m/s, of the last step
   double last_dt_ = 0;                ///< s
+  double kick_ = 0, last_kick_ = 0;   ///< s, as StepInput::kick
   double damping_factor_ = 1;         ///< share of the velocity that damping leaves
   double damping_factor_before_ = 1;  ///< the same of the last step
   double slid_ = 0;                   ///< m, since the faces were paired

@@ -96,6 +96,7 @@ class TotalLagrangian {
   double body_force_work(double dt) const;
   template <class F>
   void for_each_bore_share(F&& f) const;
+  Pack change_of_step(const Nodes& nodes, int row, const StepInput& input) const;
   void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
   void advance_rows(const Rows& rows, const StepInput& input);
   void apply_contact(const StepInput& input);
