@@ -120,8 +120,8 @@ class Simulation {
   void apply_body_force(int body, double acceleration_x, double acceleration_r);
 
  private:
-  /// Inertial over true mass of a body.
   void add_to_energy(const StepTotals& totals, const StepInput& begin);
+  /// Of the frame, m/s2, under a pressure of the chamber (Pa).
   double acceleration_under(double pressure) const;
 
   scene::Scene scene_;
