@@ -24,6 +24,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 
 namespace launchsafe::app {

@@ -291,6 +291,8 @@ Fault read_references(const StudySource& source, StudyFile& study) {
 }
 
 scene::Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
+  // A study's file would be told by its path from the study's folder.
+  if (const auto text = scene::read_text_file(file); !text) return text.error();
   StudyFile study;
   study.study.references_file = file.string();
   if (Fault fault = read_references({toml::table(), {}, {}, {}}, study)) return *fault;

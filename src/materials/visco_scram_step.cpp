@@ -1,6 +1,7 @@
 #include "launchsafe/materials/visco_scram_step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace launchsafe::materials {
 

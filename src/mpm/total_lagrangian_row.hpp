@@ -5,8 +5,6 @@
 #include "launchsafe/mpm/material_step.hpp"
 #include "launchsafe/mpm/total_lagrangian.hpp"
 
-#include <limits>
-
 namespace launchsafe::mpm {
 
 /// A cell whose area or hoop stretch falls below this share, or whose volume grows beyond its inverse, has

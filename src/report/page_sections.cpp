@@ -37,9 +37,6 @@ std::string with_alternative(std::string svg, const std::string& title, const st
   return svg.insert(end, " role=\"img\"");
 }
 
-/// The class of a verdict's cell: the verdict, unless the row says otherwise.
-Row look_of(const Row& row) { return found_in(row, row.contains("look") ? "look" : "verdict"); }
-
 /// The sections with their blocks, as programs read them and templates of pages do.
 struct Sections {
   const PageFacts& all;
@@ -108,6 +105,15 @@ struct Sections {
     if (!said.empty()) put(text, text.look.c_str(), facts, {{"text", said}});
   }
 
+  /// The class of a verdict's cell. Green is for what rests on no value that somebody had to accept, and on
+  /// nothing that was invented.
+  std::string look_of(const Row& row) const {
+    const std::string verdict = text_of(row, "verdict");
+    const bool accepted =
+        !text_of(row, "accepted").empty() || !found_in(all.facts, "main.demonstration").is_null();
+    return verdict == "SAFE" && accepted ? "ACCEPTED" : verdict;
+  }
+
   /// Of a table without columns all that its rows have. Pages leave a column out that is empty.
   void add_table(const PageText& text, const std::vector<const Row*>& rows) {
     if (rows.empty()) return;
@@ -134,10 +140,11 @@ struct Sections {
         block["rows"][i][column.key] = value.is_null() && !cells[i].empty() ? Row(cells[i]) : value;
         // The look follows from the program's word, also where a template translates it.
         if (!is_empty)
-          block["rows"][i]["cells"].push_back(
-              {{"name", heading},
-               {"text", word(column.key + "." + cells[i], cells[i])},
-               {"look", column.key == "verdict" ? look_of(*rows[i]) : Row(is_number ? "number" : "")}});
+          block["rows"][i]["cells"].push_back({{"name", heading},
+                                               {"text", word(column.key + "." + cells[i], cells[i])},
+                                               {"look", column.key == "verdict" ? look_of(*rows[i])
+                                                        : is_number             ? "number"
+                                                                                : ""}});
       }
     }
     put(text, "table", *rows.front(), std::move(block));
@@ -147,11 +154,9 @@ struct Sections {
   void add_figure(const PageText& text, const Row& facts) {
     const std::string file = text_of(facts, "file"), caption = words(text.id, facts),
                       alternative = words("alternative." + text.id.substr(text.id.find('.') + 1), facts);
-    std::string svg;
-    if (const auto& drawing = all.drawings.at(file); std::holds_alternative<std::string>(drawing))
-      svg = std::get<std::string>(drawing);
-    else if (remarks.empty()) {
-      auto made = to_svg(std::get<Drawing>(drawing), limits);
+    std::string svg = text_of(facts, "svg");
+    if (svg.empty() && remarks.empty()) {
+      auto made = to_svg(all.drawings.at(file), limits);
       if (made)
         svg = std::move(*made);
       else

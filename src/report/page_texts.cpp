@@ -278,10 +278,12 @@ std::vector<const Row*> selected(const PageText& text, const Row& facts) {
       const auto [least, most] = std::ranges::minmax(rows, {}, number);
       const double wanted = number(rule == "largest" ? most : least);
       std::erase_if(rows, [&](const Row* row) { return number(row) != wanted; });
-    } else if (words >> value) {  // where, except
+    } else if (words >> value) {  // where, except, begins
       const std::string wanted = filled(value, {&facts});
       std::erase_if(rows, [&](const Row* row) {
-        return (fact_text(found_in(*row, key)) == wanted) != (rule == "where");
+        const std::string found_text = fact_text(found_in(*row, key));
+        return rule == "begins" ? !found_text.starts_with(wanted)
+                                : (found_text == wanted) != (rule == "where");
       });
     }
   }

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 
 namespace launchsafe::report {
@@ -44,27 +43,14 @@ std::pair<std::string, std::string> parts_of(const std::string& input) {
   return {input.substr(0, begin), scene.substr(0, scene.find("\n\n# "))};
 }
 
-/// A study file; without a kind, for which it is refused, where a manifest was edited.
-Row keys_asked(const std::string& study_file) {
-  try {
-    std::ostringstream keys;
-    keys << toml::json_formatter(toml::parse(study_file));
-    return Row::parse(keys.str());
-  } catch (const toml::parse_error&) {
-    return Row::object();
-  }
-}
-
-/// Files as they were written.
+/// Files as they were written; a picture stands in the row that tells what it shows.
 store::MaybeError read_files(StudyEvidence& study) {
   auto files = store::read_as_written(study.folder, study.record.files);
   if (!files)
     return refused(
         fmt::format("{}; allowed: files as they were written ({})", files.error().message, study.command()));
-  for (store::TextFile& file : *files) {
+  for (const store::TextFile& file : *files)
     if (file.name == results) study.study = Row::parse(file.text, nullptr, false);
-    if (file.name.ends_with(".svg")) study.drawings[file.name] = std::move(file.text);
-  }
   if (study.study.is_null()) return {};
   const std::string kind = text_of(study.study, "kind");
   if (kind.empty() || kind != study.kind)
@@ -73,25 +59,29 @@ store::MaybeError read_files(StudyEvidence& study) {
         fmt::format("found results of kind \"{}\", its manifest is of a study of kind {}", kind, study.kind),
         "results as a study writes them");
   study.title = text_of(study.study, "title");
-  if (study.record.study.empty()) study.record.study = text_of(study.study, "study");
+  for (Row& picture : study.study["pictures"])
+    for (store::TextFile& file : *files)
+      if (file.name == text_of(picture, "file")) picture["svg"] = std::move(file.text);
   return {};
 }
 
-Tells told_by(const StudyEvidence& study) {
+bool closes(const StudyEvidence& study) {
+  return study.scene.scene.surface.model == scene::GapModel::closing;
+}
+
+/// The accuracy of launches whose gap closes, or what they depend on, says nothing of the reservoir.
+std::string told_by(const StudyEvidence& study) {
   const auto first_has = [&](const char* table, const char* key) {
     const Row& rows = study.rows(table);
     return !rows.empty() && rows.front().contains(key);
   };
   // A study of a few launches tells how each of them ran.
-  if (study.study.contains("verdicts")) return study.study.contains("runs") ? Tells::launch : Tells::sweep;
-  if (first_has("settings", "temperature_bound_K")) return Tells::accuracy;
-  if (study.study.contains("indices")) return Tells::sensitivity;
-  if (first_has("cases", "invariants")) return Tells::stability;
-  return first_has("cases", "variant") ? Tells::models : Tells::nothing;
-}
-
-bool closes(const StudyEvidence& study) {
-  return study.scene.scene.surface.model == scene::GapModel::closing;
+  if (study.study.contains("verdicts"))
+    return !study.study.contains("runs") ? tells::sweep : closes(study) ? tells::closing : tells::launch;
+  if (first_has("settings", "temperature_bound_K")) return closes(study) ? tells::nothing : tells::accuracy;
+  if (study.study.contains("indices")) return closes(study) ? tells::nothing : tells::sensitivity;
+  if (first_has("cases", "invariants")) return tells::stability;
+  return first_has("cases", "variant") ? tells::models : tells::nothing;
 }
 
 /// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
@@ -101,12 +91,12 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
                at_least = number_of(critical, "critical_gap_at_least_cm");
   if (!(margin > 0.0)) return false;
   // Of many cases whose gaps close the worst corner was not computed.
-  if (study.tells == Tells::sweep && closes(study)) return false;
+  if (study.tells == tells::sweep && closes(study)) return false;
   for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
     if (!text_of(row, fault).empty()) return false;
   // Another ignition temperature than the scene's may be what a sweep is over.
   const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
-  if (study.tells == Tells::launch &&
+  if (study.tells != tells::sweep &&
       !(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack))
     return false;
   const std::string kind = text_of(critical, "critical_gap_kind");
@@ -116,7 +106,7 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
 
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
 store::MaybeError check_verdicts(const StudyEvidence& study) {
-  if (study.tells != Tells::launch && study.tells != Tells::sweep) return {};
+  if (!study.study.contains("verdicts")) return {};
   const Row &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
   if (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0)
     return refused(study, results,
@@ -156,9 +146,10 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
                                manifest.model_version, run::model_version),
                    "studies of this version");
   const auto [file, scene_text] = parts_of(manifest.input_text);
-  study.asked = keys_asked(file);
-  study.kind = text_of(study.asked, "kind");
-  study.title = text_of(study.asked, "title");
+  // Of a manifest that was edited nothing is asked, and it is refused for its kind.
+  if (auto asked = scene::parse_toml(file, folder / store::manifest_name)) study.asked = std::move(*asked);
+  study.kind = study.asked["kind"].value_or("");
+  study.title = study.asked["title"].value_or("");
   auto scene = scene::parse_scene(scene_text, folder / store::manifest_name);
   if (!scene)
     return refused(fmt::format("{}: its input holds no scene that this program reads: {}",
@@ -181,18 +172,6 @@ bool is_of_shell(const std::string& key) {
          key.starts_with("charge.") || key.starts_with("elastic.") || key.starts_with("material.");
 }
 
-/// A launch whose gap closes stands beside one whose air is a reservoir, where there is one. The accuracy of
-/// such launches, or what they depend on, says nothing of the reservoir.
-void tell_closing(std::vector<StudyEvidence>& studies) {
-  const bool beside_reservoir = std::ranges::any_of(
-      studies, [](const StudyEvidence& each) { return each.tells == Tells::launch && !closes(each); });
-  for (StudyEvidence& study : studies) {
-    if (!closes(study)) continue;
-    if (study.tells == Tells::accuracy || study.tells == Tells::sensitivity) study.tells = Tells::nothing;
-    if (study.tells == Tells::launch && beside_reservoir) study.tells = Tells::closing;
-  }
-}
-
 /// One study of a kind, and all of one shell.
 store::MaybeError compare_studies(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
@@ -204,7 +183,7 @@ store::MaybeError compare_studies(SafetyEvidence& evidence) {
       return refused(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
                                  first->folder.string(), study.folder.string(), study.kind));
     // One about the program, and not about a launch, has scenes of its own.
-    if (&study == &main || study.tells == Tells::stability) continue;
+    if (&study == &main || study.tells == tells::stability) continue;
     study.differences = study::differences(study.scene.scene, main.scene.scene);
     const auto said_by = [](const scene::Acceptance& one) { return one.key + "=" + one.value; };
     if (!std::ranges::equal(study.scene.scene.accepted, main.scene.scene.accepted, {}, said_by, said_by))
@@ -242,17 +221,11 @@ bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
 
 /// Whether two cases are of one launch, computed with the same numerics.
 bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
-  for (const CaseEvidence* judged : {&a, &b}) {
-    for (const auto& [key, value] : judged->values)
-      if (!study::same_number(a.value(key), b.value(key))) return false;
-    for (const study::Difference& each : judged->study->differences) {
-      const std::string& key = each.key.name;
-      const bool is_of_launch =
-          key != "title" && key != "accept" && key != "gap.thickness" && !key.starts_with("output.");
-      if (is_of_launch && !a.values.contains(key) && !b.values.contains(key)) return false;
-    }
-  }
-  return true;
+  // Of many cases most are told apart by their peaks.
+  if (!study::same_number(a.value("load.peak"), b.value("load.peak"))) return false;
+  const auto first = a.scene(), second = b.scene();
+  return first && second &&
+         std::ranges::none_of(study::differences(first->scene, second->scene), is_of_launch);
 }
 
 /// Refuses studies that judge the same launch, with the same numerics, by different lower bounds of its
@@ -309,12 +282,12 @@ store::MaybeError check_against_run(const CaseEvidence& judged, StoredLaunch& st
 /// As far as they were kept. A file under another case's name is damaged too.
 store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
-  if (main.tells != Tells::launch) return {};
+  if (main.tells != tells::launch) return {};
   for (const CaseEvidence& each : cases_of(main)) {
     const path name(text_of(*each.run, "stored_case"));
     if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(main.folder / name))
       continue;
-    const auto scene = study::with_changes(main.scene, each.changes());
+    const auto scene = each.scene();
     if (!scene)
       return refused(main, results, "found a case that its scene cannot be: " + scene.error().message(),
                      "results as a study writes them");
@@ -334,29 +307,35 @@ store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
 
 }  // namespace
 
+bool is_of_launch(const study::Difference& difference) {
+  const std::string& key = difference.key.name;
+  return key != "title" && key != "gap.thickness" && !key.starts_with("output.");
+}
+
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
-  if (study.tells != Tells::launch && study.tells != Tells::sweep) return {};
+  if (study.tells != tells::launch && study.tells != tells::sweep) return {};
   // Peak pressure and defect stand in every table of cases or verdicts.
-  Row axes = Row::array();
+  Row axes = study.rows("axes");
   for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure},
                                     {"charge.crack_radius", quantity::crack_radius},
                                     {"charge.flaw_size", quantity::flaw_size}})
     axes.push_back({{"scene_key", key}, {"key", column.key()}, {"unit", column.form.unit}});
-  for (const Row& axis : study.rows("axes"))
-    if (text_of(axis, "key") != quantity::gap.key()) axes.push_back(axis);
   const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
   const std::size_t gaps = verdicts.size() / criticals.size();
   std::vector<CaseEvidence> cases;
   for (const Row& critical : criticals) {
-    CaseEvidence each{&study, &critical, &critical, text_of(critical, "case"), {}, {}};
+    CaseEvidence each{&study, &critical, &critical, text_of(critical, "case")};
     for (std::size_t i = 0; i < gaps; ++i) each.verdicts.push_back(&verdicts[cases.size() * gaps + i]);
     for (const Row& axis : axes) {
-      const std::string column = text_of(axis, "key"), unit = text_of(axis, "unit");
-      const auto key = scene::describe_key(study.scene, text_of(axis, "scene_key"), {});
+      const std::string name = text_of(axis, "scene_key"), column = text_of(axis, "key");
+      const auto key = scene::describe_key(study.scene, name, {});
       double shown = number_of(critical, column);
       if (std::isnan(shown)) shown = number_of(*each.verdicts.front(), column);
-      if (!key || std::isnan(shown)) continue;
-      each.values[key->name] = shown / shown_value(1.0, {.dimension = key->dimension, .unit = unit});
+      if (!key || std::isnan(shown) || column == quantity::gap.key()) continue;
+      const double value =
+          shown / shown_value(1.0, {.dimension = key->dimension, .unit = text_of(axis, "unit")});
+      if (!study::same_number(value, own_value(study, name)))
+        each.changes.push_back({name, value, {}, name, {}});
     }
     for (const Row& run : study.rows("runs"))
       if (text_of(run, "case") == each.label) each.run = &run;
@@ -371,15 +350,8 @@ double own_value(const StudyEvidence& study, const std::string& key) {
 }
 
 double CaseEvidence::value(const std::string& key) const {
-  const auto found = values.find(key);
-  return found != values.end() ? found->second : own_value(*study, key);
-}
-
-std::vector<study::Change> CaseEvidence::changes() const {
-  std::vector<study::Change> changes;
-  for (const auto& [key, value] : values)
-    if (!study::same_number(value, own_value(*study, key))) changes.push_back({key, value, {}, key, {}});
-  return changes;
+  const auto found = std::ranges::find(changes, key, &study::Change::key);
+  return found != changes.end() ? std::get<double>(found->value) : own_value(*study, key);
 }
 
 }  // namespace safety
@@ -394,15 +366,15 @@ const Row& StudyEvidence::rows(const std::string& table) const {
   return found != study.end() && found->is_array() ? *found : none;
 }
 
-const StudyEvidence* SafetyEvidence::find(Tells what) const {
+const StudyEvidence* SafetyEvidence::find(const std::string& what) const {
   const auto found = std::ranges::find(studies, what, &StudyEvidence::tells);
   return found != studies.end() ? &*found : nullptr;
 }
 
 const StudyEvidence& SafetyEvidence::main() const {
-  if (const StudyEvidence* launch = find(Tells::launch)) return *launch;
+  if (const StudyEvidence* launch = find(tells::launch)) return *launch;
   const auto found = std::ranges::find_if(
-      studies, [](const StudyEvidence& study) { return !study.finished() || study.tells == Tells::sweep; });
+      studies, [](const StudyEvidence& study) { return !study.finished() || study.tells == tells::sweep; });
   return found != studies.end() ? *found : studies.front();
 }
 
@@ -413,7 +385,10 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesy
     if (!study) return study.error();
     evidence.studies.push_back(std::move(*study));
   }
-  safety::tell_closing(evidence.studies);
+  // A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
+  if (evidence.find(tells::launch) == nullptr)
+    for (StudyEvidence& study : evidence.studies)
+      if (study.tells == tells::closing) study.tells = tells::launch;
   if (auto error = safety::compare_studies(evidence)) return *error;
   if (auto error = safety::check_agreement(evidence)) return *error;
   if (auto error = safety::read_stored_runs(evidence)) return *error;

@@ -34,7 +34,7 @@ Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
 /// Whether the main study took the record that a study wrote: by its digest, or by a bound that its cases
 /// took from one.
 std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
-  if (study.tells != Tells::models && study.tells != Tells::accuracy) return {};
+  if (study.tells != tells::models && study.tells != tells::accuracy) return {};
   const bool used = std::ranges::any_of(study.record.files, [&](const store::WrittenFile& file) {
     return main.record.manifest.input_text.find(file.sha256) != std::string::npos;
   });
@@ -45,32 +45,30 @@ std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
   Row facts = store::to_json(study.record);
   facts.erase("input");
-  Row all = Row::array(), told = Row::array();  // what a scene writes out changes no number
-  for (const study::Difference& each : study.differences) {
-    all.push_back(each.key.name);
-    if (each.key.name != "title" && !each.key.name.starts_with("output.")) told.push_back(each.key.name);
-  }
   facts.update({{"label", study.label},
                 {"kind", study.kind},
                 {"command", study.command()},
                 {"scene_title", study.scene.scene.title},
                 {"finished", study.finished()},
                 {"record_used", record_text(main, study)},
-                {"own_scenes", study.tells == Tells::stability},
-                {"all_differences", all},
-                {"differences", told},
-                {"asked", study.asked}});
+                {"own_scenes", study.tells == tells::stability},
+                {"all_differences", Row::array()},
+                {"differences", Row::array()},  // what a scene writes out changes no number
+                {"calibrated_by_record", study.asked.contains("calibration")}});
+  for (const study::Difference& each : study.differences) {
+    facts["all_differences"].push_back(each.key.name);
+    if (each.key.name != "title" && !each.key.name.starts_with("output."))
+      facts["differences"].push_back(each.key.name);
+  }
   return facts;
 }
 
 /// Whether a study is of the main one's launch: numerics may differ, and what it varies itself.
 bool is_of_same_launch(const StudyEvidence& study) {
-  return std::ranges::all_of(study.differences, [&](const study::Difference& each) {
-    const std::string& key = each.key.name;
-    return key == "title" || key == "gap.thickness" || key.starts_with("numerics.") ||
-           key.starts_with("output.") || std::ranges::any_of(study.rows("inputs"), [&](const Row& input) {
-             return text_of(input, "scene_key") == key;
-           });
+  return std::ranges::none_of(study.differences, [&](const study::Difference& each) {
+    const auto varies = [&](const Row& input) { return text_of(input, "scene_key") == each.key.name; };
+    return is_of_launch(each) && !each.key.name.starts_with("numerics.") &&
+           std::ranges::none_of(study.rows("inputs"), varies);
   });
 }
 
@@ -140,7 +138,6 @@ bool is_uncertain(const Row* verdict) {
 /// The row of a case, and how its verdicts came out.
 Row told_case(const CaseEvidence& judged) {
   Row row = *judged.critical;
-  row["case"] = judged.label;
   row["confirmed"] = is_confirmed(judged);
   for (const char* word : {"SAFE", "INDETERMINATE", "UNSAFE"})
     row[word] = std::ranges::count(judged.verdicts, word,
@@ -148,32 +145,23 @@ Row told_case(const CaseEvidence& judged) {
   return row;
 }
 
-/// The row with how its verdict looks: green is for what rests on no value that somebody had to accept, and
-/// on nothing that was invented.
-Row with_look(const CaseEvidence& judged, Row row) {
-  const bool accepted = !text_of(row, "accepted").empty();
-  if (text_of(row, "verdict") == "SAFE" && (accepted || judged.study->study.contains("demonstration")))
-    row["look"] = "ACCEPTED";
-  return row;
-}
-
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
 /// no margin, nor is anything after ignition, when T max is that of the burning skin.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
-  Row row = with_distance(judged, with_look(judged, verdict));
-  const double margin = number_of(row, "margin_K"), uncertainty = number_of(row, "uncertainty_K");
+  Row row = with_distance(judged, verdict);
   const bool ignited = !text_of(row, "ignition_cause").empty();
-  const bool is_known = judged.completed() && std::isfinite(uncertainty) && !is_uncertain(&row);
-  const int decimals = decimals_for(uncertainty);
-  const auto down = [&](bool told, double value, int places) {
-    return told && judged.completed() && std::isfinite(value) ? Row(rounded_down(value, places)) : Row();
+  const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
+               known = is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
+  const int decimals = decimals_for(number_of(row, "uncertainty_K"));
+  const auto told = [&](double value) {
+    return judged.completed() && std::isfinite(value) ? Row(value) : Row();
   };
   row["case"] = judged.label;
-  row["margin_K"] = down(!ignited, margin, decimals);
-  row["uncertainty_K"] = is_known ? Row(rounded_up(uncertainty, decimals)) : Row();
-  row["margin_over_uncertainty"] = down(is_known && uncertainty > 0 && !ignited, margin / uncertainty, 1);
-  row["distance_cm"] = down(true, number_of(row, "distance_cm"), 3);
-  if (!judged.completed()) row["temperature_max_K"] = nullptr;
+  row["temperature_max_K"] = told(number_of(row, "temperature_max_K"));
+  row["margin_K"] = told(rounded_down(margin, decimals));
+  row["uncertainty_K"] = told(rounded_up(known, decimals));
+  row["margin_over_uncertainty"] = told(rounded_down(margin / known, 1));
+  row["distance_cm"] = told(rounded_down(number_of(row, "distance_cm"), 3));
   // What else the reason says, but for what page one says of all rows.
   for (const char* clause : {"limited", "noise", "ring", "model_form"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
@@ -215,99 +203,64 @@ std::string temperature_text(const StudyEvidence& main, const std::vector<CaseEv
   return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
 }
 
-/// The pictures of a study whose names begin so, as it drew them, with what it says that they show.
-Row drawings_of(const StudyEvidence* study, const std::string& name, PageFacts& all) {
-  Row pictures = Row::array();
-  if (study == nullptr) return pictures;
-  for (const auto& [file, drawing] : study->drawings) {
-    if (!file.starts_with(name)) continue;
-    all.drawings[file] = drawing;
-    Row& picture = pictures.emplace_back(Row{{"file", file}});
-    for (const Row& each : study->rows("pictures"))
-      if (text_of(each, "file") == file) picture = each;
-  }
-  return pictures;
-}
-
-/// The case that the report is about in detail.
-Row own_facts(const SafetyEvidence& evidence, const CaseEvidence& own, PageFacts& all) {
-  Row facts = told_case(own);
+/// Of the cases of a launch, one of them in detail. Few verdicts stand on page one, and of many the cases.
+void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>& cases, PageFacts& all) {
+  const CaseEvidence& own = own_case(cases);
+  Row facts = told_case(own), verdicts = Row::array();
   facts["is_own"] = own.is_own();
+  facts["told"] = cases.size() == 1 || own.is_own();
   facts["completed"] = own.completed();
   facts["certain"] = own.completed() && !std::ranges::all_of(own.verdicts, is_uncertain);
-  if (!own.completed()) return facts;
-  facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
-                                        [&](const Row& row) { return text_of(row, "case") == own.label; });
-  for (const Row* row : own.verdicts) facts["verdicts"].push_back(with_look(own, *row));
-  if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
-    all.facts["pictures"] = picture_facts(own, stored->second, all);
-  return facts;
-}
-
-/// Of the cases of a launch. Few verdicts stand on page one, and of many the cases.
-void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>& cases, PageFacts& all) {
-  Row& facts = all.facts;
-  const CaseEvidence& own = own_case(cases);
-  facts["own"] = own_facts(evidence, own, all);
-  facts["own"]["told"] = cases.size() == 1 || own.is_own();
-  facts["judged"] = true;
-  Row verdicts = Row::array();
+  if (own.completed()) {
+    facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
+                                          [&](const Row& row) { return text_of(row, "case") == own.label; });
+    for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);
+    if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
+      all.facts["pictures"] = picture_facts(*own.study, facts, stored->second, all);
+  }
   for (const CaseEvidence& each : cases)
     for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row));
-  facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {{"verdicts", verdicts},
-                                                                      {"cases", facts["answer"]["cases"]}};
+  all.facts["own"] = facts;
+  all.facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {
+      {"verdicts", verdicts}, {"cases", all.facts["answer"]["cases"]}};
 }
 
 PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
   const StudyEvidence& main = evidence.main();
   const std::vector<CaseEvidence> cases = cases_of(main);
-  const bool of_launch = main.tells == Tells::launch;
+  const bool of_launch = main.tells == tells::launch;
   PageFacts all;
   Row& facts = all.facts;
-  // With its tables.
-  const auto tables_of = [&](const StudyEvidence& study) {
+  for (const StudyEvidence& study : evidence.studies) {
+    const Row told = about(study, main);
+    facts["studies"].push_back(told);
+    // With its tables.
     Row tables = study.finished() ? study.study : Row::object();
-    tables.update(about(study, main));
-    return tables;
-  };
-  facts["main"] = tables_of(main);
-  for (const StudyEvidence& study : evidence.studies) facts["studies"].push_back(about(study, main));
-  for (const auto& [name, tells] : {std::pair{"launch", Tells::launch},
-                                    {"closing", Tells::closing},
-                                    {"sweep", Tells::sweep},
-                                    {"models", Tells::models},
-                                    {"accuracy", Tells::accuracy},
-                                    {"sensitivity", Tells::sensitivity},
-                                    {"stability", Tells::stability}}) {
-    const StudyEvidence* study = evidence.find(tells);
-    facts[name] = study != nullptr ? tables_of(*study) : Row();
-    if (study == nullptr && tells != Tells::closing) facts["missing"] = true;
+    tables.update(told);
+    if (&study == evidence.find(study.tells)) facts[study.tells] = tables;
+    if (&study == &main) facts["main"] = std::move(tables);
   }
-  facts["scene"] = scene_facts(main, all);
+  for (const std::string& name :
+       {tells::launch, tells::sweep, tells::models, tells::accuracy, tells::sensitivity, tells::stability})
+    if (!facts.contains(name)) facts["missing"] = true;
+  facts["scene"] = scene_facts(main);
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion,
-                              evidence.find(Tells::sensitivity));
-  facts["sweeps"] = main.tells == Tells::sweep;
-  std::set<std::string> models;  // under which ignition is not excluded
-  for (const Row& row : main.rows("verdicts"))
-    if (text_of(row, "verdict") != "UNSAFE") models.insert(text_of(row, "model_form"));
-  models.erase("");
-  facts["other_models"] = models;
+                              evidence.find(tells::sensitivity));
   if (of_launch) add_launch(evidence, cases, all);
-  if (const StudyEvidence* accuracy = evidence.find(Tells::accuracy))
+  if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
-  if (const StudyEvidence* sensitivity = evidence.find(Tells::sensitivity))
+  if (const StudyEvidence* sensitivity = evidence.find(tells::sensitivity))
     facts["same_launch"] = is_of_same_launch(*sensitivity);
-  facts["drawings"] = {{"launch", drawings_of(evidence.find(Tells::launch), "temperature", all)},
-                       {"sweep", drawings_of(evidence.find(Tells::sweep), "critical_gap", all)},
-                       {"models", drawings_of(evidence.find(Tells::models), "model_form", all)}};
-  // How far those published rows are off that were not fitted.
+  const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
+  std::set<std::string> models;  // under which ignition is not excluded
+  for (const Row* row : rows("main.verdicts except verdict UNSAFE with model_form"))
+    models.insert(text_of(*row, "model_form"));
+  facts["other_models"] = models;
   double worst = 0;
-  for (const Row& row : main.rows("comparison"))
-    if (const double misfit = std::abs(number_of(row, "temperature_max_computed_minus_published_K"));
-        text_of(row, "used_for") != "fitted" && misfit > worst)
-      worst = misfit;
+  for (const Row* row : rows("main.comparison except used_for fitted"))
+    worst = std::max(worst, std::abs(number_of(*row, "temperature_max_computed_minus_published_K")));
   if (!main.rows("comparison").empty()) facts["published"]["worst_K"] = worst;
   return all;
 }

@@ -12,26 +12,28 @@ struct CaseEvidence {
   const Row* critical;  ///< its row of the table of cases
   const Row* run;       ///< its row of the table of runs; that of the case where the study has none
   std::string label;    ///< "496 MPa, 30 µm, 1 mm"; of a sweep its place on the axes
-  std::vector<const Row*> verdicts;
-  std::map<std::string, double> values;  ///< SI, by scene key: in what its launch may differ
+  std::vector<const Row*> verdicts = {};
+  std::vector<study::Change> changes = {};  ///< what it has otherwise than the study's scene
 
+  bool is_own() const { return changes.empty(); }
   /// Temperatures of a run that was cut off are those of a part of the launch.
   bool completed() const { return text_of(*run, "status") == "completed"; }
   /// SI, of a scene key.
   double value(const std::string& key) const;
-  /// What it has otherwise than the study's scene.
-  std::vector<study::Change> changes() const;
-  bool is_own() const { return changes().empty(); }
+  scene::Expected<scene::SceneFile> scene() const { return study::with_changes(study->scene, changes); }
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);
+
+/// Whether it makes another launch, or computes it otherwise.
+bool is_of_launch(const study::Difference& difference);
 
 /// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 
 /// The scene and its inputs, and what of the physics was left out.
-Row scene_facts(const StudyEvidence& study, PageFacts& all);
-/// The load, histories, profiles and fields of a case that was stored.
-Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFacts& all);
+Row scene_facts(const StudyEvidence& study);
+/// The load, histories, profiles and fields of a case that was stored, with its verdicts.
+Row picture_facts(const StudyEvidence& study, const Row& own, const StoredLaunch& stored, PageFacts& all);
 
 }  // namespace launchsafe::report::safety

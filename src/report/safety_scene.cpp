@@ -28,60 +28,49 @@ std::string short_value(const std::string& value) {
 
 /// All inputs, but those of a law of which no body is made.
 Row inputs_of(const scene::SceneFile& file) {
-  std::vector<scene::ListedKey> listed = scene::list_keys(file);
+  const auto known = [](const std::string& name) { return scene::find_key(scene::scene_keys(), name); };
+  std::vector<std::string> names;
+  for (const scene::ListedKey& key : scene::list_keys(file)) names.push_back(key.name);
   // Values of bodies, interfaces and further materials whose source the scene says.
   for (const scene::Source& source : file.scene.sources)
-    for (const std::string& name : source.keys)
-      if (const auto key = scene::describe_key(file, name, {});
-          key && scene::find_key(scene::scene_keys(), name) == nullptr)
-        listed.push_back({name,
-                          scene::format_value(*key, scene::value_in(file, name)),
-                          source.standing,
-                          key->sentence,
-                          {},
-                          source.citation});
-  const std::vector<scene::DocumentedKey> documented = scene::describe_keys();
-  const auto name_of = [](const scene::DocumentedKey& key) { return key.description.name; };
+    std::ranges::copy_if(source.keys, std::back_inserter(names),
+                         [&](const std::string& name) { return known(name) == nullptr; });
   Row inputs = Row::array();
-  for (const scene::ListedKey& key : listed) {
-    const std::string law = key.name.substr(0, key.name.find('.'));
-    if ((law == "steel" || law == "elastic") &&
-        std::ranges::find(file.scene.bodies, law, &scene::Body::material) == file.scene.bodies.end())
-      continue;
+  for (const std::string& name : names) {
+    const std::string law = name.substr(0, name.find('.'));
+    const bool is_unused =
+        (law == "steel" || law == "elastic") &&
+        std::ranges::find(file.scene.bodies, law, &scene::Body::material) == file.scene.bodies.end();
+    const auto key = scene::describe_key(file, name, {});
+    if (is_unused || !key) continue;
+    const std::string value = scene::format_value(*key, scene::value_in(file, name));
+    std::string standing = "stated";
+    if (const scene::Source* source = scene::source_of(file.scene.sources, name))
+      standing = fmt::format("{}: {}", scene::meaning_of(source->standing), source->citation);
     // The manifest writes every key: one with the value of the program's default has the default's standing.
-    const auto found = std::ranges::find(documented, key.name, name_of);
-    const bool is_default = found != documented.end() && found->default_text == key.value;
-    const std::string standing =
-        !key.citation.empty() ? fmt::format("{}: {}", scene::meaning_of(key.standing), key.citation)
-        : is_default          ? fmt::format("{} (default)", scene::meaning_of(found->description.standing))
-                              : "stated";
-    inputs.push_back({{"key", key.name},
-                      {"value", short_value(key.value)},
-                      {"standing", standing},
-                      {"meaning", key.sentence}});
+    else if (known(name) && key->usual.empty() &&
+             value == scene::format_value(*key, known(name)->default_value()))
+      standing = fmt::format("{} (default)", scene::meaning_of(key->standing));
+    inputs.push_back(
+        {{"key", name}, {"value", short_value(value)}, {"standing", standing}, {"meaning", key->sentence}});
   }
   return inputs;
 }
 
 /// Gaps whose histories are shown: the largest that is SAFE, and the smallest that is not, one that ignites
 /// before others; or the first.
-std::vector<const Row*> shown_gaps(const CaseEvidence& judged) {
-  const Row *safe = nullptr, *unsafe = nullptr, *undecided = nullptr;
-  for (const Row* row : judged.verdicts) {
-    const std::string verdict = text_of(*row, "verdict");
-    if (verdict == "SAFE") safe = row;
-    if (verdict == "UNSAFE" && unsafe == nullptr) unsafe = row;
-    if (verdict == "INDETERMINATE" && undecided == nullptr && safe != nullptr) undecided = row;
-  }
-  std::vector<const Row*> rows{safe, unsafe != nullptr ? unsafe : undecided};
-  std::erase(rows, nullptr);
-  if (rows.empty()) rows.push_back(judged.verdicts.front());
-  return rows;
+std::vector<const Row*> shown_gaps(const Row& own) {
+  const auto rows = [&](const char* which) { return selected({"", "", which}, own); };
+  std::vector<const Row*> shown = rows("verdicts where verdict SAFE largest gap_cm");
+  auto next = rows("verdicts where verdict UNSAFE smallest gap_cm");
+  if (next.empty() && !shown.empty()) next = rows("verdicts where verdict INDETERMINATE smallest gap_cm");
+  std::ranges::move(next, std::back_inserter(shown));
+  return shown.empty() ? rows("verdicts first 1") : shown;
 }
 
 }  // namespace
 
-Row scene_facts(const StudyEvidence& study, PageFacts& all) {
+Row scene_facts(const StudyEvidence& study) {
   const scene::Scene& scene = study.scene.scene;
   const auto& strength = scene.charge().strength;
   Row facts{{"title", scene.title},
@@ -119,15 +108,14 @@ Row scene_facts(const StudyEvidence& study, PageFacts& all) {
     if (!(plan.*term.term).in)
       facts["left_out"].push_back({{"term", term.title}, {"why", (plan.*term.term).reason}});
   if (scene.bodies.empty()) return facts;
-  all.drawings["section.svg"] = section_svg(scene);
-  facts["section"] = {{"file", "section.svg"}};
+  facts["section"] = {{"file", "section.svg"}, {"svg", section_svg(scene)}};
   return facts;
 }
 
-Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFacts& all) {
+Row picture_facts(const StudyEvidence& study, const Row& own, const StoredLaunch& stored, PageFacts& all) {
   Row facts = Row::object();
   run::CaseResult shown_result{stored.result.mechanics, {}};
-  for (const Row* row : shown_gaps(judged)) {
+  for (const Row* row : shown_gaps(own)) {
     const double gap = number_of(*row, "gap_cm") / shown_gap(1.0);
     const auto found = std::ranges::find(stored.result.gaps, gap, &run::GapResult::gap);
     if (found != stored.result.gaps.end())
@@ -136,8 +124,8 @@ Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFa
       facts["other_histories"].push_back(*row);
   }
   DrawnCase drawn{stored.scene, shown_result};
-  drawn.early_time = number_of(judged.study->study, "early_time_ms") / in(millisecond, 1.0);
-  for (const Row& row : judged.study->rows("comparison"))
+  drawn.early_time = number_of(study.study, "early_time_ms") / in(millisecond, 1.0);
+  for (const Row& row : study.rows("comparison"))
     drawn.published.push_back({.gap = number_of(row, "gap_cm") / shown_gap(1.0),
                                .maximum_temperature = number_of(row, "temperature_max_published_K"),
                                .point = text_of(row, "temperature_max_published_place"),
@@ -146,15 +134,12 @@ Row picture_facts(const CaseEvidence& judged, const StoredLaunch& stored, PageFa
                                .ignition_time = number_of(row, "ignition_time_published_ms")});
   for (const PictureKind& kind : picture_kinds()) {
     const std::string word = kind.word;
-    if (word != "pressure" && word != "histories" && word != "profile" && word != "fields") continue;
+    if (word == "air" || word == "energy" || word == "combustion") continue;
     if (const std::string why = kind.lacks(drawn); !why.empty()) {
       facts["lacks"].push_back({{"word", word}, {"why", why}});
       continue;
     }
     for (CasePicture& each : kind.pictures(drawn)) {
-      if (word == "fields" && !each.file.starts_with("field_temperature")) continue;
-      // The last snapshot shows what the launch has done.
-      if (word == "fields") facts[word] = Row::array();
       facts[word].push_back({{"file", each.file},
                              {"gap_cm", each.gap ? Row(shown_gap(*each.gap)) : Row()},
                              {"time_ms", each.time ? Row(in(millisecond, *each.time)) : Row()}});

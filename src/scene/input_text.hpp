@@ -3,8 +3,6 @@
 
 #include "launchsafe/scene/input_error.hpp"
 
-#include <optional>
-
 namespace launchsafe::scene {
 
 /// Without blanks, tabs and line ends at its ends.

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <system_error>
 
 namespace launchsafe::store {
 namespace {

@@ -6,6 +6,8 @@
 
 #include <sqlite3.h>
 
+#include <system_error>
+
 namespace launchsafe::store {
 namespace {
 

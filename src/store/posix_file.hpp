@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <system_error>
 
 namespace launchsafe::store {
 

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <system_error>
+
 namespace launchsafe::store {
 namespace {
 

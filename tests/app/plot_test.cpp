@@ -69,6 +69,9 @@ TEST_F(Plotted, ListsWhatItWroteAsJson) {
 TEST_F(Plotted, DrawsWhatWasPublishedOfTheGapThatItWasPublishedOf) {
   write("published.toml", "reference = [{ gap = \"0.01 cm\", maximum_temperature = \"310 K\" }]\n");
   expect_refused({"shell.h5", "-o", "out", "--references", "none.toml"}, "none.toml");
+  EXPECT_EQ(
+      run({"plot", "shell.h5", "-o", "out", "--references", "none.toml"}).err.find("study file's folder"),
+      std::string::npos);
   expect_refused({"shell.h5", "-o", "out", "--references", "shell.toml"}, "another kind of file");
   if (!can_draw()) GTEST_SKIP() << "gnuplot is not installed";
   const Outcome outcome =

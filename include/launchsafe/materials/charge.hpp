@@ -7,6 +7,8 @@
 #include "launchsafe/materials/unreacted.hpp"
 #include "launchsafe/materials/visco_scram_step.hpp"
 
+#include <vector>
+
 namespace launchsafe::materials {
 
 struct Charge {

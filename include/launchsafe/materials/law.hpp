@@ -27,7 +27,6 @@
 #include <cstddef>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace launchsafe::materials {
 

@@ -3,6 +3,8 @@
 
 #include "launchsafe/materials/law.hpp"
 
+#include <vector>
+
 namespace launchsafe::materials {
 
 struct LinearElastic {

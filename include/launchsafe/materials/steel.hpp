@@ -5,6 +5,8 @@
 #include "launchsafe/materials/law.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
 
+#include <vector>
+
 namespace launchsafe::materials {
 
 struct Steel {

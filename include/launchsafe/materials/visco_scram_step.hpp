@@ -13,7 +13,6 @@
 #include "launchsafe/materials/visco_scram.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 

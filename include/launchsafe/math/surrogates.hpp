@@ -6,7 +6,6 @@
 #include "launchsafe/math/sensitivity.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -12,7 +12,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <cstddef>
 #include <vector>
 
 namespace launchsafe::mpm {

@@ -4,7 +4,6 @@
 #include "launchsafe/math/aligned_array.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <vector>

@@ -126,9 +126,9 @@ class Simulation {
   void apply_body_force(int body, double acceleration_x, double acceleration_r);
 
  private:
-  /// Inertial over true mass of a body.
   void add_to_energy(const StepTotals& totals, const StepInput& begin);
   double change_of_bulk(const BulkMotion& bulk, const StepInput& step);
+  /// Of the frame, m/s2, under a pressure of the chamber (Pa).
   double acceleration_under(double pressure) const;
 
   scene::Scene scene_;

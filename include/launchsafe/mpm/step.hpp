@@ -3,8 +3,6 @@
 
 #include "launchsafe/math/pack.hpp"
 
-#include <vector>
-
 namespace launchsafe::mpm {
 
 using math::Mask;

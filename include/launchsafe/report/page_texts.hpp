@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace launchsafe::report {
@@ -73,9 +72,9 @@ store::Result<PageTemplates> read_templates(const std::filesystem::path& folder,
 
 /// What a page tells.
 struct PageFacts {
-  Row facts = Row::object();  ///< by the names that texts know
-  /// By file: to be drawn, or an SVG that was. Facts say which are shown, and where.
-  std::map<std::string, std::variant<Drawing, std::string>> drawings = {};
+  /// By the names that texts know. A figure has its "file", and "svg" where it is drawn already.
+  Row facts = Row::object();
+  std::map<std::string, Drawing> drawings = {};  ///< by file: to be drawn where facts show it
 };
 
 /// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words

@@ -45,10 +45,14 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
 /// that were computed count: nothing is interpolated.
 std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts);
 
-/// What a finished study tells, by the tables that it has: verdicts of one launch or of a few cases, verdicts
-/// over axes with several values, ... Closing: what a gap does that closes, beside a launch whose air is a
-/// reservoir.
-enum class Tells { nothing, launch, closing, sweep, models, accuracy, sensitivity, stability };
+/// What a finished study tells, by the tables that it has, under the name that texts have for it: verdicts of
+/// one launch or of a few cases, verdicts over axes with several values, ... Closing: what a gap does that
+/// closes, beside a launch whose air is a reservoir.
+namespace tells {
+inline const std::string nothing = "", launch = "launch", closing = "closing", sweep = "sweep",
+                         models = "models", accuracy = "accuracy", sensitivity = "sensitivity",
+                         stability = "stability";
+}
 
 /// One study.
 struct StudyEvidence {
@@ -56,11 +60,10 @@ struct StudyEvidence {
   std::filesystem::path folder;
   store::StudyRecord record;
   std::string kind, title;
-  Row asked;               ///< the study file
+  toml::table asked;       ///< the study file
   scene::SceneFile scene;  ///< what was simulated, with what the study sets
-  Row study;               ///< study.json; null while the study is not finished
-  Tells tells = Tells::nothing;
-  std::map<std::string, std::string> drawings = {};  ///< its pictures as it drew them, SVG by file name
+  Row study;               ///< study.json, its pictures with their SVG; null while it is not finished
+  std::string tells = tells::nothing;
   /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
   std::vector<study::Difference> differences = {};
 
@@ -82,7 +85,7 @@ struct SafetyEvidence {
   std::vector<StudyEvidence> studies;
   std::map<std::string, StoredLaunch> stored = {};  ///< of the main study, as far as they were kept, by case
   /// The finished study that tells that; nullptr without one.
-  const StudyEvidence* find(Tells what) const;
+  const StudyEvidence* find(const std::string& what) const;
   /// The one that the report is about: that of a launch, or else the first that is not finished or sweeps, or
   /// the first.
   const StudyEvidence& main() const;

@@ -6,8 +6,6 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/model_form.hpp"
 
-#include <cmath>
-
 namespace launchsafe::study {
 
 struct Study;

@@ -5,7 +5,6 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace launchsafe::surface {
@@ -118,9 +117,9 @@ Maximum maximum_at_observation_points(const SkinHistory& history, const trace::B
 /// Temperature of one station at time t (s), linear between samples.
 double temperature_at_time(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station,
                            double time);
-/// Highest temperature of the stations at time t (s), and the spread (max - min) over them.
 /// Highest up to a time (s), over the stations.
 Maximum maximum_until(const SkinHistory& history, const trace::BottomTrace& trace, double time);
+/// Highest temperature of the stations at time t (s), and the spread (max - min) over them.
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 
