@@ -57,7 +57,7 @@ void Simulation::continue_from(const Simulation& other) {
   pressure_ = load_.at(time_);
   energy_ = other.energy_;
   balance_ = other.balance_;
-  centres_kicks_ = other.centres_kicks_;
+  if (other.centres_kicks_) centre_kicks();
   dt_before_ = other.dt_before_;
   kick_before_ = other.kick_before_;
   bulk_gained_before_ = other.bulk_gained_before_;
@@ -107,6 +107,11 @@ double Simulation::frame_acceleration(double time) const { return acceleration_u
 
 double Simulation::acceleration_under(double pressure) const {
   return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
+}
+
+void Simulation::centre_kicks() {
+  centres_kicks_ = true;
+  for_each_body([](ParticleFields& p) { p.counts_unturned_stress = true; });
 }
 
 void Simulation::step(double dt) {

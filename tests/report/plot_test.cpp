@@ -163,7 +163,7 @@ TEST(Plot, LinesAreNamedAtTheirEndsNoNameOnAnother) {
     const std::size_t at = text.find(words);
     return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
   };
-  EXPECT_NEAR(height_of("near") - height_of("computed"), 77.1 * 18 / 410, 0.01);
+  EXPECT_NEAR(height_of("near") - height_of("computed"), 77.1 * 24 / 390, 0.01);
   EXPECT_NEAR(height_of("computed"), 493, 5.0);
 }
 

@@ -46,8 +46,8 @@ template <class Law>
 
 /// Stores what a law made of a step at a Pack of particles, and adds the energies and limiter events of the
 /// step to `totals`. `d` is that of the particles, `strain` the deviatoric increment of what friction heats.
-/// The work is that of the nodal forces to third order in the step: they have the stress at the begin as it
-/// was, `unturned`, and that at the end; with the turned one it is of second order.
+/// With the stress at the begin as it was, `unturned`, and that at the end, which nodal forces have, the work
+/// is theirs to third order in the step; with the turned one it is to second order.
 template <class Law>
 [[gnu::always_inline]] inline StressUpdate keep_response(
     Body<Law>& body, std::size_t slot, const Deformation& d, const materials::State<Law, Pack>& state,
@@ -64,7 +64,8 @@ template <class Law>
     store_increments(p, slot, strain, response.deviator - response.deviator_before);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
-  const Pack work = contract(unturned + response.deviator, d.increment.deviator);
+  const math::Deviator<Pack>& before = p.counts_unturned_stress ? unturned : response.deviator_before;
+  const Pack work = contract(before + response.deviator, d.increment.deviator);
   totals.internal += d.rest_volume * (0.25 * (volume0 + volume1) * work -
                                       0.5 * (pressure_before + response.pressure) * (volume1 - volume0));
   const Pack volume_before = d.rest_volume * volume0;

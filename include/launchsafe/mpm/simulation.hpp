@@ -56,7 +56,8 @@ class Simulation {
   /// From now on forces act on velocities from the middle of the last step to that of the present one, which
   /// is of second order where steps change by much, as those of a gap that closes do. Otherwise they act for
   /// the present step's length: what follows the stable step alone changes by some 1e-4 at a time.
-  void centre_kicks() { centres_kicks_ = true; }
+  /// The ledger then counts stresses that have not been turned.
+  void centre_kicks();
   /// Advances by dt > 0 (s).
   void step(double dt);
 
