@@ -186,6 +186,9 @@ std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const Lo
   const auto [lowest, middle, highest] = ordered;
   const double share = (load - own.load) / (other.load - own.load);
   const double middle_share = (middle->load - lowest->load) / (highest->load - lowest->load);
+  // Of a leap between own and other the middle one shows this share; all of it must be on top of the line.
+  const double seen = middle == &launches[0] ? middle_share : 1.0 - middle_share;
+  const double weight = std::max(1.0, (1.0 - share) / seen);
   BottomTrace result = own.trace;
   for (std::size_t i = 0; i < histories; ++i) {
     std::vector<double>& values = history(result, i);
@@ -196,7 +199,7 @@ std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const Lo
     for (std::size_t k = 0; k < values.size(); ++k) {
       double& most = missed[k % width];
       most = std::max(most, std::abs(between[k] - std::lerp(low[k], high[k], middle_share)));
-      values[k] = std::lerp(values[k], others[k], share) + most;
+      values[k] = std::lerp(values[k], others[k], share) + weight * most;
     }
   }
   return result;

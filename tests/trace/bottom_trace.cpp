@@ -138,13 +138,13 @@ TEST(TraceAtLoad, IsOnTheLineAndHigherByWhatThatMissesTheMiddleOfThreeBy) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->time, own.time);
   for (std::size_t k = 0; k < own.samples(); ++k) {
-    EXPECT_NEAR(found->bottom_pressure[k], 1.094 * own.bottom_pressure[k], 1e-9);  // grows with time
-    EXPECT_NEAR(found->friction[1][2 * k], 1.094 * own.friction[1][2 * k], 1e-9);
+    EXPECT_NEAR(found->bottom_pressure[k], 1.096 * own.bottom_pressure[k], 1e-9);  // grows with time
+    EXPECT_NEAR(found->friction[1][2 * k], 1.096 * own.friction[1][2 * k], 1e-9);
   }
   // The middle one of a case without a lower neighbour is the one above: 1.21 where the line has 1.22.
   const auto first = at_load(1.04, {1.0, own}, {1.1, above}, {1.2, beyond});
   ASSERT_TRUE(first);
-  EXPECT_NEAR(first->friction[0].back(), 1.094 * own.friction[0].back(), 1e-9);
+  EXPECT_NEAR(first->friction[0].back(), 1.096 * own.friction[0].back(), 1e-9);
 }
 
 /// What was missed at a time is not forgotten later: 2 less below make the line miss the middle by 1 less
@@ -156,8 +156,23 @@ TEST(TraceAtLoad, KeepsTheLargestMissSoFar) {
   const auto found = at_load(1.04, {1.0, own}, {1.1, above}, {0.9, below});
   ASSERT_TRUE(found);
   for (std::size_t k = 1; k < own.samples(); ++k)
-    EXPECT_NEAR(found->friction[0][2 * k], 1.084 * own.friction[0][2 * k] + 0.99, 1e-9) << k;
-  EXPECT_NEAR(found->friction[0][3], 1.094 * own.friction[0][3], 1e-9) << "of that station alone";
+    EXPECT_NEAR(found->friction[0][2 * k], 1.084 * own.friction[0][2 * k] + 1.2 * 0.99, 1e-9) << k;
+  EXPECT_NEAR(found->friction[0][3], 1.096 * own.friction[0][3], 1e-9) << "of that station alone";
+}
+
+/// Friction that begins between two loads: whatever its onset, it counts whole.
+TEST(TraceAtLoad, CoversALeapBetweenTheLoads) {
+  BottomTrace own = under(1.0), above = under(1.0), below = under(1.0);
+  for (double& energy : above.friction[0]) energy += 50.0;
+  for (const double lower : {0.893, 0.95, 0.965})
+    for (const double upper : {1.036, 1.06, 1.12}) {
+      const auto found = at_load(1.04, {1.0, own}, {upper, above}, {lower, below});
+      ASSERT_TRUE(found);
+      EXPECT_GE(found->friction[0].back(), own.friction[0].back() + 50.0 - 1e-9) << lower << " " << upper;
+      const auto first = at_load(1.04, {1.0, own}, {upper, above}, {upper * upper, above});
+      ASSERT_TRUE(first);
+      EXPECT_GE(first->friction[0].back(), own.friction[0].back() + 50.0 - 1e-9) << upper;
+    }
 }
 
 /// Sampled at other times it is the same history.

@@ -66,8 +66,8 @@ struct LoadedTrace {
 
 /// That of a load near `own` and `other`, linear in the load between them, with every pressure and energy
 /// higher by the most by which the same estimate has missed, until then, the middle one of these two and
-/// `third`, which lies beside them. At the times of `own`. Nothing where the three do not have the same
-/// stations, or their ends lie farther apart than two samples.
+/// `third` beside them, and by no less than a leap between `own` and `other`. At the times of `own`. Nothing
+/// where the three have other stations, or their ends lie farther apart than two samples.
 std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const LoadedTrace& other,
                                    const LoadedTrace& third);
 
