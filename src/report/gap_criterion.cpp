@@ -1,4 +1,4 @@
-#include "launchsafe/report/safety_report.hpp"
+#include "launchsafe/report/gap_criterion.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

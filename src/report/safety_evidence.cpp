@@ -219,12 +219,13 @@ bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
   return std::abs(first - second) <= slack || (std::isnan(first) && std::isnan(second));
 }
 
-/// Whether two cases are of one launch, computed with the same numerics.
+/// Whether two cases are of one launch, computed with the same numerics, or may be: that of a scene which
+/// cannot be made is not known.
 bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
   // Of many cases most are told apart by their peaks.
   if (!study::same_number(a.value("load.peak"), b.value("load.peak"))) return false;
   const auto first = a.scene(), second = b.scene();
-  return first && second &&
+  return !first || !second ||
          std::ranges::none_of(study::differences(first->scene, second->scene), is_of_launch);
 }
 

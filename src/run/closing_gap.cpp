@@ -26,26 +26,41 @@ surface::SkinModel model_of(const scene::Scene& scene) {
   return model;
 }
 
+bool is_bottom(const scene::Scene& scene, const mpm::Contact& contact, std::size_t face) {
+  return !contact.is_along_x(face) &&
+         std::abs(contact.face_at(face) - scene::charge_extent(scene).x_end) < scene::length_tolerance(scene);
+}
+
 }  // namespace
+
+HeldCharge::HeldCharge(mpm::Simulation& simulation) {
+  const scene::Scene& scene = simulation.scene();
+  if (scene.surface.model != scene::GapModel::closing || !(scene.surface.release > 0.0)) return;
+  release_ = scene.surface.release;
+  duration_ = scene.surface.release_duration.value_or(scene::transit_time(scene));
+  mpm::Contact& contact = contact_of(simulation);
+  for (std::size_t face = 0; face < contact.faces(); ++face)
+    if (!is_bottom(scene, contact, face)) contact.hold(face);
+}
+
+void HeldCharge::advance(mpm::Simulation& simulation) const {
+  const double late = simulation.time() - release_;
+  if (!(release_ > 0.0) || late < 0.0) return;
+  contact_of(simulation).loosen(late < duration_ ? 1.0 - late / duration_ : 0.0);
+}
 
 ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorder, double gap)
     : model_(model_of(simulation.scene())),
       shares_air_(model_.surface.air_flow == scene::AirFlow::common_pressure),
       nodes_(nodes_of_bottom(simulation, recorder)),
       floor_(simulation.scene().surface.roughness),
-      release_(simulation.scene().surface.release),
-      release_duration_(
-          simulation.scene().surface.release_duration.value_or(scene::transit_time(simulation.scene()))),
       often_(simulation.scene().surface.turns),
       columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load),
                surface::GapColumns::numerics_of(model_.surface)) {
   simulation.centre_kicks();
   mpm::Contact& contact = contact_of(simulation);
   for (std::size_t face = 0; face < contact.faces(); ++face)
-    if (is_bottom(simulation.scene(), contact, face))
-      contact.part(face, gap, floor_);
-    else if (release_ > 0.0)
-      contact.hold(face);
+    if (is_bottom(simulation.scene(), contact, face)) contact.part(face, gap, floor_);
   find_columns_of_stations(recorder);
   skin_.gap = gap;
   history_.smallest_opening = gap;
@@ -57,11 +72,6 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
   }
   if (shares_air_) share_air(contact, 0.0);
   record(recorder);
-}
-
-bool ClosingGap::is_bottom(const scene::Scene& scene, const mpm::Contact& contact, std::size_t face) {
-  return !contact.is_along_x(face) &&
-         std::abs(contact.face_at(face) - scene::charge_extent(scene).x_end) < scene::length_tolerance(scene);
 }
 
 std::vector<ClosingGap::Node> ClosingGap::nodes_of_bottom(mpm::Simulation& simulation,
@@ -120,11 +130,6 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
                          bool samples) {
   mpm::Contact& contact = contact_of(simulation);
   const double time = simulation.time();
-  if (release_ > 0.0 && time >= release_) {
-    const double share = release_duration_ > 0.0 ? 1.0 - (time - release_) / release_duration_ : 0.0;
-    contact.loosen(std::max(share, 0.0));
-    if (!(share > 0.0)) release_ = 0.0;
-  }
   bool touches = false, due = shares_air_ && samples;
   const double mean_opening = shares_air_ ? contact.mean_opening() : 0.0;
   double moved = 0.0, volume = 0.0;      // m3 per radian or metre

@@ -1,4 +1,5 @@
-// A gap whose air is closed in: the motion of its faces and the heat of its air, coupled.
+// A charge that lets go of nose and wall, and a gap whose air is closed in: the motion of its faces and the
+// heat of its air, coupled.
 #pragma once
 
 #include "charge_heat.hpp"
@@ -10,6 +11,20 @@
 #include <vector>
 
 namespace launchsafe::run {
+
+/// What holds a charge where it slides on nose and wall, until it lets go as scene::Surface says; also
+/// without a gap, so that one that shrinks to nothing tends to that. Nothing under the reservoir.
+class HeldCharge {
+ public:
+  /// Before the first step.
+  explicit HeldCharge(mpm::Simulation& simulation);
+  /// After a step.
+  void advance(mpm::Simulation& simulation) const;
+
+ private:
+  double release_ = 0;   ///< s; 0: nothing holds the charge
+  double duration_ = 0;  ///< s, from then on, over which what it bears falls to nothing
+};
 
 /// Each node of the charge's bottom has a column of its own in every ring that it lies in, whose air does not
 /// mix with that of its neighbours, or flows between all of them (scene::AirFlow). Contact compresses the air
@@ -64,7 +79,6 @@ class ClosingGap {
     }
     return sum / area;
   }
-  static bool is_bottom(const scene::Scene& scene, const mpm::Contact& contact, std::size_t face);
   std::vector<Node> nodes_of_bottom(mpm::Simulation& simulation, const TraceRecorder& recorder);
   void find_columns_of_stations(const TraceRecorder& recorder);
   double friction_of(const Node& node, const TraceRecorder& recorder) const;
@@ -80,10 +94,8 @@ class ClosingGap {
   bool shares_air_;
   std::vector<Node> nodes_;
   std::vector<std::vector<std::size_t>> columns_of_station_;
-  double floor_;             ///< m
-  double release_;           ///< s, yet to come or under way; 0: none is
-  double release_duration_;  ///< s
-  double often_;             ///< as scene::Surface::turns
+  double floor_;  ///< m
+  double often_;  ///< as scene::Surface::turns
   surface::GapColumns columns_;
   surface::SkinHistory skin_;
   ClosingHistory history_;

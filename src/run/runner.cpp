@@ -215,6 +215,7 @@ void Runner::advance(double dt) {
   const double time = simulation_.time();
   const bool last = finished();
   const bool samples = time >= next_sample_ || last;
+  held_.advance(simulation_);
   if (closing_) closing_->advance(simulation_, recorder_, dt, samples);
   if (closing_ && closing_->failed())
     return stop_now(RunStatus::non_finite, "the air in the gap has no volume or no finite temperature");

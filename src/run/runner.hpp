@@ -77,6 +77,7 @@ class Runner {
   TraceRecorder recorder_;
   BulkHeat heat_;
   std::optional<double> skin_gap_;  ///< m
+  HeldCharge held_{simulation_};
   std::optional<SteppedSkin> surface_;
   std::optional<ClosingGap> closing_;
   std::optional<BurningBottom> burning_;  ///< from ignition on

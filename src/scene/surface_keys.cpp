@@ -48,7 +48,7 @@ std::vector<Key<Surface>> closing_keys() {
                {{"conducting", GapBase::conducting}, {"insulated", GapBase::insulated}}, &Surface::base) |
           always_plausible("both are bounds of the same gap", of_motion),
       number_key("release", Dimension::time, between(0, 1), Standing::assumed,
-                 "Until when nose and wall hold the charge over a closing gap where they slide; "
+                 "Until when nose and wall hold the charge where they slide, over a gap that closes or none; "
                  "then they let go. 0: it is free from the start.",
                  &Surface::release) |
           always_plausible("when a charge lets go is not known, and the worst instant has to be looked for",

@@ -52,8 +52,12 @@ scene::Scene scene_on(const StudyCase& input, const ClosingTerms& terms) {
 
 CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   scene::Scene scene = scene_on(input, terms);
-  // Without a gap it is one launch on whatever terms.
-  if (gap <= terms.roughness) scene.surface = *input.closing;
+  // Without a gap its terms are nothing, but for when the charge lets go.
+  if (gap <= terms.roughness) {
+    scene.surface = *input.closing;
+    scene.surface.release = terms.release;
+    if (terms.release > 0.0) scene.surface.release_duration = terms.release_duration;
+  }
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
 
@@ -358,12 +362,14 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
   // An odd bit of round-off is no halving.
   const double halvings = std::ceil(std::log2(widest / study.tolerance) - 1e-9);
   const std::size_t gaps = scanned.size() + static_cast<std::size_t>(halvings);
-  std::set<std::string> of_a_gap;
+  std::set<std::string> without_a_gap, of_a_gap;
   for (const ClosingBound& bound : closing_bounds(input, study.in_detail))
     for (const ClosingTerms& terms : bound.terms)
-      if (bound.unknown_for.empty()) of_a_gap.insert(run_on(input, terms, scanned.back()).hash);
-  const std::size_t without_a_gap = kinetics_of(input.scene.scene).size();
-  return without_a_gap + (gaps - 1) * of_a_gap.size();
+      if (bound.unknown_for.empty()) {
+        without_a_gap.insert(run_on(input, terms, 0.0).hash);
+        of_a_gap.insert(run_on(input, terms, scanned.back()).hash);
+      }
+  return without_a_gap.size() + (gaps - 1) * of_a_gap.size();
 }
 
 /// A thinner gap that ignites says that this one does too: T max need not rise with the gap. Nor need the

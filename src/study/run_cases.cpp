@@ -289,9 +289,10 @@ double continued_cost(const CaseRun& run) {
 }
 
 store::CaseIdentity identity_of(const CaseRun& run) {
-  return store::CaseIdentity(fmt::format("# model version {}, {}\n{}", run::model_version,
-                                         run.skin_gap ? "coupled run" : "mechanics",
-                                         scene::to_toml(run.scene)));
+  const char* kind = run.skin_gap ? "coupled run" : "mechanics";
+  const bool closes = run.scene.surface.model == scene::GapModel::closing;
+  return store::CaseIdentity(fmt::format("# model version {}, {}{}\n{}", run::model_version, kind,
+                                         closes ? " where the gap closes" : "", scene::to_toml(run.scene)));
 }
 
 bool FinishedRun::has_result() const {

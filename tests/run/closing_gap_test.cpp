@@ -234,6 +234,19 @@ TEST(ClosingGap, HotAndDenseAirHeatsLessThanAnIdealOne) {
   EXPECT_LT(real.gaps.front().skin.energy_residual, 1e-9);
 }
 
+// Faces 1 um apart meet at once. A launch without a gap once ignored what held its charge, and had 402 K.
+TEST(ClosingGap, OfNoWidthTendsToTheLaunchWithoutOneAlsoWhereTheChargeIsHeld) {
+  scene::Scene scene = parting_shell();
+  scene.numerics.cell_size = 2.5e-3;
+  scene.surface.roughness = 1e-6;
+  scene.surface.release = 7.68e-3;
+  const double thin = run_with_skin(scene, 1.1e-6).gaps.front().at_stations.temperature;
+  const double none = run_with_skin(scene, 0.0).gaps.front().at_stations.temperature;
+  EXPECT_NEAR(none, thin, 1.0);
+  EXPECT_GT(none, 450.0);
+  EXPECT_NEAR(evaluate_gap(scene, run_mechanics(scene).trace, 0.0).at_stations.temperature, none, 0.1);
+}
+
 TEST(ClosingGap, HoldsTheChargeUntilItIsReleased) {
   scene::Scene scene = parting_shell();
   scene.surface.release = 9e-3;
