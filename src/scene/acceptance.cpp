@@ -1,8 +1,8 @@
+#include "input_text.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <set>
 
 namespace launchsafe::scene {
@@ -31,7 +31,7 @@ bool is_in_words(const std::string& text) {
   std::string letters;
   std::ranges::copy_if(text, std::back_inserter(letters), is_letter);
   const std::set<char> different(letters.begin(), letters.end());
-  return letters.size() >= fewest_letters && different.size() > 2 && text.find(' ') != std::string::npos;
+  return letters.size() >= fewest_letters && different.size() > 2 && contains(text, ' ');
 }
 
 /// The range of numbers that a text accepts; nothing where it is none.
@@ -57,53 +57,50 @@ std::string entry_to_write(const std::string& key, const std::string& value) {
                      plain ? '"' + value + '"' : exact_toml({.kind = KeyKind::text}, value));
 }
 
-Fault check_value(const Acceptance& acceptance, const KeyDescription& key,
-                  const std::map<std::string, Place>& places) {
+void check_value(const Acceptance& acceptance, const KeyDescription& key,
+                 const std::map<std::string, Place>& places) {
   constexpr double widest = 2.0;
   if (acceptance.value.empty())
-    return error_at(places.at("key"), "accept.value", "nothing",
-                    fmt::format("the value that is accepted, such as {}: of another one nothing is said",
-                                entry_to_write(acceptance.key, "...")));
+    throw error_at(places.at("key"), "accept.value", "nothing",
+                   fmt::format("the value that is accepted, such as {}: of another one nothing is said",
+                               entry_to_write(acceptance.key, "...")));
   const Place& place = places.at("value");
-  if (acceptance.value.starts_with("inf")) return std::nullopt;  // as people read what has no bound
+  if (acceptance.value.starts_with("inf")) return;  // as people read what has no bound
   if (const auto range = accepted_range(key, acceptance.value)) {
-    if ((*range)[0] > 0.0 && (*range)[1] <= widest * (*range)[0]) return std::nullopt;
-    return error_at(place, "accept.value", '"' + acceptance.value + '"',
-                    fmt::format("a value, or a range up to a factor of {:g}", widest));
+    if ((*range)[0] > 0.0 && (*range)[1] <= widest * (*range)[0]) return;
+    throw error_at(place, "accept.value", '"' + acceptance.value + '"',
+                   fmt::format("a value, or a range up to a factor of {:g}", widest));
   }
-  const auto value = parse_value(acceptance.value, key, place);
-  if (value) return std::nullopt;
-  InputError error = value.error();
-  error.key = "accept.value";
-  return error;
+  KeyDescription of_acceptance = key;
+  of_acceptance.name = "accept.value";
+  parse_value(acceptance.value, of_acceptance, place).or_throw();
 }
 
-Fault check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
-            const std::vector<Acceptance>& earlier, const std::vector<KeyDescription>& known) {
+bool are_same(const Acceptance& one, const Acceptance& other) {
+  return one.key == other.key && one.value == other.value;
+}
+
+void check(const Acceptance& acceptance, const std::map<std::string, Place>& places,
+           const std::vector<Acceptance>& earlier, const std::vector<KeyDescription>& known) {
   const std::string& name = acceptance.key;
+  const auto fault_of_key = [&](std::string found, std::string allowed, std::string suggestion = {}) {
+    return error_at(places.at("key"), "accept.key", found, allowed, suggestion);
+  };
   if (name == "calibration")
-    return error_at(places.at("key"), "accept.key", "\"calibration\", for all that is foreign to it at once",
-                    fmt::format("an entry for each property, with the value that is accepted, such as "
-                                "accept = [{}]; launchsafe explain prints them ready to copy",
-                                entry_to_write(foreign_shell, "...")));
+    throw fault_of_key("\"calibration\", for all that is foreign to it at once",
+                       fmt::format("an entry for each property, with the value that is accepted, such as "
+                                   "accept = [{}]; launchsafe explain prints them ready to copy",
+                                   entry_to_write(foreign_shell, "...")));
   const KeyDescription* key = find_named(known, name);
   if (key == nullptr) {
-    std::vector<std::string> names;
-    for (const KeyDescription& each : known) names.push_back(each.name);
-    InputError error = unknown_key(places.at("key"), name, names);
-    error.found = fmt::format("the unknown key \"{}\"", name);
-    error.key = "accept.key";
-    return error;
+    const InputError unknown = unknown_key(places.at("key"), name, names_of(known));
+    throw fault_of_key(fmt::format("the unknown key \"{}\"", name), unknown.allowed, unknown.suggestion);
   }
-  const auto same = [&](const Acceptance& each) {
-    return each.key == name && each.value == acceptance.value;
-  };
-  if (std::ranges::any_of(earlier, same)) {
-    return error_at(places.at("key"), "accept.key", fmt::format("\"{}\" a second time", name),
-                    "each key once, or with several values");
-  }
-  if (auto error = check_value(acceptance, *key, places)) return error;
-  return check_reason(acceptance.because, places.at("because"), "accept.because");
+  if (std::ranges::any_of(earlier, [&](const auto& each) { return are_same(each, acceptance); }))
+    throw fault_of_key(fmt::format("\"{}\" a second time", name), "each key once, or with several values");
+  check_value(acceptance, *key, places);
+  if (const auto fault = check_reason(acceptance.because, places.at("because"), "accept.because"))
+    throw *fault;
 }
 
 }  // namespace
@@ -187,21 +184,21 @@ const std::vector<Key<Acceptance>>& acceptance_keys() {
 Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
                                                    const std::vector<KeyDescription>& known,
                                                    const std::string& file) {
-  auto tables = read_tables(root, "accept", acceptance_keys(), file,
-                            "tables, such as accept = [" + entry_to_write("gap.exchange_time", "1 ms") + "]");
-  if (!tables) return tables.error();
-  std::vector<Acceptance> accepted;
-  for (auto& [acceptance, places] : *tables) {
-    if (auto error = check(acceptance, places, accepted, known)) return *error;
-    accepted.push_back(std::move(acceptance));
-  }
-  return accepted;
+  const std::string allowed =
+      "tables, such as accept = [" + entry_to_write("gap.exchange_time", "1 ms") + "]";
+  return caught([&] {
+    std::vector<Acceptance> accepted;
+    for (auto& [acceptance, places] :
+         read_tables(root, "accept", acceptance_keys(), file, allowed).or_throw()) {
+      check(acceptance, places, accepted, known);
+      accepted.push_back(std::move(acceptance));
+    }
+    return accepted;
+  });
 }
 
 void accept(std::vector<Acceptance>& accepted, Acceptance acceptance) {
-  std::erase_if(accepted, [&](const Acceptance& each) {
-    return each.key == acceptance.key && each.value == acceptance.value;
-  });
+  std::erase_if(accepted, [&](const Acceptance& each) { return are_same(each, acceptance); });
   accepted.push_back(std::move(acceptance));
 }
 

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <numbers>
 #include <tuple>
 
 namespace launchsafe::scene {

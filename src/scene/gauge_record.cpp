@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <sstream>
 
 namespace launchsafe::scene {
@@ -47,7 +46,7 @@ std::vector<double> quiet_points(const std::vector<double>& pressure) {
 }
 
 /// Sets what noise left below zero to 0.
-Fault remove_negative(CleanedRecord& cleaned, const std::string& file) {
+void remove_negative(CleanedRecord& cleaned, const std::string& file) {
   const double allowed = std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.peak);
   for (double& pressure : cleaned.curve.pressure) {
     if (pressure >= 0.0) continue;
@@ -55,37 +54,36 @@ Fault remove_negative(CleanedRecord& cleaned, const std::string& file) {
     cleaned.lowest = std::min(cleaned.lowest, pressure);
     pressure = 0.0;
   }
-  if (cleaned.lowest >= -allowed) return std::nullopt;
-  return error_at(
-      {file}, "pressure",
-      fmt::format("{} below the offset, which is no noise", pressure_text(-cleaned.lowest)),
-      fmt::format("pressures no further below zero than {}: another offset, or a record without a "
-                  "drift of its gauge",
-                  pressure_text(allowed)));
+  if (cleaned.lowest >= -allowed) return;
+  throw error_at({file}, "pressure",
+                 fmt::format("{} below the offset, which is no noise", pressure_text(-cleaned.lowest)),
+                 fmt::format("pressures no further below zero than {}: another offset, or a record without a "
+                             "drift of its gauge",
+                             pressure_text(allowed)));
 }
 
 /// Offset and noise of the record, from the user or from its quiet part.
-Fault find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, CleanedRecord& cleaned,
-                  const std::string& file) {
+void find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, CleanedRecord& cleaned,
+                 const std::string& file) {
   const std::vector<double> quiet = quiet_points(record.pressure);
   if (quiet.size() >= least_quiet_points) {
     cleaned.quiet_points = quiet.size();
     cleaned.offset = median(quiet);
     cleaned.noise = deviation_about(cleaned.offset, quiet);
   } else if (!cleaning.offset) {
-    return error_at(
+    throw error_at(
         {file}, "pressure",
         fmt::format("{} points before the rise, from which no offset can be found", quiet.size()),
         fmt::format("a record with {} of them, or an offset: --offset \"0 MPa\"", 2 * least_quiet_points));
   }
-  if (!cleaning.offset) return std::nullopt;
+  if (!cleaning.offset) return;
   const double found = cleaned.offset;
   cleaned.offset = *cleaning.offset;
-  if (cleaned.quiet_points == 0) return std::nullopt;
+  if (cleaned.quiet_points == 0) return;
   const double peak = *std::ranges::max_element(record.pressure) - found;
   const double allowed = std::max(cleaned.noise, resolution_share * peak);
-  if (std::abs(cleaned.offset - found) <= allowed) return std::nullopt;
-  return error_at(
+  if (std::abs(cleaned.offset - found) <= allowed) return;
+  throw error_at(
       {file}, "--offset",
       fmt::format("an offset of {}, while the {} points before the rise show {}",
                   pressure_text(cleaned.offset), cleaned.quiet_points, pressure_text(found)),
@@ -94,24 +92,21 @@ Fault find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, Cl
                   pressure_text(allowed), 100.0 * resolution_share));
 }
 
-}  // namespace
-
-Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
-                              const std::string& file) {
+CleanedRecord cleaned_record(const PressureCurve& record, const GaugeCleaning& cleaning,
+                             const std::string& file) {
   CleanedRecord cleaned;
-  if (auto error = find_offset(record, cleaning, cleaned, file)) return *error;
+  find_offset(record, cleaning, cleaned, file);
   std::vector<double> pressure = record.pressure;
   for (double& each : pressure) each -= cleaned.offset;
   const auto peak = std::ranges::max_element(pressure);
   cleaned.peak = *peak;
   cleaned.trigger =
       cleaning.trigger.value_or(std::max(trigger_share * cleaned.peak, noise_of_trigger * cleaned.noise));
-  if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.peak)) {
-    return error_at({file}, "pressure",
-                    fmt::format("a largest pressure of {} above the offset, and a trigger of {}",
-                                pressure_text(cleaned.peak), pressure_text(cleaned.trigger)),
-                    "a trigger between zero and the peak: --trigger \"5 MPa\"");
-  }
+  if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.peak))
+    throw error_at({file}, "pressure",
+                   fmt::format("a largest pressure of {} above the offset, and a trigger of {}",
+                               pressure_text(cleaned.peak), pressure_text(cleaned.trigger)),
+                   "a trigger between zero and the peak: --trigger \"5 MPa\"");
   cleaned.points_before = last_passage(pressure, cleaned.trigger);
   cleaned.start = record.time[cleaned.points_before];
   for (std::size_t i = cleaned.points_before; i < pressure.size(); ++i) {
@@ -119,11 +114,18 @@ Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& 
     cleaned.curve.pressure.push_back(pressure[i]);
   }
   if (cleaned.curve.time.size() < 2)
-    return error_at({file}, "pressure", "a record that ends where the launch begins",
-                    "one of the whole launch");
-  if (auto error = remove_negative(cleaned, file)) return *error;
+    throw error_at({file}, "pressure", "a record that ends where the launch begins",
+                   "one of the whole launch");
+  remove_negative(cleaned, file);
   cleaned.peak_time = record.time[static_cast<std::size_t>(peak - pressure.begin())] - cleaned.start;
   return cleaned;
+}
+
+}  // namespace
+
+Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
+                              const std::string& file) {
+  return caught([&] { return cleaned_record(record, cleaning, file); });
 }
 
 std::string csv_of(const PressureCurve& curve, const std::string& remarks) {

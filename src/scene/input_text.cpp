@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <system_error>
 
 namespace launchsafe::scene {
@@ -43,13 +42,11 @@ class TomlScanner {
   /// The next character outside of texts and comments; 0 where one of these was passed over.
   char next() {
     const char c = text_[position_++];
-    if (c == '#') {
+    if (c != '#' && c != '"' && c != '\'') return c;
+    if (c == '#')
       position_ = std::min(text_.find('\n', position_), text_.size());
-    } else if (c == '"' || c == '\'') {
+    else
       pass_text(c);
-    } else {
-      return c;
-    }
     return 0;
   }
 
@@ -94,7 +91,7 @@ std::string nearest_file(const std::filesystem::path& file) {
   }
   std::ranges::sort(names);
   const std::string near = nearest_of(file.filename().string(), names);
-  return near.empty() ? near : '"' + (file.parent_path() / near).string() + '"';
+  return near.empty() ? near : in_quotes((file.parent_path() / near).string());
 }
 
 /// What a path leads to that is no regular file.
@@ -106,13 +103,11 @@ std::string_view kind_of(const struct stat& status) {
 }
 
 InputError unreadable(const Place& place, int reason) {
-  const bool missing = reason == ENOENT || reason == ENOTDIR;
-  InputError error =
-      missing ? error_at(place, {}, {}, {})
-              : error_at(place, {}, fmt::format("a file that cannot be read ({})", std::strerror(reason)),
-                         "a readable file");
-  error.file_missing = missing;
-  return error;
+  InputError missing = error_at(place, {}, {}, {});
+  missing.file_missing = reason == ENOENT || reason == ENOTDIR;
+  if (missing.file_missing) return missing;
+  return error_at(place, {}, fmt::format("a file that cannot be read ({})", std::strerror(reason)),
+                  "a readable file");
 }
 
 /// What a file is where another one is wanted, and what it is where it is wanted.
@@ -160,9 +155,8 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t change = a[i - 1] == b[j - 1] ? 0 : 1;
       cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + change});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
-      }
     }
   }
   return cost[a.size()][b.size()];
@@ -193,7 +187,7 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-Fault check_encoding(std::string_view text, const std::string& file) {
+void check_encoding(std::string_view text, const std::string& file) {
   for (const char* at = text.data(); at != text.data() + text.size();) {
     const char* const character = at;
     // Neither overlong forms nor surrogates nor what is beyond U+10FFFF are characters (Unicode, table 3-7).
@@ -202,13 +196,12 @@ Fault check_encoding(std::string_view text, const std::string& file) {
     const std::string found = code == 0 ? "a NUL byte, as in UTF-16 or in a file that is no text"
                                         : fmt::format("the byte 0x{:02X}, which is no UTF-8",
                                                       static_cast<unsigned char>(*character));
-    return error_at(place_at(text, static_cast<std::size_t>(character - text.data()), file), {}, found,
-                    "text in UTF-8");
+    throw error_at(place_at(text, static_cast<std::size_t>(character - text.data()), file), {}, found,
+                   "text in UTF-8");
   }
-  return std::nullopt;
 }
 
-Fault check_nesting(std::string_view toml, const std::string& file) {
+void check_nesting(std::string_view toml, const std::string& file) {
   TomlScanner scanner(toml);
   std::size_t open = 0, points = 0;  // brackets, and points since the last character that ends a key
   while (!scanner.done()) {
@@ -218,12 +211,11 @@ Fault check_nesting(std::string_view toml, const std::string& file) {
     if (c == '.') ++points;
     if (c == '[' || c == '{' || c == '=' || c == ',' || c == '\n') points = 0;
     if (std::max(open, points) < deepest_nesting) continue;
-    return error_at(place_at(toml, scanner.position() - 1, file), {},
-                    open >= deepest_nesting ? fmt::format("{} brackets inside each other", open)
-                                            : fmt::format("a key of more than {} parts", points),
-                    fmt::format("tables and arrays nested less than {} deep", deepest_nesting));
+    throw error_at(place_at(toml, scanner.position() - 1, file), {},
+                   open >= deepest_nesting ? fmt::format("{} brackets inside each other", open)
+                                           : fmt::format("a key of more than {} parts", points),
+                   fmt::format("tables and arrays nested less than {} deep", deepest_nesting));
   }
-  return std::nullopt;
 }
 
 Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest) {
@@ -261,11 +253,9 @@ Expected<std::string> read_text_file(const std::filesystem::path& file, std::siz
 }
 
 InputContent content_of(const toml::table& root) {
-  const auto of_materials = [](const auto& each) {
-    return each.first.str() == "material" || each.first.str() == "contact" ||
-           each.first.str() == "decomposition";
-  };
-  if (!root.empty() && std::ranges::all_of(root, of_materials)) return InputContent::materials;
+  constexpr std::array<std::string_view, 3> of_materials{"material", "contact", "decomposition"};
+  const auto is_of_materials = [&](const auto& each) { return contains(of_materials, each.first.str()); };
+  if (!root.empty() && std::ranges::all_of(root, is_of_materials)) return InputContent::materials;
   if (root.contains("body")) return InputContent::scene;
   return root.contains("kind") || root.contains("scene") ? InputContent::study : InputContent::unknown;
 }
@@ -306,10 +296,9 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& ca
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_word) continue;
     const std::size_t apart = letters_apart(wanted, lower_case(candidate));
-    if (apart < fewest && apart < candidate.size()) {
-      fewest = apart;
-      nearest = candidate;
-    }
+    if (apart >= fewest || apart >= candidate.size()) continue;
+    fewest = apart;
+    nearest = candidate;
   }
   return nearest;
 }

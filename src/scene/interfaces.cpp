@@ -1,11 +1,10 @@
 // The tables [interface.NAME] and [contact.NAME] of a file: how bodies hold the charge.
 #include "launchsafe/scene/interfaces.hpp"
 
+#include "input_text.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace launchsafe::scene {
 namespace {
@@ -20,84 +19,74 @@ InputError fault_of(const SceneFile& file, const Interface& faces, const std::st
   return error_at(where, name, found, allowed, suggestion);
 }
 
-Fault check_body(const SceneFile& file, const Interface& faces) {
+void check_body(const SceneFile& file, const Interface& faces) {
   const Scene& scene = file.scene;
   const std::vector<std::string> touching = bodies_at_the_charge(scene);
-  if (std::ranges::find(touching, faces.body) != touching.end()) return std::nullopt;
+  if (contains(touching, faces.body)) return;
   const Body* body = find_named(scene.bodies, faces.body);
   const char* what = body == nullptr           ? "which no body is called"
                      : is_charge(scene, *body) ? "which is a charge itself"
                                                : "which does not touch the charge";
   const std::string nearest = nearest_of(faces.body, touching);
-  return fault_of(file, faces, "", fmt::format("\"{}\", {}", faces.body, what),
-                  touching.empty() ? "no interface: no body touches a charge"
-                                   : "a body that touches the charge: " + quoted_list(touching),
-                  nearest.empty() ? nearest : "interface." + nearest);
+  throw fault_of(file, faces, "", fmt::format("\"{}\", {}", faces.body, what),
+                 touching.empty() ? "no interface: no body touches a charge"
+                                  : "a body that touches the charge: " + quoted_list(touching),
+                 nearest.empty() ? nearest : "interface." + nearest);
 }
 
-Fault check_law(const SceneFile& file, const Interface& faces) {
+void check_law(const SceneFile& file, const Interface& faces) {
   const bool slides = faces.condition == Condition::sliding;
   const bool breaks = faces.tension_strength || faces.shear_strength;
   const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
   if (slides && breaks)
-    return fault_of(file, faces, faces.tension_strength ? "tension_strength" : "shear_strength",
-                    "the strength of a bond on faces that slide from the start",
-                    "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
+    throw fault_of(file, faces, faces.tension_strength ? "tension_strength" : "shear_strength",
+                   "the strength of a bond on faces that slide from the start",
+                   "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
   if (slides && !faces.friction)
-    return fault_of(file, faces, "friction", "nothing: faces that slide without their friction", friction);
+    throw fault_of(file, faces, "friction", "nothing: faces that slide without their friction", friction);
   if (breaks && !faces.friction)
-    return fault_of(file, faces, "friction",
-                    "nothing: a bond that can break without the friction of the faces after it", friction);
+    throw fault_of(file, faces, "friction",
+                   "nothing: a bond that can break without the friction of the faces after it", friction);
   if (breaks && !(faces.tension_strength && faces.shear_strength))
-    return fault_of(file, faces, faces.tension_strength ? "shear_strength" : "tension_strength",
-                    "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
+    throw fault_of(file, faces, faces.tension_strength ? "shear_strength" : "tension_strength",
+                   "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
   if (faces.friction && !slides && !breaks)
-    return fault_of(file, faces, "friction",
-                    fmt::format("{:g} on faces that are bonded for good", *faces.friction),
-                    "friction with condition = \"sliding\", or with the strengths of a bond that can break",
-                    "condition = \"sliding\"");
-  return std::nullopt;
+    throw fault_of(file, faces, "friction",
+                   fmt::format("{:g} on faces that are bonded for good", *faces.friction),
+                   "friction with condition = \"sliding\", or with the strengths of a bond that can break",
+                   "condition = \"sliding\"");
 }
 
-/// The values of the contact that a table [interface.NAME] names; none where it names none.
-Expected<const NamedContact*> contact_of(const toml::table& table, const std::string& file,
-                                         const std::vector<NamedContact>& contacts) {
+/// The contact that a table [interface.NAME] names, whose values stand for those that are not given there;
+/// one without a name, or values, where it names none.
+NamedContact contact_of(const toml::table& table, const std::string& file,
+                        const std::vector<NamedContact>& contacts) {
   const toml::node* node = table.get("contact");
-  if (node == nullptr) return static_cast<const NamedContact*>(nullptr);
-  const auto name = read_value(*node, contact_of_interface_key(), file);
-  if (!name) return name.error();
-  std::vector<std::string> names;
-  for (const NamedContact& each : contacts) {
-    if (each.name == std::get<std::string>(*name)) return &each;
-    names.push_back(each.name);
-  }
-  return error_at(place_of(*node, file), "contact", found_text(*node),
-                  quoted_list(names) + "; or one that a table [contact.NAME] describes",
-                  nearest_of(std::get<std::string>(*name), names));
+  if (node == nullptr) return {};
+  const auto name = std::get<std::string>(read_value(*node, contact_of_interface_key(), file).or_throw());
+  if (const NamedContact* contact = find_named(contacts, name)) return *contact;
+  const std::vector<std::string> names = names_of(contacts);
+  throw error_at(place_of(*node, file), "contact", found_text(*node),
+                 quoted_list(names) + "; or one that a table [contact.NAME] describes",
+                 nearest_of(name, names));
 }
 
 /// One table [interface.NAME].
-Expected<Interface> read_interface(const std::string& body, const toml::table& table, const std::string& file,
-                                   const std::vector<NamedContact>& contacts, std::vector<Source>& sources,
-                                   std::map<std::string, Place>& places) {
-  const auto contact = contact_of(table, file, contacts);
-  if (!contact) return contact.error();
-  Interface faces;
-  if (*contact != nullptr) faces = (*contact)->faces;
+Interface read_interface(const std::string& body, const toml::table& table, const std::string& file,
+                         const std::vector<NamedContact>& contacts, std::vector<Source>& sources,
+                         std::map<std::string, Place>& places) {
+  NamedContact contact = contact_of(table, file, contacts);
+  Interface faces = contact.faces;
   faces.body = body;
   std::vector<Key<Interface>> keys = interface_keys();
-  if (*contact != nullptr)
-    for (Key<Interface>& key : keys) key.required = false;  // the contact gives the condition
-  const auto read = read_table(table, keys, {"contact"}, file, faces);
-  if (!read) return read.error();
-  std::vector<Source> of_contact = *contact != nullptr ? (*contact)->sources : std::vector<Source>{};
-  for (const auto& [key, place] : *read) {
+  for (Key<Interface>& key : keys) key.required = key.required && contact.name.empty();  // else it gives it
+  for (const auto& [key, place] : read_table(table, keys, {"contact"}, file, faces).or_throw()) {
     places[fmt::format("interface.{}.{}", body, key)] = place;
-    forget_source(of_contact, key);
+    forget_source(contact.sources, key);
   }
-  for (Source& source : of_contact) {
+  for (Source& source : contact.sources) {
     for (std::string& key : source.keys) key = fmt::format("interface.{}.{}", body, key);
-    source.citation = fmt::format("{}: {}", (*contact)->name, source.citation);
+    source.citation = fmt::format("{}: {}", contact.name, source.citation);
     sources.push_back(std::move(source));
   }
   return faces;
@@ -144,87 +133,58 @@ const std::vector<Key<Interface>>& interface_keys() {
 }
 
 std::vector<std::string> bodies_at_the_charge(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Body& body : scene.bodies) {
-    if (is_charge(scene, body)) continue;
-    const bool touches = std::ranges::any_of(scene.bodies, [&](const Body& other) {
-      return is_charge(scene, other) && share_a_face(scene, body, other);
-    });
-    if (touches) names.push_back(body.name);
-  }
-  return names;
+  std::vector<Body> touching = scene.bodies;
+  std::erase_if(touching, [&](const Body& body) {
+    return is_charge(scene, body) || std::ranges::none_of(scene.bodies, [&](const Body& other) {
+             return is_charge(scene, other) && share_a_face(scene, body, other);
+           });
+  });
+  return names_of(touching);
 }
 
-Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::string& file,
-                                         const std::vector<NamedContact>& contacts,
-                                         std::map<std::string, Place>& places) {
-  ReadInterfaces read;
-  const auto add = [&](const std::string& body, const toml::table& table) -> Fault {
-    const std::string name = "interface." + body;
-    places[name] = place_of(table, file);
-    auto faces = read_interface(body, table, file, contacts, read.sources, places);
-    if (!faces) return within(name, faces.error());
-    read.interfaces.push_back(std::move(*faces));
-    return std::nullopt;
-  };
-  if (auto error = visit_tables(root, "interface", "of the body that touches the charge", file, add))
-    return *error;
-  return read;
+void read_interfaces(const toml::table& root, const std::string& file,
+                     const std::vector<NamedContact>& contacts, Scene& scene, std::vector<Source>& sources,
+                     std::map<std::string, Place>& places) {
+  visit_tables(root, "interface", "of the body that touches the charge", file,
+               [&](const std::string& body, const toml::table& table) {
+                 places["interface." + body] = place_of(table, file);
+                 scene.interfaces.push_back(within("interface." + body, [&] {
+                   return read_interface(body, table, file, contacts, sources, places);
+                 }));
+               });
 }
 
-Fault check_interfaces(const SceneFile& file) {
+void check_interfaces(const SceneFile& file) {
   for (const Interface& faces : file.scene.interfaces) {
-    if (auto error = check_body(file, faces)) return error;
-    if (auto error = check_law(file, faces)) return error;
+    check_body(file, faces);
+    check_law(file, faces);
     if (!can_slide(faces) || file.scene.numerics.formulation == Formulation::total_lagrangian) continue;
-    return fault_of(file, faces, "condition", "faces that can slide with formulation \"updated-lagrangian\"",
-                    "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
-                    "place; sliding with numerics.formulation = \"total-lagrangian\"",
-                    "formulation = \"total-lagrangian\"");
+    throw fault_of(file, faces, "condition", "faces that can slide with formulation \"updated-lagrangian\"",
+                   "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
+                   "place; sliding with numerics.formulation = \"total-lagrangian\"",
+                   "formulation = \"total-lagrangian\"");
   }
-  return std::nullopt;
-}
-
-std::string interfaces_as_toml(std::vector<Interface> interfaces) {
-  const KeyDescription name{.kind = KeyKind::text};
-  // In the order of names, in which files are read: the order in which a program made them says nothing.
-  std::ranges::stable_sort(interfaces, {}, &Interface::body);
-  std::string text;
-  for (const Interface& faces : interfaces) {
-    const auto add = [&](std::string_view key, const std::string& value) {
-      text += fmt::format("interface.{}.{} = {}\n", exact_toml(name, faces.body), key, value);
-    };
-    for (const Key<Interface>& key : interface_keys())
-      if (!key.is_written || key.is_written(faces)) add(key.name, exact_toml(key, key.get(faces)));
-    // Only programs make these; files cannot say them, but texts of different scenes differ.
-    if (!faces.against.empty()) add("against", exact_toml(name, faces.against));
-  }
-  return text;
 }
 
 std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
   std::vector<InterfaceText> described;
   for (const std::string& body : bodies_at_the_charge(scene)) {
     const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
-    if (faces == scene.interfaces.end() || !can_slide(*faces)) {
-      described.push_back(
-          {body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});
-      continue;
-    }
-    const std::string sliding = fmt::format(
+    InterfaceText& text = described.emplace_back(InterfaceText{
+        body, "bonded", "charge and body never part or slide, and the bond bears any tension and shear"});
+    if (faces == scene.interfaces.end() || !can_slide(*faces)) continue;
+    text.condition = "sliding";
+    text.assumes = fmt::format(
         "Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part; the heat "
         "of friction is told and heats no skin",
         faces->friction.value_or(0.0));
-    if (!faces->tension_strength) {
-      described.push_back({body, "sliding", sliding});
-      continue;
-    }
-    described.push_back(
-        {body, "bonded until it breaks",
-         fmt::format("past {} of tension or {} of shear at a node, each by itself, the bond is gone there "
-                     "for good; then {}",
-                     pressure_text(*faces->tension_strength),
-                     pressure_text(faces->shear_strength.value_or(0.0)), sliding)});
+    if (!faces->tension_strength) continue;
+    text.condition = "bonded until it breaks";
+    text.assumes = fmt::format(
+        "past {} of tension or {} of shear at a node, each by itself, the bond is gone there for good; then "
+        "{}",
+        pressure_text(*faces->tension_strength), pressure_text(faces->shear_strength.value_or(0.0)),
+        text.assumes);
   }
   return described;
 }

@@ -14,21 +14,14 @@ namespace {
 std::string limits_text(const Limits& limits, Dimension dimension) {
   const auto shown = [&](double value) { return format_quantity(value, dimension); };
   const bool low = std::isfinite(limits.lowest), high = std::isfinite(limits.highest);
-  if (low && high) {
+  if (low && high)
     return fmt::format("{} {}to {}{}", shown(limits.lowest), limits.lowest_allowed ? "" : "(excluded) ",
                        shown(limits.highest), limits.highest_allowed ? "" : " (excluded)");
-  }
   if (low)
     return fmt::format("{}{}", limits.lowest_allowed ? "at least " : "more than ", shown(limits.lowest));
   if (high)
     return fmt::format("{}{}", limits.highest_allowed ? "at most " : "less than ", shown(limits.highest));
   return {};
-}
-
-/// A unit of the dimension with a blank before it, or nothing.
-std::string first_unit(Dimension dimension) {
-  const auto units = units_of(dimension);
-  return units.empty() ? std::string{} : " " + units.front();
 }
 
 /// The word under which a value is written to texts that identify what is stored: that of the version that
@@ -61,7 +54,8 @@ std::string example_of_number(const KeyDescription& key) {
 /// Those of the usual numbers, in the first unit, that are allowed, or other ones.
 std::string example_of_numbers(const KeyDescription& key, std::vector<double> usual,
                                std::string_view between) {
-  const std::string unit = first_unit(key.dimension);
+  const auto units = units_of(key.dimension);
+  const std::string unit = units.empty() ? std::string{} : " " + units.front();
   std::erase_if(usual, [&](double number) {
     const auto value = parse_quantity(fmt::format("{:g}{}", number, unit), key.dimension);
     return value && !key.limits.contain(*value);

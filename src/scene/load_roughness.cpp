@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <complex>
-#include <numbers>
 
 namespace launchsafe::scene {
 namespace {
@@ -128,9 +125,7 @@ std::vector<double> fast_part(const Load& measured, double window, std::size_t s
   const double begin = load.curve_time.front(),
                interval = (load.curve_time.back() - begin) / static_cast<double>(samples);
   if (interval > mean_interval(load)) load.smoothing = std::max(load.smoothing, interval);
-  Load slow = load;
-  slow.smoothing = window;
-  const PressureHistory all(load), average(slow);
+  const PressureHistory all(load), average(averaged(load, window));
   std::vector<double> fast;
   for (std::size_t i = 0; i < samples; ++i) {
     const double time = begin + (static_cast<double>(i) + 0.5) * interval;
@@ -198,8 +193,7 @@ std::string roughness_text(const Load& load) {
                       percent(roughness / (1.0 + roughness)));
   const auto window = suggested_smoothing(load);
   if (!window) return text;
-  Load smoothed = load;
-  smoothed.smoothing = *window;
+  const Load smoothed = averaged(load, *window);
   return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
                             time_text(*window), load_roughness(smoothed),
                             percent(peak_lost_to_smoothing(smoothed)));
@@ -216,10 +210,9 @@ std::string removal_text(const Load& load) {
   if (const auto gone = smoothed_ring(load)) return "; it took away a ring at " + size_text(*gone, load);
   const auto ring = ring_of(load);
   if (!ring) return {};
-  Load smoothed = load;
   // In three digits, which its frequency bears.
   const double digit = std::pow(10.0, std::floor(-std::log10(ring->frequency)) - 2.0);
-  smoothed.smoothing = digit * std::round(1.0 / ring->frequency / digit);
+  const Load smoothed = averaged(load, digit * std::round(1.0 / ring->frequency / digit));
   return fmt::format(
       "; if the ring is the gauge's own, load.smoothing = \"{}\", its period, takes it away, and {} from the "
       "peak",
@@ -236,6 +229,11 @@ std::string smoothing_text(const Load& load) {
 
 }  // namespace
 
+Load averaged(Load load, double window) {
+  load.smoothing = window;
+  return load;
+}
+
 Load load_of_curve(const PressureCurve& curve) {
   Load load;
   load.curve_time = curve.time;
@@ -251,9 +249,7 @@ double load_roughness(const Load& load) {
 
 double work_lost_to_smoothing(const Load& load) {
   if (load.curve_time.size() < 2 || !(load.smoothing > 0.0)) return 0.0;
-  Load raw = load;
-  raw.smoothing = 0.0;
-  const double before = work_of(raw).noiseless, after = work_of(load).whole;
+  const double before = work_of(averaged(load, 0.0)).noiseless, after = work_of(load).whole;
   return after > 0.0 ? std::max(0.0, before / after - 1.0) : 0.0;
 }
 
@@ -319,9 +315,7 @@ std::optional<Ring> ring_of(const Load& load) {
 std::optional<Ring> smoothed_ring(const Load& load) {
   constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  Load raw = load;
-  raw.smoothing = 0.0;
-  for (const Ring& ring : rings_of(raw)) {
+  for (const Ring& ring : rings_of(averaged(load, 0.0))) {
     // What an average over a window leaves of a sine.
     const double angle = std::numbers::pi * ring.frequency * load.smoothing;
     if (!(std::abs(std::sin(angle)) > least_left * angle)) return ring;
@@ -338,9 +332,9 @@ std::string ring_text(const Load& load) {
 
 std::string measured_load_text(const Load& load) {
   if (load.curve_time.empty()) return {};
-  const std::string smoothing = smoothing_text(load), ring = ring_text(load);
-  return smoothing + (smoothing.empty() ? "" : "; ") + roughness_text(load) + (ring.empty() ? "" : "; ") +
-         ring + removal_text(load);
+  std::vector<std::string> parts{smoothing_text(load), roughness_text(load), ring_text(load)};
+  std::erase(parts, "");
+  return fmt::format("{}{}", fmt::join(parts, "; "), removal_text(load));
 }
 
 }  // namespace launchsafe::scene

@@ -6,45 +6,25 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
 #include <set>
 
 namespace launchsafe::scene {
 namespace {
 
-/// A fault of a shipped file is one of the program itself, which tests find.
-template <class Value>
-Value without_fault(Expected<Value> value) {
-  if (value) return std::move(*value);
-  fmt::print(stderr, "{}\n", value.error().message());
-  std::abort();
-}
-
-struct BuiltInTable {
-  std::string file;
-  toml::table table;
-};
-const std::vector<BuiltInTable>& built_in_tables() {
-  static const std::vector<BuiltInTable> tables = [] {
-    std::vector<BuiltInTable> parsed;
-    for (const BuiltInText& each : built_in_materials()) {
-      const std::string file = "the shipped " + each.file;
-      parsed.push_back({file, without_fault(parse_toml(each.text, file))});
-    }
-    return parsed;
-  }();
-  return tables;
-}
-
-/// What `read(table, file, those of the files before)` finds in all of them.
+/// What `read(table, file, those of the files before)` finds in all shipped files. A fault of one is one of
+/// the program itself, which tests find.
 template <class Named, class Read>
-std::vector<Named> read_built_in(Read&& read) {
+std::vector<Named> read_built_in(Read&& read) try {
   std::vector<Named> all;
-  for (const auto& [file, table] : built_in_tables()) {
-    const std::vector<Named> named = without_fault(read(table, file, all));
+  for (const BuiltInText& each : built_in_materials()) {
+    const std::string file = "the shipped " + each.file;
+    const std::vector<Named> named = read(parse_toml(each.text, file).or_throw(), file, all);
     all.insert(all.end(), named.begin(), named.end());
   }
   return all;
+} catch (const InputError& error) {
+  fmt::print(stderr, "{}\n", error.message());
+  std::abort();
 }
 
 /// Those of the shipped ones that the file names.
@@ -71,58 +51,52 @@ Key<Source> keys_of_source_key() {
       [](const auto& keys) { return fmt::format("{}", fmt::join(keys, ", ")); });
 }
 
-Fault check_source(const Source& source, const std::map<std::string, Place>& places,
-                   const std::vector<std::string>& known, std::set<std::string>& cited) {
-  if (source.keys.empty())
-    return error_at(places.at("keys"), "source.keys", "no key", "names of keys, such as \"density\"");
+void check_source(const Source& source, const std::map<std::string, Place>& places,
+                  const std::vector<std::string>& known, std::set<std::string>& cited) {
+  const auto fault_of_keys = [&](std::string found, std::string allowed, std::string suggestion = {}) {
+    return error_at(places.at("keys"), "source.keys", found, allowed, suggestion);
+  };
+  if (source.keys.empty()) throw fault_of_keys("no key", "names of keys, such as \"density\"");
   for (const std::string& key : source.keys) {
-    if (std::ranges::find(known, key) == known.end()) {
-      InputError error = unknown_key(places.at("keys"), key, known);
-      error.found = fmt::format("\"{}\", which no key with a value here is called", key);
-      error.key = "source.keys";
-      return error;
+    if (!contains(known, key)) {
+      const InputError unknown = unknown_key(places.at("keys"), key, known);
+      throw fault_of_keys(fmt::format("\"{}\", which no key with a value here is called", key),
+                          unknown.allowed, unknown.suggestion);
     }
     if (!cited.insert(key).second)
-      return error_at(places.at("keys"), "source.keys", fmt::format("\"{}\" a second time", key),
-                      "one source of each key");
+      throw fault_of_keys(fmt::format("\"{}\" a second time", key), "one source of each key");
   }
   if (source.citation.find_first_not_of(" \t\n") == std::string::npos)
-    return error_at(places.at("citation"), "source.citation", "no words",
-                    "where the values come from, in words");
-  return std::nullopt;
+    throw error_at(places.at("citation"), "source.citation", "no words",
+                   "where the values come from, in words");
 }
 
 /// All tables of that name but materials; `meaning` as of visit_tables, `known`: those of other files.
 template <class Named>
-Expected<std::vector<Named>> read_named(const toml::table& root, const std::string& what,
-                                        std::string_view meaning, const std::vector<Key<Named>>& keys,
-                                        const std::string& file, const std::vector<Named>& known) {
+std::vector<Named> read_named(const toml::table& root, const std::string& what, std::string_view meaning,
+                              const std::vector<Key<Named>>& keys, const std::string& file,
+                              const std::vector<Named>& known) {
   std::vector<Named> all;
-  const auto read = [&](const std::string& name, const toml::table& table) -> Fault {
+  visit_tables(root, what, meaning, file, [&](const std::string& name, const toml::table& table) {
     if (find_named(known, name) != nullptr)
-      return error_at(place_of(table, file), what, fmt::format("a {} called \"{}\"", what, name),
-                      fmt::format("a name that no other {} has", what));
+      throw error_at(place_of(table, file), what, fmt::format("a {} called \"{}\"", what, name),
+                     fmt::format("a name that no other {} has", what));
     Named& named = all.emplace_back();
     named.name = name;
-    const auto places = read_table(table, keys, {"source"}, file, named);
-    if (!places) return within(what + "." + name, places.error());
-    std::vector<std::string> given;
-    for (const Key<Named>& key : keys)
-      if (key.name != "title" && places->contains(key.name)) given.push_back(key.name);
-    auto sources = read_sources(table, given, file);
-    if (!sources) return within(what + "." + name, sources.error());
-    named.sources = std::move(*sources);
-    return std::nullopt;
-  };
-  if (auto error = visit_tables(root, what, meaning, file, read)) return *error;
+    within(what + "." + name, [&] {
+      const auto places = read_table(table, keys, {"source"}, file, named).or_throw();
+      std::vector<std::string> given = names_of(keys);
+      std::erase_if(given, [&](const auto& key) { return key == "title" || !places.contains(key); });
+      named.sources = read_sources(table, given, file);
+    });
+  });
   return all;
 }
 
 }  // namespace
 
-Fault check_material_tables(const toml::table& root, const std::string& file) {
-  if (auto read = read_described(root, {}, {"material", "contact"}, file); !read) return read.error();
-  return std::nullopt;
+void check_material_tables(const toml::table& root, const std::string& file) {
+  read_described(root, {}, {"material", "contact"}, file).or_throw();
 }
 
 const std::vector<NamedMaterial>& shipped_materials() {
@@ -145,46 +119,44 @@ const std::vector<Decomposition>& shipped_decompositions() {
 }
 
 Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
-  if (!text) return text.error();
-  const auto table = parse_toml(*text, file.string());
-  if (!table) return table.error();
-  if (auto error = check_content(*table, file.string(), InputContent::materials)) return *error;
-  const auto& shipped = built_in_materials();
-  if (std::ranges::find(shipped, *text, &BuiltInText::text) != shipped.end())
-    return NamedMaterials{named_in(*table, "material", shipped_materials()),
-                          named_in(*table, "contact", shipped_contacts()),
-                          named_in(*table, "decomposition", shipped_decompositions())};
-  if (auto error = check_material_tables(*table, file.string())) return *error;
-  auto materials = read_materials(*table, file.string(), shipped_materials());
-  if (!materials) return materials.error();
-  auto contacts = read_contacts(*table, file.string(), shipped_contacts());
-  if (!contacts) return contacts.error();
-  return NamedMaterials{std::move(*materials), std::move(*contacts), {}};
+  return caught([&, name = file.string()]() -> NamedMaterials {
+    const std::string text = read_text_file(file).or_throw();
+    const toml::table table = parse_toml(text, name).or_throw();
+    if (const auto fault = check_content(table, name, InputContent::materials)) throw *fault;
+    const auto& shipped = built_in_materials();
+    if (std::ranges::find(shipped, text, &BuiltInText::text) != shipped.end())
+      return {named_in(table, "material", shipped_materials()),
+              named_in(table, "contact", shipped_contacts()),
+              named_in(table, "decomposition", shipped_decompositions())};
+    check_material_tables(table, name);
+    return {
+        read_materials(table, name, shipped_materials()), read_contacts(table, name, shipped_contacts()), {}};
+  });
 }
 
 const std::vector<Key<Decomposition>>& decomposition_keys() {
   using materials::KineticsParameters;
+  using enum Standing;
+  using enum Dimension;
   static const std::vector<Key<Decomposition>> keys = keys::joined(
-      {{text_key("title", Standing::input, "Of which explosive, for reports.", "RDX", &Decomposition::title) |
+      {{text_key("title", input, "Of which explosive, for reports.", "RDX", &Decomposition::title) |
         required()},
-       keys::keys_of_part(
-           "", &Decomposition::kinetics,
-           {number_key("activation_temperature", Dimension::temperature_difference, above_to(0, 1e6),
-                       Standing::literature, "Activation energy over the gas constant, E/R.",
-                       &KineticsParameters::activation_temperature) |
-                required(),
-            number_key("frequency", Dimension::frequency, above_to(0, 1e30), Standing::literature,
-                       "Frequency factor Z.", &KineticsParameters::frequency) |
-                required(),
-            number_key("heat_of_reaction", Dimension::specific_energy, above_to(0, 1e8), Standing::literature,
-                       "Heat Q.", &KineticsParameters::heat_of_reaction) |
-                required()})});
+       keys::keys_of_part("", &Decomposition::kinetics,
+                          {number_key("activation_temperature", temperature_difference, above_to(0, 1e6),
+                                      literature, "Activation energy over the gas constant, E/R.",
+                                      &KineticsParameters::activation_temperature) |
+                               required(),
+                           number_key("frequency", frequency, above_to(0, 1e30), literature,
+                                      "Frequency factor Z.", &KineticsParameters::frequency) |
+                               required(),
+                           number_key("heat_of_reaction", specific_energy, above_to(0, 1e8), literature,
+                                      "Heat Q.", &KineticsParameters::heat_of_reaction) |
+                               required()})});
   return keys;
 }
 
-Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
-                                                  const std::vector<NamedContact>& known) {
+std::vector<NamedContact> read_contacts(const toml::table& root, const std::string& file,
+                                        const std::vector<NamedContact>& known) {
   return read_named(root, "contact", "that interfaces refer to", contact_keys(), file, known);
 }
 
@@ -220,15 +192,13 @@ const std::vector<Key<Source>>& source_keys() {
   return keys;
 }
 
-Expected<std::vector<Source>> read_sources(const toml::table& table, const std::vector<std::string>& known,
-                                           const std::string& file) {
-  auto tables = read_tables(table, "source", source_keys(), file,
-                            "tables, such as source = [{ keys = \"density\", citation = \"...\" }]");
-  if (!tables) return tables.error();
+std::vector<Source> read_sources(const toml::table& table, const std::vector<std::string>& known,
+                                 const std::string& file) {
+  const char* allowed = "tables, such as source = [{ keys = \"density\", citation = \"...\" }]";
   std::vector<Source> sources;
   std::set<std::string> cited;
-  for (auto& [source, places] : *tables) {
-    if (auto error = check_source(source, places, known, cited)) return *error;
+  for (auto& [source, places] : read_tables(table, "source", source_keys(), file, allowed).or_throw()) {
+    check_source(source, places, known, cited);
     sources.push_back(std::move(source));
   }
   return sources;
@@ -236,7 +206,7 @@ Expected<std::vector<Source>> read_sources(const toml::table& table, const std::
 
 const Source* source_of(const std::vector<Source>& sources, const std::string& key) {
   for (const Source& source : sources)
-    if (std::ranges::find(source.keys, key) != source.keys.end()) return &source;
+    if (contains(source.keys, key)) return &source;
   return nullptr;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <set>
@@ -201,16 +200,11 @@ std::vector<GridInterval> intervals(const Scene& scene, const char* along, const
   return all;
 }
 
-/// Radii between which bodies of the charge reach its bottom.
+/// The bodies of the charge that reach its bottom.
 Extent bottom_of(const Scene& scene) {
-  const Extent charge = charge_extent(scene);
-  Extent bottom{charge.x_end, charge.x_end, std::numeric_limits<double>::infinity(), 0.0};
-  for (const Body& body : scene.bodies) {
-    if (!is_charge(scene, body) || body.x_end < charge.x_end) continue;
-    bottom.r_begin = std::min(bottom.r_begin, body.r_begin);
-    bottom.r_end = std::max(bottom.r_end, body.r_end);
-  }
-  return bottom;
+  return extent_where(scene, [&, end = charge_extent(scene).x_end](const Body& body) {
+    return is_charge(scene, body) && body.x_end >= end;
+  });
 }
 
 /// Length of the last interval between lines before a place.

@@ -1,5 +1,7 @@
 #include "launchsafe/scene/named_material.hpp"
 
+#include "input_text.hpp"
+
 #include <fmt/format.h>
 
 namespace launchsafe::scene {
@@ -23,70 +25,57 @@ std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
   return keys;
 }
 
-Expected<std::string> read_law(const toml::table& table, const Place& place, const std::string& file) {
+std::string read_law(const toml::table& table, const Place& place, const std::string& file) {
   const KeyDescription& key = *find_key(material_keys(), "law");
   const toml::node* node = table.get("law");
-  if (node == nullptr) return error_at(place, "law", "nothing; the key is missing", allowed_text(key));
-  const auto word = read_value(*node, key, file);
-  if (!word) return word.error();
-  return std::get<std::string>(*word);
+  if (node == nullptr) throw error_at(place, "law", "nothing; the key is missing", allowed_text(key));
+  return std::get<std::string>(read_value(*node, key, file).or_throw());
 }
 
 /// One table [material.NAME], without what it takes of another material.
-Expected<NamedMaterial> read_material(const std::string& name, const toml::table& table,
-                                      const std::string& file) {
+NamedMaterial read_material(const std::string& name, const toml::table& table, const std::string& file) {
   NamedMaterial material;
   material.name = name;
   material.place = place_of(table, file);
-  const auto law = read_law(table, material.place, file);
-  if (!law) return law.error();
-  const std::vector<LawKey> law_keys = keys_of_law_in_material(*law);
+  const std::vector<LawKey> law_keys = keys_of_law_in_material(read_law(table, material.place, file));
   std::vector<const KeyDescription*> described = descriptions_of(material_keys());
   const std::size_t own = described.size();
   for (const LawKey& key : law_keys) described.push_back(&key.description);
-  const auto read = read_described(table, described, {"source"}, file);
-  if (!read) return read.error();
+  const ReadValues read = read_described(table, described, {"source"}, file).or_throw();
   std::vector<std::string> given;
-  for (const auto& [index, value] : read->values) {
+  std::map<std::string, std::string> scene_key_of;
+  for (const auto& [index, value] : read.values) {
     if (index < own) {
       material_keys()[index].set(material, value);
       continue;
     }
     const LawKey& key = law_keys[index - own];
-    given.push_back(key.description.name);
-    material.values[key.scene_key] = {read->places.at(key.description.name), value, true};
+    scene_key_of[given.emplace_back(key.description.name)] = key.scene_key;
+    material.values[key.scene_key] = {read.places.at(key.description.name), value, true};
   }
-  auto sources = read_sources(table, given, file);
-  if (!sources) return sources.error();
-  material.sources = std::move(*sources);
+  material.sources = read_sources(table, given, file);
   for (Source& source : material.sources)
-    for (std::string& key : source.keys)
-      key = std::ranges::find(law_keys, key, [](const LawKey& each) {
-              return each.description.name;
-            })->scene_key;
+    for (std::string& key : source.keys) key = scene_key_of.at(key);
   return material;
 }
 
-Fault check_name(const toml::node& node, const std::string& name, const std::string& file,
-                 const std::vector<NamedMaterial>& known) {
+void check_name(const toml::node& node, const std::string& name, const std::string& file,
+                const std::vector<NamedMaterial>& known) {
   const bool is_law = find_named(usual_materials(), name) != nullptr;
-  const bool plain = !name.empty() && std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  if (plain && !is_law && find_named(known, name) == nullptr) return std::nullopt;
-  return error_at(place_of(node, file), "material", fmt::format("a material called \"{}\"", name),
-                  "a name of letters, digits, - and _ that no law and no other material has",
-                  is_law ? fmt::format("[{}]", name) : std::string{});
+  constexpr const char* letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  const bool plain = !name.empty() && name.find_first_not_of(letters) == std::string::npos;
+  if (plain && !is_law && find_named(known, name) == nullptr) return;
+  throw error_at(place_of(node, file), "material", fmt::format("a material called \"{}\"", name),
+                 "a name of letters, digits, - and _ that no law and no other material has",
+                 is_law ? fmt::format("[{}]", name) : std::string{});
 }
 
 /// Whether a key of the law that is not given is settled by one that is, as kinetics.set is by its numbers.
 bool is_settled(const NamedMaterial& material, const LawKey& key, const std::vector<LawKey>& keys) {
-  const auto names = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::ranges::find(list, name) != list.end();
-  };
   return std::ranges::any_of(keys, [&](const LawKey& other) {
-    return material.values.contains(other.scene_key) && (names(other.description.overrides, key.scene_key) ||
-                                                         names(key.description.overrides, other.scene_key));
+    return material.values.contains(other.scene_key) &&
+           (contains(other.description.overrides, key.scene_key) ||
+            contains(key.description.overrides, other.scene_key));
   });
 }
 
@@ -105,52 +94,44 @@ void take_over(NamedMaterial& material, const NamedMaterial& from) {
   if (!taken.keys.empty()) material.sources.push_back(std::move(taken));
 }
 
-Fault check_complete(const NamedMaterial& material) {
+void check_complete(const NamedMaterial& material) {
   const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
   for (const LawKey& key : keys) {
     if (material.values.contains(key.scene_key) || is_settled(material, key, keys) ||
         !key.description.usual.empty())
       continue;
-    return error_at(material.place, "material." + material.name + "." + key.description.name,
-                    "nothing; the key is missing",
-                    fmt::format("{}; or like = \"NAME\", a material whose value stands for it",
-                                allowed_text(key.description)));
+    throw error_at(material.place, "material." + material.name + "." + key.description.name,
+                   "nothing; the key is missing",
+                   fmt::format("{}; or like = \"NAME\", a material whose value stands for it",
+                               allowed_text(key.description)));
   }
-  return std::nullopt;
 }
 
-/// Completes materials in the order in which they are like each other.
-Fault complete_all(std::vector<NamedMaterial>& materials, const std::vector<NamedMaterial>& known) {
-  std::vector<bool> done(materials.size());
-  using Complete = std::function<Fault(std::size_t i, std::size_t depth)>;
-  const Complete complete = [&](std::size_t i, std::size_t depth) -> Fault {
-    if (done[i]) return std::nullopt;
-    NamedMaterial& material = materials[i];
-    if (!material.like.empty()) {
-      const auto fault = [&](std::string found, std::string allowed) {
-        return error_at(material.place, "material." + material.name + ".like", std::move(found),
-                        std::move(allowed));
-      };
-      if (depth > materials.size())
-        return fault(fmt::format("\"{}\", which is like this material", material.like),
-                     "a material with numbers of its own");
-      const NamedMaterial* other = find_named(known, material.like);
-      const NamedMaterial* own = find_named(materials, material.like);
-      if (other == nullptr && own != nullptr) {
-        if (auto error = complete(static_cast<std::size_t>(own - materials.data()), depth + 1)) return error;
-        other = own;
-      }
-      if (other == nullptr || other->law != material.law)
-        return fault(fmt::format("\"{}\"", material.like),
-                     fmt::format("the name of a material of law \"{}\"", material.law));
-      take_over(material, *other);
+/// Completes a material after the one that it is like.
+void complete(std::vector<NamedMaterial>& materials, std::size_t index, std::vector<bool>& done,
+              const std::vector<NamedMaterial>& known, std::size_t depth = 0) {
+  NamedMaterial& material = materials[index];
+  if (done[index]) return;
+  if (!material.like.empty()) {
+    const auto fault = [&](std::string found, std::string allowed) {
+      return error_at(material.place, "material." + material.name + ".like", found, allowed);
+    };
+    if (depth > materials.size())
+      throw fault(fmt::format("\"{}\", which is like this material", material.like),
+                  "a material with numbers of its own");
+    const NamedMaterial* other = find_named(known, material.like);
+    const NamedMaterial* own = find_named(materials, material.like);
+    if (other == nullptr && own != nullptr) {
+      complete(materials, static_cast<std::size_t>(own - materials.data()), done, known, depth + 1);
+      other = own;
     }
-    done[i] = true;
-    return check_complete(material);
-  };
-  for (std::size_t i = 0; i < materials.size(); ++i)
-    if (auto error = complete(i, 0)) return error;
-  return std::nullopt;
+    if (other == nullptr || other->law != material.law)
+      throw fault(fmt::format("\"{}\"", material.like),
+                  fmt::format("the name of a material of law \"{}\"", material.law));
+    take_over(material, *other);
+  }
+  done[index] = true;
+  check_complete(material);
 }
 
 }  // namespace
@@ -161,7 +142,7 @@ const std::vector<Key<NamedMaterial>>& material_keys() {
                                       &NamedMaterial::law) |
                              required();
     law.kind = KeyKind::word;
-    for (const Material& material : usual_materials()) law.words.push_back(material.name);
+    law.words = names_of(usual_materials());
     return std::vector<Key<NamedMaterial>>{
         law | always_plausible("the numbers are judged"),
         text_key("title", Standing::input, "What the material is, for reports.", "PBX 9501",
@@ -191,18 +172,16 @@ std::string key_in_material(std::string_view law, std::string_view scene_key) {
   return std::string(own ? scene_key.substr(law.size() + 1) : scene_key);
 }
 
-Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
-                                                    const std::vector<NamedMaterial>& known) {
+std::vector<NamedMaterial> read_materials(const toml::table& root, const std::string& file,
+                                          const std::vector<NamedMaterial>& known) {
   std::vector<NamedMaterial> materials;
-  const auto read = [&](const std::string& name, const toml::table& table) -> Fault {
-    if (auto error = check_name(table, name, file, known)) return error;
-    auto material = read_material(name, table, file);
-    if (!material) return within("material." + name, material.error());
-    materials.push_back(std::move(*material));
-    return std::nullopt;
+  const auto read = [&](const std::string& name, const toml::table& table) {
+    check_name(table, name, file, known);
+    materials.push_back(within("material." + name, [&] { return read_material(name, table, file); }));
   };
-  if (auto error = visit_tables(root, "material", "that bodies refer to", file, read)) return *error;
-  if (auto error = complete_all(materials, known)) return *error;
+  visit_tables(root, "material", "that bodies refer to", file, read);
+  std::vector<bool> done(materials.size());
+  for (std::size_t i = 0; i < materials.size(); ++i) complete(materials, i, done, known);
   return materials;
 }
 

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace launchsafe::scene {
 namespace {
 
@@ -279,27 +277,18 @@ Plan make_plan(const Scene& scene) {
 double predicted_time(const Plan& plan, double update_rate) { return plan.work / update_rate; }
 
 LargestChanges largest_changes(const Load& load, double window) {
-  constexpr std::size_t parts = 8;  // of the window
+  constexpr double parts = 8.0;  // of the window
   const PressureHistory history(load);
   const double end = end_time(load), between = std::max(window / parts, end * 1e-6);
-  LargestChanges changes;
-  const auto take = [&](double earlier, double here) {
-    changes.rise = std::max(changes.rise, here - earlier);
-    changes.fall = std::max(changes.fall, earlier - here);
-  };
-  std::vector<double> pressures;
-  for (double time = 0.0; time < end; time += between) pressures.push_back(history.at(time));
-  const double last = history.at(end);
-  const auto steps = static_cast<std::size_t>(std::max(1L, std::lround(window / between)));
-  for (std::size_t i = 0; i < pressures.size(); ++i) {
-    take(i > steps ? pressures[i - steps] : 0.0, pressures[i]);
-    if (i + steps >= pressures.size()) take(pressures[i], last);
-  }
   std::vector<double> times = history.marks();
   times.push_back(history.peak_time());
+  for (double time = 0.0; time < end; time += between) times.push_back(time);
+  LargestChanges changes;
   for (const double time : times) {
-    take(time > window ? history.at(time - window) : 0.0, history.at(time));
-    take(history.at(time), history.at(std::min(end, time + window)));
+    const double before = time > window ? history.at(time - window) : 0.0, here = history.at(time),
+                 after = history.at(std::min(end, time + window));
+    changes.rise = std::max({changes.rise, here - before, after - here});
+    changes.fall = std::max({changes.fall, before - here, here - after});
   }
   return changes;
 }

@@ -58,9 +58,7 @@ std::string load_text(const Scene& scene) {
   if (const std::string measured = measured_load_text(scene.load); !measured.empty())
     text += labelled("measurement", measured);
   text += labelled("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
-  if (has_charge(scene)) {
-    text += labelled("setback pressure", pressure_text(setback_pressure(scene)));
-  }
+  if (has_charge(scene)) text += labelled("setback pressure", pressure_text(setback_pressure(scene)));
   return text;
 }
 

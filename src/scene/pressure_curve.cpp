@@ -121,11 +121,11 @@ bool is_named(const Column& column, std::string_view word) {
   return name.starts_with(word) && std::ranges::all_of(name, may_belong);
 }
 
-/// The error of a column whose unit is none of its dimension.
-Fault check_unit(const Column& column, const Place& place) {
-  if (parse_quantity("1 " + column.unit, column.dimension)) return std::nullopt;
+/// A column's unit must be one of its dimension.
+void check_unit(const Column& column, const Place& place) {
+  if (parse_quantity("1 " + column.unit, column.dimension)) return;
   const auto units = units_of(column.dimension);
-  return error_at(
+  throw error_at(
       place, name_of(column.dimension),
       column.unit.empty() ? fmt::format("\"{}\", without a unit", column.name)
                           : fmt::format("\"{}\" with the unknown unit \"{}\"", column.name, column.unit),
@@ -133,10 +133,9 @@ Fault check_unit(const Column& column, const Place& place) {
       nearest_of(column.unit, units));
 }
 
-/// The one column in a unit of the dimension, or of the wanted name; or why there is none: of several the
-/// user must say which.
-Expected<Column> chosen_column(const std::vector<Column>& columns, Dimension dimension, const Place& place,
-                               const std::string& wanted) {
+/// The one column in a unit of the dimension, or of the wanted name: of several the user must say which.
+Column chosen_column(const std::vector<Column>& columns, Dimension dimension, const Place& place,
+                     const std::string& wanted) {
   std::vector<Column> found;
   std::vector<std::string> names;
   for (const Column& column : columns) {
@@ -146,38 +145,34 @@ Expected<Column> chosen_column(const std::vector<Column>& columns, Dimension dim
   }
   if (found.size() == 1) return found.front();
   const std::string_view quantity = name_of(dimension);
-  return error_at(place, quantity,
-                  wanted.empty() ? fmt::format("{} columns in units of {}", found.size(), quantity)
-                                 : fmt::format("no single column \"{}\" in units of {}", wanted, quantity),
-                  names.empty() ? std::string(allowed_header)
-                                : fmt::format("one of the columns {}{}", quoted_list(names),
-                                              dimension == Dimension::pressure ? ", by --pressure" : ""),
-                  nearest_of(wanted, names));
+  throw error_at(place, quantity,
+                 wanted.empty() ? fmt::format("{} columns in units of {}", found.size(), quantity)
+                                : fmt::format("no single column \"{}\" in units of {}", wanted, quantity),
+                 names.empty() ? std::string(allowed_header)
+                               : fmt::format("one of the columns {}{}", quoted_list(names),
+                                             dimension == Dimension::pressure ? ", by --pressure" : ""),
+                 nearest_of(wanted, names));
 }
 
 /// `gauge`: the pressure's column in a gauge's record, or nullptr.
-Expected<Header> read_header(std::string_view line, const Place& place, const std::string* gauge) {
+Header read_header(std::string_view line, const Place& place, const std::string* gauge) {
   const char separator = separator_of(line);
   const auto cells = cells_of(line, separator);
   std::vector<Column> columns;
   for (std::size_t i = 0; cells && i < cells->size(); ++i) columns.push_back(column_of((*cells)[i], i));
   const auto wrong = [&] { return error_at(place, {}, fmt::format("\"{}\"", line), allowed_header); };
-  if (columns.size() < 2 || (columns.size() > 2 && gauge == nullptr)) return wrong();
+  if (columns.size() < 2 || (columns.size() > 2 && gauge == nullptr)) throw wrong();
   Header header{separator, columns.size(), columns[0], columns[1]};
   if (gauge != nullptr) {
-    const auto time = chosen_column(columns, Dimension::time, place, {}),
-               pressure = chosen_column(columns, Dimension::pressure, place, *gauge);
-    if (!time) return time.error();
-    if (!pressure) return pressure.error();
-    header.time = *time;
-    header.pressure = *pressure;
+    header.time = chosen_column(columns, Dimension::time, place, {});
+    header.pressure = chosen_column(columns, Dimension::pressure, place, *gauge);
   } else {
     if (!is_named(header.time, "time")) std::swap(header.time, header.pressure);
-    if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) return wrong();
+    if (!is_named(header.time, "time") || !is_named(header.pressure, "pressure")) throw wrong();
   }
   header.pressure.dimension = Dimension::pressure;
-  if (auto error = check_unit(header.time, place)) return *error;
-  if (auto error = check_unit(header.pressure, place)) return *error;
+  check_unit(header.time, place);
+  check_unit(header.pressure, place);
   return header;
 }
 
@@ -185,39 +180,34 @@ Expected<Header> read_header(std::string_view line, const Place& place, const st
 /// digits after it, may as well divide thousands.
 class DecimalMark {
  public:
-  /// The number with a point for its comma, or why that is not sure.
-  Expected<std::string> pointed(std::string number, const std::string& key, const Place& place) {
+  /// The number with a point for its comma.
+  std::string pointed(std::string number, const std::string& key, const Place& place) {
     const std::size_t comma = number.find(',');
     const bool has_comma = comma != std::string::npos;
     commas_ = commas_ || has_comma;
-    points_ = points_ || number.find('.') != std::string::npos;
-    if (commas_ && points_) {
-      return error_at(place, key,
-                      fmt::format("\"{}\", in a file that has points and commas in its numbers", number),
-                      "one decimal mark, and nothing between thousands");
-    }
+    points_ = points_ || contains(number, '.');
+    if (commas_ && points_)
+      throw error_at(place, key,
+                     fmt::format("\"{}\", in a file that has points and commas in its numbers", number),
+                     "one decimal mark, and nothing between thousands");
     if (!has_comma) return number;
-    if (!ambiguous_ && may_divide_thousands(number, comma)) ambiguous_ = {place, key, number};
-    sure_ = sure_ || !may_divide_thousands(number, comma);
+    if (!may_divide_thousands(number, comma)) {
+      sure_ = true;
+    } else if (!ambiguous_) {
+      ambiguous_ = error_at(
+          place, key, fmt::format("\"{}\", where the comma may divide thousands", number),
+          "numbers with decimal points, or at least one that shows what the commas are, such as 0,5");
+    }
     number[comma] = '.';
     return number;
   }
 
-  /// The fault of commas none of which can only be that of decimals.
-  Fault ambiguity() const {
-    if (sure_ || !ambiguous_) return std::nullopt;
-    return error_at(
-        ambiguous_->place, ambiguous_->key,
-        fmt::format("\"{}\", where the comma may divide thousands", ambiguous_->number),
-        "numbers with decimal points, or at least one that shows what the commas are, such as 0,5");
+  /// Commas none of which can only be that of decimals.
+  void check() const {
+    if (ambiguous_ && !sure_) throw *ambiguous_;
   }
 
  private:
-  struct Ambiguous {
-    Place place;
-    std::string key, number;
-  };
-
   /// "1,250" but not "0,250", "1,25" or "1,250e3".
   static bool may_divide_thousands(const std::string& number, std::size_t comma) {
     const std::size_t begin = number.find_first_not_of("+-");
@@ -228,7 +218,7 @@ class DecimalMark {
 
   bool commas_ = false, points_ = false;  ///< seen in any number
   bool sure_ = false;                     ///< whether a comma was seen that can only be that of decimals
-  std::optional<Ambiguous> ambiguous_;
+  Fault ambiguous_;                       ///< of the first comma that may be another one
 };
 
 /// Reads the points of a curve line by line.
@@ -238,37 +228,32 @@ class CurveReader {
       : header_(std::move(header)), lowest_(lowest), curve_(curve) {}
 
   /// Adds the point of one line, which must come later than the last one.
-  Fault add(std::string_view line, const Place& place) {
+  void add(std::string_view line, const Place& place) {
     const auto cells = cells_of(line, header_.separator);
-    if (!cells) return error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
-    if (cells->size() != header_.columns) return wrong_count(cells->size(), place);
-    const auto time = read_cell(*cells, header_.time, place);
-    if (!time) return time.error();
-    const auto pressure = read_cell(*cells, header_.pressure, place);
-    if (!pressure) return pressure.error();
-    if (*pressure < lowest_ || *pressure > largest_load) {
-      return error_at(
-          place, "pressure", (*cells)[header_.pressure.cell] + " " + header_.pressure.unit,
-          fmt::format("a pressure of at least {}, at most {}",
-                      lowest_ < 0.0 ? pressure_text(lowest_) : "0 " + header_.pressure.unit,
-                      pressure_text(largest_load)),
-          *pressure < lowest_ ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
-    }
-    if (std::abs(*time) > largest_curve_time) {
-      return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
-                      fmt::format("a time within {} of the start", time_text(largest_curve_time)));
-    }
-    if (!curve_.time.empty() && !(*time - curve_.time.back() > least_curve_interval)) {
-      return error_at(place, "time", (*cells)[header_.time.cell] + " " + header_.time.unit,
-                      fmt::format("times in increasing order, here later than {} by more than {}",
-                                  time_text(curve_.time.back()), time_text(least_curve_interval)));
-    }
-    curve_.time.push_back(*time);
-    curve_.pressure.push_back(*pressure);
-    return std::nullopt;
+    if (!cells) throw error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
+    if (cells->size() != header_.columns) throw wrong_count(cells->size(), place);
+    const auto fault = [&](const Column& column, std::string allowed, std::string suggestion = {}) {
+      return error_at(place, name_of(column.dimension), (*cells)[column.cell] + " " + column.unit, allowed,
+                      suggestion);
+    };
+    const double time = read_cell(*cells, header_.time, place),
+                 pressure = read_cell(*cells, header_.pressure, place);
+    if (pressure < lowest_ || pressure > largest_load)
+      throw fault(header_.pressure,
+                  fmt::format("a pressure of at least {}, at most {}",
+                              lowest_ < 0.0 ? pressure_text(lowest_) : "0 " + header_.pressure.unit,
+                              pressure_text(largest_load)),
+                  pressure < lowest_ ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
+    if (std::abs(time) > largest_curve_time)
+      throw fault(header_.time, fmt::format("a time within {} of the start", time_text(largest_curve_time)));
+    if (!curve_.time.empty() && !(time - curve_.time.back() > least_curve_interval))
+      throw fault(header_.time, fmt::format("times in increasing order, here later than {} by more than {}",
+                                            time_text(curve_.time.back()), time_text(least_curve_interval)));
+    curve_.time.push_back(time);
+    curve_.pressure.push_back(pressure);
   }
 
-  Fault ambiguity() const { return decimal_mark_.ambiguity(); }
+  void check_decimals() const { decimal_mark_.check(); }
 
  private:
   InputError wrong_count(std::size_t count, const Place& place) const {
@@ -286,18 +271,16 @@ class CurveReader {
                                    : " as in the header"));
   }
 
-  Expected<double> read_cell(const std::vector<std::string>& cells, const Column& column,
-                             const Place& place) {
+  double read_cell(const std::vector<std::string>& cells, const Column& column, const Place& place) {
     const std::string& cell = cells[column.cell];
     const std::string key(name_of(column.dimension));
-    const auto number = decimal_mark_.pointed(cell, key, place);
-    if (!number) return number.error();
+    const std::string number = decimal_mark_.pointed(cell, key, place);
     const bool plain =
-        number->find_first_of(" \t") == std::string::npos && parse_quantity(*number, Dimension::number);
-    const auto value = parse_quantity(*number + " " + column.unit, column.dimension);
+        number.find_first_of(" \t") == std::string::npos && parse_quantity(number, Dimension::number);
+    const auto value = parse_quantity(number + " " + column.unit, column.dimension);
     if (plain && value) return *value;
-    return error_at(place, key, fmt::format("\"{}\"", cell),
-                    fmt::format("a finite number of {}", column.unit));
+    throw error_at(place, key, fmt::format("\"{}\"", cell),
+                   fmt::format("a finite number of {}", column.unit));
   }
 
   Header header_;
@@ -307,10 +290,10 @@ class CurveReader {
 };
 
 /// `gauge`: the pressure's column in a gauge's record; none for a curve that is a load.
-Expected<PressureCurve> parse(const std::string& text, const std::string& file, const std::string* gauge) {
+PressureCurve parse(const std::string& text, const std::string& file, const std::string* gauge) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    return error_at({file, 1}, {}, "text in UTF-16", "text in UTF-8");
-  if (auto error = check_encoding(text, file)) return *error;
+    throw error_at({file, 1}, {}, "text in UTF-16", "text in UTF-8");
+  check_encoding(text, file);
   std::string_view rest = text;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
@@ -322,39 +305,34 @@ Expected<PressureCurve> parse(const std::string& text, const std::string& file, 
     const std::string_view line = take_line(rest);
     const std::string_view content = without_blanks_around(line);
     if (content.empty() || content.starts_with('#')) continue;
-    if (!reader) {
-      auto header = read_header(line, place, gauge);
-      if (!header) return header.error();
-      reader.emplace(std::move(*header), gauge ? -largest_load : 0.0, curve);
-    } else if (auto error = reader->add(line, place)) {
-      return *error;
-    }
+    if (reader)
+      reader->add(line, place);
+    else
+      reader.emplace(read_header(line, place, gauge), gauge ? -largest_load : 0.0, curve);
   }
-  if (!reader) return error_at({file, 1}, {}, "no header", allowed_header);
-  if (curve.time.size() < 2) {
-    return error_at(place, "time",
-                    fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
-                    "a curve of at least two points");
-  }
-  if (auto error = reader->ambiguity()) return *error;
+  if (!reader) throw error_at({file, 1}, {}, "no header", allowed_header);
+  if (curve.time.size() < 2)
+    throw error_at(place, "time",
+                   fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
+                   "a curve of at least two points");
+  reader->check_decimals();
   return curve;
 }
 
 }  // namespace
 
 Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file) {
-  const auto text = read_text_file(file, largest_curve);
-  if (!text) return text.error();
-  return parse_pressure_curve(*text, file.string());
+  return caught(
+      [&] { return parse(read_text_file(file, largest_curve).or_throw(), file.string(), nullptr); });
 }
 
 Expected<PressureCurve> parse_pressure_curve(const std::string& text, const std::string& file) {
-  return parse(text, file, nullptr);
+  return caught([&] { return parse(text, file, nullptr); });
 }
 
 Expected<PressureCurve> parse_gauge_record(const std::string& text, const std::string& file,
                                            const std::string& column) {
-  return parse(text, file, &column);
+  return caught([&] { return parse(text, file, &column); });
 }
 
 }  // namespace launchsafe::scene

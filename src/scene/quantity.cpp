@@ -7,7 +7,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 #include <system_error>
 
 namespace launchsafe::scene {
@@ -20,22 +19,13 @@ constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::memo
 /// number in any other unit becomes (number + shift) * factor in SI.
 struct Unit {
   std::string_view name;
-  int power = 0;          ///< SI units per unit, as a power of ten
-  bool suggested = true;  ///< whether messages name it; the others are spellings of these
-  bool decimal = true;    ///< whether the power says all
+  int power = 0;  ///< SI units per unit, as a power of ten
   long double factor = 1, shift = 0;
+  bool is_decimal() const { return factor == 1 && shift == 0; }
 };
 
-/// Another spelling of a unit.
-constexpr Unit spelling(std::string_view name, int power) { return {name, power, false}; }
-
-/// A unit that is no power of ten of the SI unit.
-constexpr Unit scale(std::string_view name, long double factor, long double shift = 0,
-                     bool suggested = true) {
-  return {name, 0, suggested, false, factor, shift};
-}
-
-constexpr long double celsius_shift = 273.15L, fahrenheit_shift = 459.67L, fahrenheit_factor = 5.0L / 9.0L;
+constexpr Unit celsius(std::string_view name) { return {name, 0, 1, 273.15L}; }
+constexpr Unit fahrenheit(std::string_view name) { return {name, 0, 5.0L / 9.0L, 459.67L}; }
 /// Pa; pound-force (0.45359237 kg at 9.80665 m/s2) over square inch.
 constexpr long double psi = 0.45359237L * 9.80665L / (0.0254L * 0.0254L);
 
@@ -43,8 +33,10 @@ struct DimensionInfo {
   std::string_view name;
   std::string_view example;
   std::string_view si_unit;
-  std::vector<Unit> units;                ///< the one to suggest first
+  std::vector<Unit> units;                ///< powers of ten of the SI unit, the one to suggest first
   std::vector<std::string_view> display;  ///< units to try in this order when formatting for people
+  std::vector<Unit> scales = {};          ///< others
+  std::vector<Unit> spellings = {};       ///< of all of these, which no message names
 };
 
 const DimensionInfo& info_of(Dimension dimension) {
@@ -54,48 +46,30 @@ const DimensionInfo& info_of(Dimension dimension) {
       {"length",
        "\"2.5 mm\"",
        "m",
-       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}, spelling("\u03bcm", -6)},
-       {"cm", "mm", "\u00b5m", "m"}},
+       {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}},
+       {"cm", "mm", "\u00b5m", "m"},
+       {},
+       {{"\u03bcm", -6}}},
       {"time",
        "\"18 ms\"",
        "s",
-       {{"ms", -3},
-        {"s", 0},
-        {"us", -6},
-        {"\u00b5s", -6},
-        {"ns", -9},
-        spelling("\u03bcs", -6),
-        spelling("msec", -3),
-        spelling("sec", 0)},
-       {"ms", "\u00b5s", "s", "ns"}},
+       {{"ms", -3}, {"s", 0}, {"us", -6}, {"\u00b5s", -6}, {"ns", -9}},
+       {"ms", "\u00b5s", "s", "ns"},
+       {},
+       {{"\u03bcs", -6}, {"msec", -3}, {"sec", 0}}},
       {"pressure",
        "\"496 MPa\"",
        "Pa",
-       {{"MPa", 6},
-        {"GPa", 9},
-        {"kPa", 3},
-        {"Pa", 0},
-        {"bar", 5},
-        {"TPa", 12},
-        {"kbar", 8},
-        {"Mbar", 11},
-        scale("psi", psi),
-        scale("ksi", 1000 * psi),
-        scale("atm", 101325)},
-       {"MPa", "GPa", "TPa", "kPa", "Pa"}},
+       {{"MPa", 6}, {"GPa", 9}, {"kPa", 3}, {"Pa", 0}, {"bar", 5}, {"TPa", 12}, {"kbar", 8}, {"Mbar", 11}},
+       {"MPa", "GPa", "TPa", "kPa", "Pa"},
+       {{"psi", 0, psi}, {"ksi", 0, 1000 * psi}, {"atm", 0, 101325}}},
       {"temperature",
        "\"300 K\"",
        "K",
-       {{"K", 0},
-        scale("\u00b0C", 1, celsius_shift),
-        scale("degC", 1, celsius_shift),
-        scale("\u00b0F", fahrenheit_factor, fahrenheit_shift),
-        scale("degF", fahrenheit_factor, fahrenheit_shift),
-        scale("C", 1, celsius_shift, false),
-        scale("F", fahrenheit_factor, fahrenheit_shift, false),
-        scale("\u2103", 1, celsius_shift, false),
-        scale("\u2109", fahrenheit_factor, fahrenheit_shift, false)},
-       {}},
+       {{"K", 0}},
+       {},
+       {celsius("\u00b0C"), celsius("degC"), fahrenheit("\u00b0F"), fahrenheit("degF")},
+       {celsius("C"), celsius("\u2103"), fahrenheit("F"), fahrenheit("\u2109")}},
       {"temperature difference", "\"5 K\"", "K", {{"K", 0}}, {}},
       {"density", "\"1717 kg/m3\"", "kg/m3", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
       {"speed", "\"300 m/s\"", "m/s", {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}}, {}},
@@ -143,10 +117,11 @@ std::string without_blanks(std::string_view text) {
 }
 
 std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
+  const DimensionInfo& info = info_of(dimension);
   const std::string wanted = without_blanks(name);
-  for (const Unit& unit : info_of(dimension).units) {
-    if (without_blanks(unit.name) == wanted) return unit;
-  }
+  for (const auto* units : {&info.units, &info.scales, &info.spellings})
+    for (const Unit& unit : *units)
+      if (without_blanks(unit.name) == wanted) return unit;
   return std::nullopt;
 }
 
@@ -154,12 +129,9 @@ std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
 std::string kind_of_unit(std::string_view name, Dimension wanted) {
   if (wanted == Dimension::temperature_difference && find_unit(Dimension::temperature, name))
     return "which is a temperature; the zero of its scale means nothing to a difference";
-  for (std::size_t i = 0; i < dimension_count; ++i) {
-    const auto dimension = static_cast<Dimension>(i);
-    if (find_unit(dimension, name)) {
+  for (std::size_t i = 0; i < dimension_count; ++i)
+    if (const auto dimension = static_cast<Dimension>(i); find_unit(dimension, name))
       return fmt::format("which is a {}", info_of(dimension).name);
-    }
-  }
   return fmt::format("with the unknown unit \"{}\"", name);
 }
 
@@ -239,26 +211,24 @@ struct Token {
   std::string_view unit;
 };
 
-Expected<Token> split(std::string_view text, std::string_view whole, Dimension dimension) {
+Token split(std::string_view text, std::string_view whole, Dimension dimension) {
   text = without_blanks_around(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status == std::errc::invalid_argument) {
-    return fault(fmt::format("\"{}\", where no number is readable", whole), dimension);
-  }
-  if (status == std::errc::result_out_of_range || !std::isfinite(value)) {
-    return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
-  }
+  if (status == std::errc::invalid_argument)
+    throw fault(fmt::format("\"{}\", where no number is readable", whole), dimension);
+  if (status == std::errc::result_out_of_range || !std::isfinite(value))
+    throw fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   const auto length = static_cast<std::size_t>(end - text.data());
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
   if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
     return Token{number, without_blanks_around(rest)};
   const bool may_count_thousands =
       number.find('.') != std::string_view::npos || digits_of(rest.substr(1)) == 3;
-  if (may_count_thousands) return comma_fault(whole, dimension, {});
+  if (may_count_thousands) throw comma_fault(whole, dimension, {});
   const auto comma = static_cast<std::size_t>(rest.data() - whole.data());
-  return comma_fault(whole, dimension, '"' + with_commas_as(".", whole, {comma}) + '"');
+  throw comma_fault(whole, dimension, '"' + with_commas_as(".", whole, {comma}) + '"');
 }
 
 /// The double nearest to `number` times ten to the power.
@@ -278,25 +248,24 @@ double scaled(std::string_view number, int power) {
   return value;
 }
 
-Expected<double> convert(const Token& token, std::string_view whole, Dimension dimension) {
+double convert(const Token& token, std::string_view whole, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   if (info.units.empty()) {
     if (!token.unit.empty())
-      return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
+      throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
     return scaled(token.number, 0);
   }
-  if (token.unit.empty()) {
-    return fault(fmt::format("\"{}\", without a unit", whole), dimension,
-                 fmt::format("\"{} {}\"", without_blanks_around(whole), info.units.front().name));
-  }
+  if (token.unit.empty())
+    throw fault(fmt::format("\"{}\", without a unit", whole), dimension,
+                fmt::format("\"{} {}\"", without_blanks_around(whole), info.units.front().name));
   const std::optional<Unit> unit = find_unit(dimension, token.unit);
   if (!unit) {
     const std::string near = nearest_of(token.unit, units_of(dimension));
-    return fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
-                 near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
+    throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
+                near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
   }
   double value = 0.0;
-  if (unit->decimal) {
+  if (unit->is_decimal()) {
     value = scaled(token.number, unit->power);
   } else {
     long double number = 0;
@@ -304,23 +273,20 @@ Expected<double> convert(const Token& token, std::string_view whole, Dimension d
     value = static_cast<double>((number + unit->shift) * unit->factor);
   }
   if (!std::isfinite(value))
-    return fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
+    throw fault(fmt::format("\"{}\", which is not a finite number", whole), dimension);
   return value;
 }
 
 /// Parts joined by a separator, each a number with its unit or with that of the next part that has one.
-Expected<std::vector<double>> convert_all(const std::vector<std::string_view>& parts, std::string_view whole,
-                                          Dimension dimension) {
+std::vector<double> convert_all(const std::vector<std::string_view>& parts, std::string_view whole,
+                                Dimension dimension) {
   std::vector<double> values(parts.size());
   std::string_view unit;
   for (std::size_t i = parts.size(); i-- > 0;) {
-    auto token = split(parts[i], whole, dimension);
-    if (!token) return token.error();
-    if (token->unit.empty()) token->unit = unit;
-    unit = token->unit;
-    const auto value = convert(*token, whole, dimension);
-    if (!value) return value.error();
-    values[i] = *value;
+    Token token = split(parts[i], whole, dimension);
+    if (token.unit.empty()) token.unit = unit;
+    unit = token.unit;
+    values[i] = convert(token, whole, dimension);
   }
   return values;
 }
@@ -339,34 +305,34 @@ std::string_view si_unit_of(Dimension dimension) { return info_of(dimension).si_
 
 std::vector<std::string> units_of(Dimension dimension) {
   std::vector<std::string> names;
-  for (const Unit& unit : info_of(dimension).units)
-    if (unit.suggested) names.emplace_back(unit.name);
+  for (const auto* units : {&info_of(dimension).units, &info_of(dimension).scales})
+    for (const Unit& unit : *units) names.emplace_back(unit.name);
   return names;
 }
 
 Expected<double> parse_quantity(std::string_view text, Dimension dimension) {
-  const auto token = split(text, text, dimension);
-  if (!token) return token.error();
-  return convert(*token, text, dimension);
+  return caught([&] { return convert(split(text, text, dimension), text, dimension); });
 }
 
 bool is_range(std::string_view text) { return text.find(between_ends) != std::string_view::npos; }
 
 Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension) {
-  const std::size_t separator = text.find(between_ends);
   const auto two_values = [&](std::string found) {
     InputError result = fault(std::move(found), dimension);
-    const DimensionInfo& info = info_of(dimension);
+    const std::vector<Unit>& units = info_of(dimension).units;
+    const std::string unit = units.empty() ? "" : " " + std::string(units.front().name);
     result.allowed =
-        fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}{}\"", info.name,
-                    info.units.empty() ? "" : " ", info.units.empty() ? "" : info.units.front().name);
+        fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}\"", name_of(dimension), unit);
     return result;
   };
+  const std::size_t separator = text.find(between_ends);
   if (separator == std::string_view::npos) return two_values(fmt::format("\"{}\", without \"to\"", text));
-  auto values = convert_all({text.substr(0, separator), text.substr(separator + 4)}, text, dimension);
-  if (!values) return values;
-  if (!((*values)[0] < (*values)[1])) return two_values(fmt::format("\"{}\", which has no extent", text));
-  return values;
+  return caught([&] {
+    std::vector<double> values =
+        convert_all({text.substr(0, separator), text.substr(separator + 4)}, text, dimension);
+    if (!(values[0] < values[1])) throw two_values(fmt::format("\"{}\", which has no extent", text));
+    return values;
+  });
 }
 
 Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
@@ -375,16 +341,15 @@ Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimens
     const bool may_be_points = parse_list(pointed, dimension).has_value();
     return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
   }
-  return convert_all(parts_of_list(text), text, dimension);
+  return caught([&] { return convert_all(parts_of_list(text), text, dimension); });
 }
 
 std::string format_quantity(double value_si, Dimension dimension) {
   const DimensionInfo& info = info_of(dimension);
   for (const std::string_view unit : info.display) {
     const double value = in_unit(value_si, dimension, unit);
-    if (value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999)) {
+    if (value_si == 0.0 || (std::abs(value) >= 0.0999999 && std::abs(value) < 999.9999))
       return fmt::format("{:.6g} {}", value, unit);
-    }
   }
   return fmt::format("{:.6g}{}{}", value_si, info.si_unit.empty() ? "" : " ", info.si_unit);
 }
@@ -396,7 +361,7 @@ std::string pressure_text(double pressure) { return format_quantity(pressure, Di
 double in_unit(double value_si, Dimension dimension, std::string_view unit_name) {
   const std::optional<Unit> unit = find_unit(dimension, unit_name);
   if (!unit) return std::numeric_limits<double>::quiet_NaN();
-  if (!unit->decimal) return static_cast<double>(value_si / unit->factor - unit->shift);
+  if (!unit->is_decimal()) return static_cast<double>(value_si / unit->factor - unit->shift);
   const double factor = std::pow(10.0, std::abs(unit->power));
   return unit->power > 0 ? value_si / factor : value_si * factor;
 }

@@ -1,15 +1,13 @@
 #include "launchsafe/scene/read_scene.hpp"
 
+#include "input_text.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
-
-#include <cassert>
 
 namespace launchsafe::scene {
 namespace {
@@ -19,58 +17,51 @@ const std::vector<std::string> read_apart{"body",     "observation_point", "acce
 
 /// Reads [[name]] tables into `owners`; the places become "name.<name of the owner>.<key>".
 template <class Owner>
-Fault read_named(const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
-                 const std::string& file, std::vector<Owner>& owners, std::map<std::string, Place>& places) {
-  auto tables = read_tables(root, name, keys, file, fmt::format("tables, each written [[{}]]", name));
-  if (!tables) return tables.error();
-  for (auto& [owner, own_places] : *tables) {
+void read_named(const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
+                const std::string& file, std::vector<Owner>& owners, std::map<std::string, Place>& places) {
+  const std::string allowed = fmt::format("tables, each written [[{}]]", name);
+  for (auto& [owner, own_places] : read_tables(root, name, keys, file, allowed).or_throw()) {
     // Of two with one name the second one's place stands: that is the one to complain about.
     for (auto& [key, place] : own_places)
       places.insert_or_assign(fmt::format("{}.{}.{}", name, owner.name, key), std::move(place));
     owners.push_back(std::move(owner));
   }
-  return std::nullopt;
 }
 
-Fault read_curve_file(SceneFile& file) {
+void read_curve_file(SceneFile& file) {
   Load& load = file.scene.load;
-  if (load.curve_file.empty()) return std::nullopt;
+  if (load.curve_file.empty()) return;
   const std::filesystem::path path = file.folder / load.curve_file;
   std::error_code status;
   if (!std::filesystem::exists(path, status)) {
     const auto missing = read_text_file(path);
-    return error_at(place_of_key(file, "load.curve"), "load.curve",
-                    fmt::format("\"{}\", which does not exist", load.curve_file),
-                    "a CSV file, by its path from the scene file's folder",
-                    missing ? std::string{} : missing.error().suggestion);
+    throw fault_at(file, "load.curve", fmt::format("\"{}\", which does not exist", load.curve_file),
+                   "a CSV file, by its path from the scene file's folder",
+                   missing ? std::string{} : missing.error().suggestion);
   }
-  auto curve = read_pressure_curve(path);
-  if (!curve) return curve.error();
-  load.curve_time = std::move(curve->time);
-  load.curve_pressure = std::move(curve->pressure);
-  return std::nullopt;
+  PressureCurve curve = read_pressure_curve(path).or_throw();
+  load.curve_time = std::move(curve.time);
+  load.curve_pressure = std::move(curve.pressure);
 }
 
 /// The scene from its bodies, its points and the given keys, applied in the order of their declaration. The
 /// file of a measured curve is read unless the scene has it already. What is known to be valid is not held
 /// against all that a scene must be.
-Fault rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
+void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   Scene fresh;
   fresh.bodies = std::move(file.scene.bodies);
   fresh.output.observation_points = std::move(file.scene.output.observation_points);
   fresh.accepted = std::move(file.scene.accepted);
   fresh.interfaces = std::move(file.scene.interfaces);
-  if (auto error = use_materials(file, fresh)) return error;
-  for (const Key<Scene>& key : scene_keys()) {
-    const auto given = file.given.find(key.name);
-    if (given != file.given.end()) key.set(fresh, given->second.value);
-  }
+  use_materials(file, fresh);
+  for (const Key<Scene>& key : scene_keys())
+    if (const Given* given = find_in(file.given, key.name)) key.set(fresh, given->value);
   std::swap(file.scene, fresh);
   if (has_curve && !file.scene.load.curve_file.empty()) {
     file.scene.load.curve_time = std::move(fresh.load.curve_time);
     file.scene.load.curve_pressure = std::move(fresh.load.curve_pressure);
-  } else if (auto error = read_curve_file(file)) {
-    return error;
+  } else {
+    read_curve_file(file);
   }
   settle_load(file.scene);
   if (file.scene.surface.opens_by_cooling && !file.given.contains("gap.thickness"))
@@ -81,20 +72,19 @@ Fault rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
   if (file.scene.surface.model == GapModel::closing && has_charge(file.scene) &&
       !file.given.contains("gap.release_duration"))
     file.scene.surface.release_duration = transit_time(file.scene);
-  return is_valid ? std::nullopt : validate(file);
+  if (is_valid) return;
+  if (const auto fault = validate(file)) throw *fault;
 }
 
 /// The interface of a body; a bonded one where the scene says nothing of it.
 Interface& interface_of(Scene& scene, const std::string& body) {
-  for (Interface& faces : scene.interfaces)
-    if (faces.body == body) return faces;
-  return scene.interfaces.emplace_back(Interface{.body = body});
+  const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
+  return faces != scene.interfaces.end() ? *faces : scene.interfaces.emplace_back(Interface{.body = body});
 }
 const Interface& interface_of(const Scene& scene, const std::string& body) {
   static const Interface bonded{};
-  for (const Interface& faces : scene.interfaces)
-    if (faces.body == body) return faces;
-  return bonded;
+  const auto faces = std::ranges::find(scene.interfaces, body, &Interface::body);
+  return faces != scene.interfaces.end() ? *faces : bonded;
 }
 
 /// The key, which takes back the friction of faces that slid where it makes them bonded.
@@ -140,20 +130,16 @@ const std::vector<Key<SceneFile>>& keys_of_scene() {
   return keys;
 }
 
-Expected<Key<SceneFile>> key_named(const SceneFile& file, const std::string& name, const Place& place) {
+Key<SceneFile> key_named(const SceneFile& file, const std::string& name, const Place& place) {
   if (const Key<SceneFile>* key = find_key(keys_of_scene(), name)) return *key;
   const std::vector<Key<SceneFile>> of_tables = keys_of_tables(file);
   if (const Key<SceneFile>* key = find_key(of_tables, name)) return *key;
-  std::vector<std::string> names;
-  for (const auto& keys : {keys_of_scene(), of_tables})
-    for (const Key<SceneFile>& key : keys) names.push_back(key.name);
-  return unknown_key(place, name, names);
+  throw unknown_key(place, name, names_of(keys::joined({keys_of_scene(), of_tables})));
 }
 
 /// What the sources of a scene may speak of.
 std::vector<std::string> names_of_values(const SceneFile& file) {
-  std::vector<std::string> names;
-  for (const Key<Scene>& key : scene_keys()) names.push_back(key.name);
+  std::vector<std::string> names = names_of(scene_keys());
   for (const Body& body : file.scene.bodies) {
     for (const Key<Body>& key : body_keys()) names.push_back(fmt::format("body.{}.{}", body.name, key.name));
     for (const Key<Interface>& key : interface_keys())
@@ -168,35 +154,56 @@ std::vector<std::string> names_of_values(const SceneFile& file) {
 }
 
 /// The materials and contacts of a scene file, and of the file of materials that it names.
-Fault read_own_materials(const toml::table& table, SceneFile& file, std::vector<NamedContact>& contacts) {
+void read_own_materials(const toml::table& table, SceneFile& file, std::vector<NamedContact>& contacts) {
   std::vector<NamedMaterial> known = shipped_materials();
-  const auto add = [&](const toml::table& from, const std::string& name) -> Fault {
-    auto materials = read_materials(from, name, known);
-    if (!materials) return materials.error();
+  const auto add = [&](const toml::table& from, const std::string& name) {
+    const std::vector<NamedMaterial> materials = read_materials(from, name, known);
     for (std::vector<NamedMaterial>* list : {&known, &file.materials})
-      list->insert(list->end(), materials->begin(), materials->end());
-    auto more = read_contacts(from, name, contacts);
-    if (!more) return more.error();
-    contacts.insert(contacts.end(), more->begin(), more->end());
-    return std::nullopt;
+      list->insert(list->end(), materials.begin(), materials.end());
+    const std::vector<NamedContact> more = read_contacts(from, name, contacts);
+    contacts.insert(contacts.end(), more.begin(), more.end());
   };
   if (const toml::node* node = table.get("material_file")) {
-    const auto named = read_value(*node, material_file_key(), file.file);
-    if (!named) return named.error();
-    const std::filesystem::path path = file.folder / std::get<std::string>(*named);
+    const auto named = std::get<std::string>(read_value(*node, material_file_key(), file.file).or_throw());
+    const std::filesystem::path path = file.folder / named;
     const auto text = read_text_file(path);
     if (!text)
-      return error_at(place_of(*node, file.file), "material_file",
-                      fmt::format("\"{}\", which cannot be read", std::get<std::string>(*named)),
-                      "a TOML file with tables [material.NAME] and [contact.NAME], by its path from the "
-                      "scene file's folder",
-                      text.error().suggestion);
-    const auto content = parse_toml(*text, path.string());
-    if (!content) return content.error();
-    if (auto error = check_material_tables(*content, path.string())) return error;
-    if (auto error = add(*content, path.string())) return error;
+      throw error_at(place_of(*node, file.file), "material_file",
+                     fmt::format("\"{}\", which cannot be read", named),
+                     "a TOML file with tables [material.NAME] and [contact.NAME], by its path from the "
+                     "scene file's folder",
+                     text.error().suggestion);
+    const toml::table content = parse_toml(*text, path.string()).or_throw();
+    check_material_tables(content, path.string());
+    add(content, path.string());
   }
-  return add(table, file.file);
+  add(table, file.file);
+}
+
+std::string text_as_toml(const std::string& text) { return exact_toml({.kind = KeyKind::text}, text); }
+
+/// All keys that are written, one a line.
+template <class Owner>
+std::string lines_of(const std::string& prefix, const std::vector<Key<Owner>>& keys, const Owner& owner) {
+  std::string text;
+  for (const Key<Owner>& key : keys)
+    if (!key.is_written || key.is_written(owner))
+      text += fmt::format("{}{} = {}\n", prefix, key.name, exact_toml(key, key.get(owner)));
+  return text;
+}
+
+/// As "interface.'NAME'.KEY = VALUE", one a line, in the order of names, in which files are read: the order
+/// in which a program made them says nothing.
+std::string interfaces_as_toml(std::vector<Interface> interfaces) {
+  std::ranges::stable_sort(interfaces, {}, &Interface::body);
+  std::string text;
+  for (const Interface& faces : interfaces) {
+    const std::string prefix = fmt::format("interface.{}.", text_as_toml(faces.body));
+    text += lines_of(prefix, interface_keys(), faces);
+    // Only programs make these; files cannot say them, but texts of different scenes differ.
+    if (!faces.against.empty()) text += fmt::format("{}against = {}\n", prefix, text_as_toml(faces.against));
+  }
+  return text;
 }
 
 template <class Owner>
@@ -218,23 +225,20 @@ std::string inline_tables(std::string_view name, const std::vector<Key<Owner>>& 
 std::string own_materials(const Scene& scene) {
   std::string text;
   for (const Material& material : scene.materials) {
-    std::visit(
-        [&]<class Law>(const Law& law) {
-          if (material.name == Law::name) return;
-          text += fmt::format("material.\"{}\".law = '{}'\n", material.name, Law::name);
-          if (!material.title.empty())
-            text += fmt::format("material.\"{}\".title = {}\n", material.name,
-                                exact_toml({.kind = KeyKind::text}, material.title));
-          for (const Key<Law>& key : Law::parameters()) {
-            const std::string name = key_in_material(Law::name, key.name);
-            if (!is_of_use(key, scene) &&
-                source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) == nullptr)
-              continue;
-            text +=
-                fmt::format("material.\"{}\".{} = {}\n", material.name, name, exact_toml(key, key.get(law)));
-          }
-        },
-        material.law);
+    const auto add = [&]<class Law>(const Law& law) {
+      if (material.name == Law::name) return;
+      const std::string prefix = fmt::format("material.\"{}\".", material.name);
+      text += fmt::format("{}law = '{}'\n", prefix, Law::name);
+      if (!material.title.empty())
+        text += fmt::format("{}title = {}\n", prefix, text_as_toml(material.title));
+      for (const Key<Law>& key : Law::parameters()) {
+        const std::string name = key_in_material(Law::name, key.name);
+        if (is_of_use(key, scene) ||
+            source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) != nullptr)
+          text += fmt::format("{}{} = {}\n", prefix, name, exact_toml(key, key.get(law)));
+      }
+    };
+    std::visit(add, material.law);
   }
   return text;
 }
@@ -242,125 +246,103 @@ std::string own_materials(const Scene& scene) {
 }  // namespace
 
 Place place_of_key(const SceneFile& file, const std::string& key) {
-  const auto given = file.given.find(key);
-  if (given != file.given.end()) return given->second.place;
-  const auto place = file.places.find(key);
-  return place != file.places.end() ? place->second : Place{file.file};
+  if (const Given* given = find_in(file.given, key)) return given->place;
+  const Place* place = find_in(file.places, key);
+  return place != nullptr ? *place : Place{file.file};
 }
 
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& path) {
-  const auto table = parse_toml(text, path.string());
-  if (!table) return table.error();
-  SceneFile file;
-  file.file = path.string();
-  file.folder = path.parent_path();
-  if (auto error = check_content(*table, file.file, InputContent::scene)) return *error;
-  Scene& scene = file.scene;
-  // Faults of the keys first, then of the tables; within each by line.
-  auto read = read_described(*table, descriptions_of(scene_keys()), read_apart, file.file);
-  if (!read) return read.error();
-  file.notes = std::move(read->notes);
-  for (auto& [index, value] : read->values) {
-    const std::string& name = scene_keys()[index].name;
-    file.given[name] = {read->places[name], std::move(value)};
-  }
-  if (auto error = read_named(*table, "body", body_keys(), file.file, scene.bodies, file.places))
-    return *error;
-  if (auto error = read_named(*table, "observation_point", observation_point_keys(), file.file,
-                              scene.output.observation_points, file.places)) {
-    return *error;
-  }
-  std::vector<NamedContact> contacts = shipped_contacts();
-  if (auto error = read_own_materials(*table, file, contacts)) return *error;
-  for (const Body& body : scene.bodies) file.body_materials.push_back(body.material);
-  auto interfaces = read_interfaces(*table, file.file, contacts, file.places);
-  if (!interfaces) return interfaces.error();
-  scene.interfaces = std::move(interfaces->interfaces);
-  auto sources = read_sources(*table, names_of_values(file), file.file);
-  if (!sources) return sources.error();
-  file.sources = std::move(*sources);
-  file.sources.insert(file.sources.end(), interfaces->sources.begin(), interfaces->sources.end());
-  if (auto error = rebuild(file, false)) return *error;
-  if (auto error = check_expected_velocity(file)) return *error;
-  if (!table->contains("accept")) return file;
-  auto accepted = read_acceptances(*table, acceptable_keys(file.scene), file.file);
-  if (!accepted) return accepted.error();
-  file.scene.accepted = std::move(*accepted);
-  return file;
+  return caught([&] {
+    const toml::table table = parse_toml(text, path.string()).or_throw();
+    SceneFile file;
+    file.file = path.string();
+    file.folder = path.parent_path();
+    if (const auto fault = check_content(table, file.file, InputContent::scene)) throw *fault;
+    Scene& scene = file.scene;
+    // Faults of the keys first, then of the tables; within each by line.
+    ReadValues read = read_described(table, descriptions_of(scene_keys()), read_apart, file.file).or_throw();
+    file.notes = std::move(read.notes);
+    for (auto& [index, value] : read.values) {
+      const std::string& name = scene_keys()[index].name;
+      file.given[name] = {read.places[name], std::move(value)};
+    }
+    read_named(table, "body", body_keys(), file.file, scene.bodies, file.places);
+    read_named(table, "observation_point", observation_point_keys(), file.file,
+               scene.output.observation_points, file.places);
+    std::vector<NamedContact> contacts = shipped_contacts();
+    read_own_materials(table, file, contacts);
+    for (const Body& body : scene.bodies) file.body_materials.push_back(body.material);
+    std::vector<Source> of_contacts;
+    read_interfaces(table, file.file, contacts, scene, of_contacts, file.places);
+    file.sources = read_sources(table, names_of_values(file), file.file);
+    file.sources.insert(file.sources.end(), of_contacts.begin(), of_contacts.end());
+    rebuild(file, false);
+    if (const auto fault = check_expected_velocity(file)) throw *fault;
+    if (table.contains("accept"))
+      file.scene.accepted = read_acceptances(table, acceptable_keys(file.scene), file.file).or_throw();
+    return file;
+  });
 }
 
 Expected<SceneFile> read_scene(const std::filesystem::path& file) {
-  const auto text = read_text_file(file);
-  if (!text) return text.error();
-  return parse_scene(*text, file);
+  return caught([&] { return parse_scene(read_text_file(file).or_throw(), file).or_throw(); });
 }
 
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {
-  const auto key = key_named(file, name, place);
-  if (!key) return key.error();
-  return KeyDescription(*key);
+  return caught([&] { return KeyDescription(key_named(file, name, place)); });
 }
 
-Value value_in(const SceneFile& file, const std::string& name) {
-  const auto key = key_named(file, name, {});
-  assert(key);
-  return key->get(file);
-}
+Value value_in(const SceneFile& file, const std::string& name) { return key_named(file, name, {}).get(file); }
 
 Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange>& changes, bool is_valid) {
-  SceneFile changed = file;
-  bool other_curve = false;
-  for (const KeyChange& change : changes)
-    if (const auto* key = find_key(scene_keys(), change.name))
-      for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
-  for (const auto& [name, value, place] : changes) {
-    const auto key = key_named(changed, name, place);
-    if (!key) return key.error();
-    if (find_key(scene_keys(), name) == nullptr) {
-      if (key->get(changed) != value) forget_source(changed.sources, name);
-      key->set(changed, value);
-      changed.places[name] = place;
-      continue;
+  return caught([&, changed = file]() mutable {
+    bool other_curve = false;
+    for (const KeyChange& change : changes)
+      if (const auto* key = find_key(scene_keys(), change.name))
+        for (const std::string& overridden : key->overrides) changed.given.erase(overridden);
+    for (const auto& [name, value, place] : changes) {
+      const Key<SceneFile> key = key_named(changed, name, place);
+      if (find_key(scene_keys(), name) == nullptr) {
+        if (key.get(changed) != value) forget_source(changed.sources, name);
+        key.set(changed, value);
+        changed.places[name] = place;
+        continue;
+      }
+      if (key.get(file) != value) forget_source(changed.sources, name);
+      changed.given[name] = {place, value};
+      other_curve = other_curve || name == "load.curve";
     }
-    if (key->get(file) != value) forget_source(changed.sources, name);
-    changed.given[name] = {place, value};
-    other_curve = other_curve || name == "load.curve";
-  }
-  if (auto error = rebuild(changed, !other_curve, is_valid)) return *error;
-  return changed;
+    rebuild(changed, !other_curve, is_valid);
+    return std::move(changed);
+  });
 }
 
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
                                      const Place& place) {
-  const auto description = describe_key(file, name, place);
-  if (!description) return description.error();
-  const auto value = parse_value(written, *description, place);
-  if (!value) return value.error();
-  return with_keys(file, {{name, *value, place}});
+  return caught([&] {
+    const Value value = parse_value(written, key_named(file, name, place), place).or_throw();
+    return with_keys(file, {{name, value, place}}).or_throw();
+  });
 }
 
 std::vector<ListedKey> list_keys(const SceneFile& file) {
   std::vector<ListedKey> listed;
   for (const Key<Scene>& key : scene_keys()) {
-    const auto given = file.given.find(key.name);
-    const bool is_given = given != file.given.end();
-    if (!is_given && key.is_written && !key.is_written(file.scene)) continue;
+    const Given* given = find_in(file.given, key.name);
+    if (!given && key.is_written && !key.is_written(file.scene)) continue;
     const Source* source = source_of(file.scene.sources, key.name);
-    const Standing standing = source ? source->standing : is_given ? Standing::input : key.standing;
+    const Standing standing = source ? source->standing : given ? Standing::input : key.standing;
     listed.push_back({key.name, format_value(key, key.get(file.scene)), standing, key.sentence,
-                      is_given ? given->second.place : Place{}, source ? source->citation : std::string{}});
+                      given ? given->place : Place{}, source ? source->citation : std::string{}});
   }
   return listed;
 }
 
 std::string to_toml(const Scene& scene) {
-  std::string text;
-  for (const Key<Scene>& key : scene_keys())
-    if (!key.is_written || key.is_written(scene))
-      text += fmt::format("{} = {}\n", key.name, exact_toml(key, key.get(scene)));
-  text += own_materials(scene) + interfaces_as_toml(scene.interfaces) +
-          inline_tables("body", body_keys(), scene.bodies) +
-          inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
+  std::string text =
+      lines_of("", scene_keys(), scene) + own_materials(scene) + interfaces_as_toml(scene.interfaces) +
+      inline_tables("body", body_keys(), scene.bodies) +
+      inline_tables("observation_point", observation_point_keys(), scene.output.observation_points);
   if (!scene.accepted.empty()) text += inline_tables("accept", acceptance_keys(), scene.accepted);
   return scene.sources.empty() ? text : text + inline_tables("source", source_keys(), scene.sources);
 }

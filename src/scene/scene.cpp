@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <numbers>
 #include <stdexcept>
 
 namespace launchsafe::scene {
@@ -16,21 +15,6 @@ double cross_section(double r_begin, double r_end, Symmetry symmetry) {
   const double width = r_end - r_begin;
   if (symmetry == Symmetry::plane_strain) return width;
   return std::numbers::pi * width * (r_end + r_begin);
-}
-
-/// Around the bodies that a rule chooses.
-template <class Choose>
-Extent extent_where(const Scene& scene, Choose&& choose) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Extent extent{far, -far, far, -far};
-  for (const Body& body : scene.bodies) {
-    if (!choose(body)) continue;
-    extent.x_begin = std::min(extent.x_begin, body.x_begin);
-    extent.x_end = std::max(extent.x_end, body.x_end);
-    extent.r_begin = std::min(extent.r_begin, body.r_begin);
-    extent.r_end = std::max(extent.r_end, body.r_end);
-  }
-  return extent.x_end < extent.x_begin ? Extent{} : extent;
 }
 
 /// Writes the band where the pressure acts on more than the rearmost faces, or only what is stated says so.
@@ -130,8 +114,8 @@ bool can_slide(const Interface& faces) {
 }
 
 std::vector<Interface> sliding_interfaces(const Scene& scene) {
-  std::vector<Interface> sliding;
-  std::copy_if(scene.interfaces.begin(), scene.interfaces.end(), std::back_inserter(sliding), can_slide);
+  std::vector<Interface> sliding = scene.interfaces;
+  std::erase_if(sliding, std::not_fn(can_slide));
   std::ranges::sort(sliding, {}, &Interface::body);
   return sliding;
 }
@@ -155,8 +139,17 @@ Extent charge_extent(const Scene& scene) {
   return extent_where(scene, [&](const Body& body) { return is_charge(scene, body); });
 }
 
-Extent inert_extent(const Scene& scene) {
-  return extent_where(scene, [&](const Body& body) { return !is_charge(scene, body); });
+Extent extent_where(const Scene& scene, const std::function<bool(const Body&)>& choose) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Extent extent{far, -far, far, -far};
+  for (const Body& body : scene.bodies) {
+    if (!choose(body)) continue;
+    extent.x_begin = std::min(extent.x_begin, body.x_begin);
+    extent.x_end = std::max(extent.x_end, body.x_end);
+    extent.r_begin = std::min(extent.r_begin, body.r_begin);
+    extent.r_end = std::max(extent.r_end, body.r_end);
+  }
+  return extent.x_end < extent.x_begin ? Extent{} : extent;
 }
 
 double length_tolerance(const Scene& scene) {
@@ -166,10 +159,9 @@ double length_tolerance(const Scene& scene) {
 
 double mass_of(const Scene& scene, std::string_view material) {
   double volume = 0.0;
-  for (const Body& body : scene.bodies) {
-    if (body.material != material) continue;
-    volume += cross_section(body.r_begin, body.r_end, scene.symmetry) * (body.x_end - body.x_begin);
-  }
+  for (const Body& body : scene.bodies)
+    if (body.material == material)
+      volume += cross_section(body.r_begin, body.r_end, scene.symmetry) * (body.x_end - body.x_begin);
   const Material* of = find_material(scene, material);
   return of ? volume * initial_density(of->law) : 0.0;
 }

@@ -20,10 +20,10 @@ const NamedMaterial* find_named_material(const SceneFile& file, const std::strin
 /// Makes the scene of materials that the bodies name. The material that bodies of a law are of becomes the
 /// scene's material of that law: its numbers are given values of the law's keys, and the scene's own stand
 /// above them. Where bodies of one law are of several materials, that one is the law's that is called so,
-/// else the first body's; the others keep their names and numbers. Of explosives there may be one. Faults: a
+/// else the first body's; the others keep their names and numbers. Of explosives there may be one. Throws: a
 /// name that no material has, a second explosive, and keys of a law of which no body says which material they
 /// mean.
-Fault use_materials(SceneFile& file, Scene& scene);
+void use_materials(SceneFile& file, Scene& scene);
 
 /// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
 std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
@@ -34,17 +34,15 @@ inline InputError fault_at(const SceneFile& file, const std::string& key, std::s
   return error_at(place_of_key(file, key), key, found, allowed, suggestion);
 }
 
+// Each throws the first fault that it finds.
+
 /// Edges of bodies, or a bore around the axis, that nearly but not quite lie at one place: closer than a
 /// tenth of a cell, which no grid shows. The message has the value that makes them one.
-Fault fault_of_near_edges(const SceneFile& file);
-
+void check_near_edges(const SceneFile& file);
 /// A charge whose bottom does not bear on a body all over, bodies that nothing holds, and a chamber that the
 /// drawing leaves unclear.
-Fault fault_of_support(const SceneFile& file);
-
-/// The first fault of a measured curve, of what stands beside it, or of the end of the load.
-Fault fault_of_load(const SceneFile& file);
-/// Gaps twice, or without a charge; and what does not go with the model of the gap.
-Fault fault_of_gap(const SceneFile& file);
+void check_support(const SceneFile& file);
+/// A measured curve, what stands beside it, and the end of the load.
+void check_load(const SceneFile& file);
 
 }  // namespace launchsafe::scene

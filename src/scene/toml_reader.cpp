@@ -35,14 +35,17 @@ void collect_leaves(const toml::table& table, const std::string& prefix,
                     const std::vector<std::string>& elsewhere, std::vector<Leaf>& leaves) {
   for (const auto& [key, node] : table) {
     std::string name = prefix + std::string(key.str());
-    if (std::ranges::find(elsewhere, name) != elsewhere.end()) continue;
+    if (contains(elsewhere, name)) continue;
     const toml::table* inner = node.as_table();
-    if (inner && !inner->empty()) {
+    if (inner && !inner->empty())
       collect_leaves(*inner, name + ".", elsewhere, leaves);
-    } else {
+    else
       leaves.push_back({std::move(name), &node});
-    }
   }
+}
+
+Place place_at(const toml::source_region& region, const std::string& file) {
+  return {file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
 }
 
 InputError error_for(const Place& place, const KeyDescription& key, std::string found,
@@ -50,139 +53,114 @@ InputError error_for(const Place& place, const KeyDescription& key, std::string 
   return error_at(place, key.name, std::move(found), allowed_text(key), std::move(suggestion));
 }
 
-Fault check_limits(const std::vector<double>& numbers, const std::string& found, const KeyDescription& key,
-                   const Place& place) {
-  for (const double number : numbers) {
-    if (!key.limits.contain(number)) return error_for(place, key, found);
-  }
-  if (key.list_length > 0 && numbers.size() != key.list_length) {
-    return error_for(place, key, fmt::format("{} with {} values", found, numbers.size()));
-  }
-  return std::nullopt;
-}
-
-/// A plain TOML number for a dimensionless key; a dimensional one needs its unit.
-Expected<double> read_plain_number(const toml::node& node, const KeyDescription& key, const Place& place) {
-  const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
-  if (!std::isfinite(value))
-    return error_for(place, key, found_text(node) + ", which is not a finite number");
-  const auto units = units_of(key.dimension);
-  if (!units.empty()) {
-    return error_for(place, key, found_text(node) + ", without a unit",
-                     fmt::format("\"{} {}\"", found_text(node), units.front()));
-  }
-  if (key.dimension == Dimension::count && !node.is_integer()) {
-    return error_for(place, key, found_text(node) + ", which is no whole number");
-  }
-  return value;
-}
-
-Expected<double> read_number(const toml::node& node, const KeyDescription& key, const Place& place) {
-  if (node.is_number()) return read_plain_number(node, key, place);
-  const auto text = node.value<std::string>();
-  if (!text) return error_for(place, key, found_text(node));
-  if (units_of(key.dimension).empty()) {
-    const bool readable = parse_quantity(*text, key.dimension).has_value();
-    return error_for(place, key, found_text(node) + ", which is a text", readable ? *text : std::string{});
-  }
-  const auto value = parse_quantity(*text, key.dimension);
-  if (!value) return error_for(place, key, value.error().found, value.error().suggestion);
-  return *value;
-}
-
-Expected<std::vector<double>> parse_numbers(const std::string& text, const KeyDescription& key,
-                                            const Place& place) {
-  const auto numbers =
-      key.kind == KeyKind::range ? parse_range(text, key.dimension) : parse_list(text, key.dimension);
-  if (!numbers) return error_for(place, key, numbers.error().found, numbers.error().suggestion);
-  return *numbers;
-}
-
-Expected<std::vector<double>> read_numbers(const toml::node& node, const KeyDescription& key,
-                                           const Place& place) {
-  if (key.may_be_value && (node.is_number() || (node.is_string() && !is_range(node.ref<std::string>())))) {
-    const auto number = read_number(node, key, place);
-    if (!number) return number.error();
-    return std::vector<double>(2, *number);
-  }
-  if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
-  const toml::array* array = node.as_array();
-  const bool too_short = array && array->empty() && !key.may_be_empty;
-  if (!array || key.kind == KeyKind::range || too_short) return error_for(place, key, found_text(node));
-  std::vector<double> numbers;
-  for (const toml::node& element : *array) {
-    const auto number = read_number(element, key, place_of(element, place.file));
-    if (!number) return number.error();
-    numbers.push_back(*number);
-  }
+std::vector<double> within_limits(std::vector<double> numbers, const std::string& found,
+                                  const KeyDescription& key, const Place& place) {
+  for (const double number : numbers)
+    if (!key.limits.contain(number)) throw error_for(place, key, found);
+  if (key.list_length > 0 && numbers.size() != key.list_length)
+    throw error_for(place, key, fmt::format("{} with {} values", found, numbers.size()));
   return numbers;
 }
 
-Expected<Value> checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
+/// What a text was parsed as, for the key that it stands for.
+template <class Parsed>
+Parsed parsed_for(const KeyDescription& key, const Place& place, const Expected<Parsed>& parsed) {
+  if (!parsed) throw error_for(place, key, parsed.error().found, parsed.error().suggestion);
+  return *parsed;
+}
+
+/// A plain TOML number for a dimensionless key; a dimensional one needs its unit.
+double read_plain_number(const toml::node& node, const KeyDescription& key, const Place& place) {
+  const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+  if (!std::isfinite(value)) throw error_for(place, key, found_text(node) + ", which is not a finite number");
+  const auto units = units_of(key.dimension);
+  if (!units.empty())
+    throw error_for(place, key, found_text(node) + ", without a unit",
+                    fmt::format("\"{} {}\"", found_text(node), units.front()));
+  if (key.dimension == Dimension::count && !node.is_integer())
+    throw error_for(place, key, found_text(node) + ", which is no whole number");
+  return value;
+}
+
+double read_number(const toml::node& node, const KeyDescription& key, const Place& place) {
+  if (node.is_number()) return read_plain_number(node, key, place);
+  const auto text = node.value<std::string>();
+  if (!text) throw error_for(place, key, found_text(node));
+  const auto value = parse_quantity(*text, key.dimension);
+  if (units_of(key.dimension).empty())
+    throw error_for(place, key, found_text(node) + ", which is a text", value ? *text : std::string{});
+  return parsed_for(key, place, value);
+}
+
+std::vector<double> parse_numbers(const std::string& text, const KeyDescription& key, const Place& place) {
+  const bool is_one_range = key.kind == KeyKind::range;
+  return parsed_for(key, place,
+                    is_one_range ? parse_range(text, key.dimension) : parse_list(text, key.dimension));
+}
+
+std::vector<double> read_numbers(const toml::node& node, const KeyDescription& key, const Place& place) {
+  if (key.may_be_value && (node.is_number() || (node.is_string() && !is_range(node.ref<std::string>()))))
+    return std::vector<double>(2, read_number(node, key, place));
+  if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
+  const toml::array* array = node.as_array();
+  const bool too_short = array && array->empty() && !key.may_be_empty;
+  if (!array || key.kind == KeyKind::range || too_short) throw error_for(place, key, found_text(node));
+  std::vector<double> numbers;
+  for (const toml::node& element : *array)
+    numbers.push_back(read_number(element, key, place_of(element, place.file)));
+  return numbers;
+}
+
+std::string checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
   for (const auto& [former, present] : key.former_words)
-    if (word == former) return Value(present);
-  if (std::ranges::find(key.words, word) != key.words.end()) return Value(word);
-  const std::string near = nearest_of(word, key.words);
-  return error_for(place, key, '"' + word + '"', near.empty() ? near : '"' + near + '"');
+    if (word == former) return present;
+  if (contains(key.words, word)) return word;
+  throw error_for(place, key, '"' + word + '"', in_quotes(nearest_of(word, key.words)));
 }
 
 /// Words between commas, each once; nothing for none. They come back in the order of the key's.
-Expected<Value> checked_words(const std::string& list, const KeyDescription& key, const Place& place) {
+std::string checked_words(const std::string& list, const KeyDescription& key, const Place& place) {
   std::vector<std::string> found;
   std::istringstream parts(list);
   for (std::string part; std::getline(parts, part, ',');) {
     const std::string word(without_blanks_around(part));
-    if (const auto known = checked_word(word, key, place); !known) return known.error();
-    if (std::ranges::find(found, word) != found.end()) return error_for(place, key, '"' + word + "\" twice");
+    checked_word(word, key, place);
+    if (contains(found, word)) throw error_for(place, key, '"' + word + "\" twice");
     found.push_back(word);
   }
-  std::string ordered;
-  for (const std::string& word : key.words)
-    if (std::ranges::find(found, word) != found.end()) ordered += (ordered.empty() ? "" : ", ") + word;
-  return Value(ordered);
+  std::vector<std::string> ordered = key.words;
+  std::erase_if(ordered, [&](const std::string& word) { return !contains(found, word); });
+  return fmt::format("{}", fmt::join(ordered, ", "));
 }
 
 /// Names of files end at a NUL, wherever it stands.
-Expected<Value> checked_text(const std::string& text, const KeyDescription& key, const Place& place) {
-  if (text.find('\0') == std::string::npos) return Value(text);
-  return error_for(place, key, '"' + text + "\", with a NUL character");
+std::string checked_text(const std::string& text, const KeyDescription& key, const Place& place) {
+  if (!contains(text, '\0')) return text;
+  throw error_for(place, key, '"' + text + "\", with a NUL character");
 }
 
 /// More tables of one name than anybody writes; each is compared with all the others.
-Fault check_counts(const toml::table& table, const std::string& file) {
+void check_counts(const toml::table& table, const std::string& file) {
   constexpr std::size_t most_tables = 10'000;
   for (const auto& [key, node] : table) {
     const toml::array* array = node.as_array();
     if (array == nullptr || array->size() <= most_tables || !array->is_array_of_tables()) continue;
-    return error_at(place_of(node, file), key.str(), fmt::format("{} tables", array->size()),
-                    fmt::format("at most {} tables of one name", most_tables));
+    throw error_at(place_of(node, file), key.str(), fmt::format("{} tables", array->size()),
+                   fmt::format("at most {} tables of one name", most_tables));
   }
-  return std::nullopt;
-}
-
-Expected<Value> checked_number(double number, const std::string& found, const KeyDescription& key,
-                               const Place& place) {
-  if (const auto error = check_limits({number}, found, key, place)) return *error;
-  return Value(number);
 }
 
 /// One value of a table, which stands at a place.
-Expected<Value> value_at(const toml::node& node, const KeyDescription& key, const Place& place) {
+Value value_at(const toml::node& node, const KeyDescription& key, const Place& place) {
   const auto* text = node.as_string();
-  if (key.kind == KeyKind::flag && node.is_boolean()) return Value(node.as_boolean()->get());
+  if (key.kind == KeyKind::flag && node.is_boolean()) return node.as_boolean()->get();
   if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
   if (key.kind == KeyKind::words && text) return checked_words(text->get(), key, place);
   if (key.kind == KeyKind::text && text) return checked_text(text->get(), key, place);
-  if (key.kind == KeyKind::number) {
-    const auto number = read_number(node, key, place);
-    if (!number) return number.error();
-    return checked_number(*number, found_text(node), key, place);
-  }
-  if (key.kind != KeyKind::list && key.kind != KeyKind::range) return error_for(place, key, found_text(node));
-  auto numbers = read_numbers(node, key, place);
-  if (!numbers) return numbers.error();
-  if (const auto error = check_limits(*numbers, found_text(node), key, place)) return *error;
-  return Value(std::move(*numbers));
+  if (key.kind == KeyKind::number)
+    return within_limits({read_number(node, key, place)}, found_text(node), key, place).front();
+  if (key.kind != KeyKind::list && key.kind != KeyKind::range) throw error_for(place, key, found_text(node));
+  return within_limits(read_numbers(node, key, place), found_text(node), key, place);
 }
 
 std::string last_part(const std::string& name) { return name.substr(name.rfind('.') + 1); }
@@ -196,15 +174,12 @@ std::string nearest_key(const std::string& name, const std::vector<std::string>&
   const std::string near = nearest_of(name, known);
   if (!near.empty()) return near;
   const std::string last = last_part(name);
-  for (const std::string& candidate : known) {
+  for (const std::string& candidate : known)
     if (last_part(candidate) == last) return candidate;
-  }
-  for (const std::string& candidate : known) {
+  for (const std::string& candidate : known)
     if (last.size() > 3 && candidate.find(last) != std::string::npos) return candidate;
-  }
-  for (const std::string& candidate : known) {
+  for (const std::string& candidate : known)
     if (name.size() > 3 && candidate.starts_with(name.substr(0, 3))) return candidate;
-  }
   return {};
 }
 
@@ -226,10 +201,7 @@ std::string found_text(const toml::node& node) {
   return stream.str();
 }
 
-Place place_of(const toml::node& node, const std::string& file) {
-  const auto& begin = node.source().begin;
-  return {file, static_cast<int>(begin.line), static_cast<int>(begin.column)};
-}
+Place place_of(const toml::node& node, const std::string& file) { return place_at(node.source(), file); }
 
 InputError error_at(const Place& place, std::string_view key, std::string_view found,
                     std::string_view allowed, std::string_view suggestion) {
@@ -243,70 +215,64 @@ InputError error_at(const Place& place, std::string_view key, std::string_view f
 }
 
 Expected<toml::table> parse_toml(std::string_view text, const std::string& file) {
-  if (auto error = check_encoding(text, file)) return *error;
-  if (auto error = check_nesting(text, file)) return *error;
-  try {
-    toml::table table = toml::parse(text, file);
-    if (auto error = check_counts(table, file)) return *error;
-    return table;
-  } catch (const toml::parse_error& error) {
-    const auto& begin = error.source().begin;
-    const Place place{file, static_cast<int>(begin.line), static_cast<int>(begin.column)};
-    return error_at(place, {}, fmt::format("text that is not TOML ({})", error.description()),
-                    "TOML, such as key = \"2.5 mm\"");
-  }
+  return caught([&] {
+    check_encoding(text, file);
+    check_nesting(text, file);
+    try {
+      toml::table table = toml::parse(text, file);
+      check_counts(table, file);
+      return table;
+    } catch (const toml::parse_error& error) {
+      throw error_at(place_at(error.source(), file), {},
+                     fmt::format("text that is not TOML ({})", error.description()),
+                     "TOML, such as key = \"2.5 mm\"");
+    }
+  });
 }
 
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file) {
-  return value_at(node, key, place_of(node, file));
+  return caught([&] { return value_at(node, key, place_of(node, file)); });
 }
 
 Expected<Value> parse_value(std::string_view text, const KeyDescription& key, const Place& place) {
-  const std::string written(text);
-  if (key.kind == KeyKind::number) {
-    const auto number = parse_quantity(text, key.dimension);
-    if (!number) return error_for(place, key, number.error().found, number.error().suggestion);
-    if (key.dimension == Dimension::count && *number != std::round(*number))
-      return error_for(place, key, written + ", which is no whole number");
-    return checked_number(*number, '"' + written + '"', key, place);
-  }
-  if (key.kind == KeyKind::flag && (text == "true" || text == "false")) return Value(text == "true");
-  return value_at(toml::value<std::string>(written), key, place);
+  return caught([&, written = std::string(text)]() -> Value {
+    if (key.kind == KeyKind::flag && (text == "true" || text == "false")) return text == "true";
+    if (key.kind != KeyKind::number) return value_at(toml::value<std::string>(written), key, place);
+    const double number = parsed_for(key, place, parse_quantity(text, key.dimension));
+    if (key.dimension == Dimension::count && number != std::round(number))
+      throw error_for(place, key, written + ", which is no whole number");
+    return within_limits({number}, '"' + written + '"', key, place).front();
+  });
 }
 
 Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescription& key,
                                          const std::string& file) {
-  const Place place = place_of(node, file);
-  std::vector<Value> values;
-  if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
-    const auto numbers = parse_numbers(node.as_string()->get(), key, place);
-    if (!numbers) return numbers.error();
-    if (const auto error = check_limits(*numbers, found_text(node), key, place)) return *error;
-    values.assign(numbers->begin(), numbers->end());
+  return caught([&, place = place_of(node, file)] {
+    std::vector<Value> values;
+    if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
+      const auto numbers = parse_numbers(node.as_string()->get(), key, place);
+      within_limits(numbers, found_text(node), key, place);
+      values.assign(numbers.begin(), numbers.end());
+      return values;
+    }
+    const toml::array* array = node.as_array();
+    if (array == nullptr) return std::vector{value_at(node, key, place)};
+    if (array->empty()) throw error_for(place, key, found_text(node));
+    for (const toml::node& each : *array) values.push_back(value_at(each, key, place_of(each, file)));
     return values;
-  }
-  const toml::array* array = node.as_array();
-  if (array && array->empty()) return error_for(place, key, found_text(node));
-  for (std::size_t i = 0; i < (array ? array->size() : 1); ++i) {
-    auto value = read_value(array ? (*array)[i] : node, key, file);
-    if (!value) return value.error();
-    values.push_back(std::move(*value));
-  }
-  return values;
+  });
 }
 
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known) {
   const std::string section = section_of(name);
   std::vector<std::string> siblings;
-  for (const std::string& candidate : known) {
+  for (const std::string& candidate : known)
     if (section_of(candidate) == section) siblings.push_back(last_part(candidate));
-  }
   std::string allowed = section.empty() ? "the keys " : fmt::format("in [{}] the keys ", section);
   if (siblings.empty()) {
     for (const std::string& candidate : known) {
       const std::string other = section_of(candidate);
-      if (other.empty() || std::ranges::find(siblings, other) != siblings.end()) continue;
-      siblings.push_back(other);
+      if (!other.empty() && !contains(siblings, other)) siblings.push_back(other);
     }
     allowed = "the tables ";
   }
@@ -328,21 +294,19 @@ InputError within(const std::string& table, InputError error) {
   return error;
 }
 
-Fault visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
-                   const std::string& file, const VisitTable& visit) {
+void visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
+                  const std::string& file, const VisitTable& visit) {
   const toml::node* node = root.get(table);
-  if (node == nullptr) return std::nullopt;
-  const auto no_table = [&](const toml::node& found, const std::string& key) {
-    return error_at(place_of(found, file), key, found_text(found),
-                    fmt::format("tables, each written [{}.NAME] with the name {}", table, meaning));
+  if (node == nullptr) return;
+  const auto table_in = [&](const toml::node& found, const std::string& key) -> const toml::table& {
+    if (const toml::table* inner = found.as_table()) return *inner;
+    throw error_at(place_of(found, file), key, found_text(found),
+                   fmt::format("tables, each written [{}.NAME] with the name {}", table, meaning));
   };
-  if (!node->is_table()) return no_table(*node, table);
-  for (const auto& [name, inner] : *node->as_table()) {
-    const std::string text(name.str());
-    if (!inner.is_table()) return no_table(inner, table + "." + text);
-    if (auto error = visit(text, *inner.as_table())) return error;
+  for (const auto& [key, inner] : table_in(*node, table)) {
+    const std::string name(key.str());
+    visit(name, table_in(inner, table + "." + name));
   }
-  return std::nullopt;
 }
 
 Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
@@ -369,31 +333,28 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
                                     const std::vector<std::string>& elsewhere, const std::string& file) {
   std::vector<std::string> known = elsewhere;
   for (const KeyDescription* key : keys) known.push_back(key->name);
-
-  ReadValues read;
-  for (const Leaf& leaf : leaves_as_written(table, elsewhere)) {
-    const Place place = place_of(*leaf.node, file);
-    const auto key = std::ranges::find_if(keys, [&](const auto* k) { return k->name == leaf.name; });
-    if (key == keys.end()) {
-      const auto is_in_it = [&](const auto* each) { return each->name.starts_with(leaf.name + "."); };
-      if (std::ranges::none_of(keys, is_in_it)) return unknown_key(place, leaf.name, known);
-      if (leaf.node->is_table()) continue;
-      return error_at(place, leaf.name, found_text(*leaf.node),
-                      fmt::format("a table, written [{}]", leaf.name));
+  return caught([&] {
+    ReadValues read;
+    for (const Leaf& leaf : leaves_as_written(table, elsewhere)) {
+      const Place place = place_of(*leaf.node, file);
+      const auto key = std::ranges::find(keys, leaf.name, &KeyDescription::name);
+      if (key == keys.end()) {
+        const auto is_in_it = [&](const auto* each) { return each->name.starts_with(leaf.name + "."); };
+        if (std::ranges::none_of(keys, is_in_it)) throw unknown_key(place, leaf.name, known);
+        if (leaf.node->is_table()) continue;
+        throw error_at(place, leaf.name, found_text(*leaf.node),
+                       fmt::format("a table, written [{}]", leaf.name));
+      }
+      read.values.emplace_back(std::distance(keys.begin(), key), value_at(*leaf.node, **key, place));
+      if (auto note = note_on_former_word(*leaf.node, **key, place)) read.notes.push_back(std::move(*note));
+      read.places.emplace(leaf.name, place);
     }
-    auto value = read_value(*leaf.node, **key, file);
-    if (!value) return value.error();
-    if (auto note = note_on_former_word(*leaf.node, **key, place)) read.notes.push_back(std::move(*note));
-    read.values.emplace_back(static_cast<std::size_t>(key - keys.begin()), std::move(*value));
-    read.places.emplace(leaf.name, place);
-  }
-  for (const KeyDescription* key : keys) {
-    if (key->required && !read.places.contains(key->name)) {
-      return error_for(place_of(table, file), *key, "nothing; the key is missing");
-    }
-  }
-  std::ranges::sort(read.values, {}, [](const auto& each) { return each.first; });
-  return read;
+    for (const KeyDescription* key : keys)
+      if (key->required && !read.places.contains(key->name))
+        throw error_for(place_of(table, file), *key, "nothing; the key is missing");
+    std::ranges::sort(read.values, {}, &std::pair<std::size_t, Value>::first);
+    return read;
+  });
 }
 
 }  // namespace launchsafe::scene

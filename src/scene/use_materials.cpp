@@ -1,3 +1,4 @@
+#include "input_text.hpp"
 #include "scene_file.hpp"
 
 #include <fmt/format.h>
@@ -11,27 +12,24 @@ namespace {
 using NamesByLaw = std::map<std::string, std::vector<std::string>>;
 
 InputError unknown_material(const SceneFile& file, const std::string& body, const std::string& name) {
-  std::vector<std::string> names;
-  for (const Material& each : usual_materials()) names.push_back(each.name);
-  for (const NamedMaterial& each : file.materials) names.push_back(each.name);
-  for (const NamedMaterial& each : shipped_materials()) names.push_back(each.name);
-  const std::string key = "body." + body + ".material";
-  const std::string nearest = nearest_of(name, names);
-  return error_at(place_of_key(file, key), key,
+  std::vector<std::string> names = names_of(usual_materials());
+  for (const auto* list : {&file.materials, &shipped_materials()})
+    for (const NamedMaterial& each : *list) names.push_back(each.name);
+  return fault_at(file, "body." + body + ".material",
                   fmt::format("\"{}\", a material that is nowhere described", name),
                   quoted_list(names) + "; or one that a table [material.NAME] describes",
-                  nearest.empty() ? nearest : "\"" + nearest + "\"");
+                  in_quotes(nearest_of(name, names)));
 }
 
-Expected<NamesByLaw> names_by_law(const SceneFile& file, const Scene& scene) {
+NamesByLaw names_by_law(const SceneFile& file, const Scene& scene) {
   NamesByLaw by_law;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const std::string& name = file.body_materials[i];
     const NamedMaterial* named = find_named_material(file, name);
     if (named == nullptr && find_named(usual_materials(), name) == nullptr)
-      return unknown_material(file, scene.bodies[i].name, name);
+      throw unknown_material(file, scene.bodies[i].name, name);
     std::vector<std::string>& names = by_law[named ? named->law : name];
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    if (!contains(names, name)) names.push_back(name);
   }
   return by_law;
 }
@@ -39,9 +37,8 @@ Expected<NamesByLaw> names_by_law(const SceneFile& file, const Scene& scene) {
 /// Whether the scene itself gives the key, or one that overrides it.
 bool scene_gives(const SceneFile& file, const std::string& name) {
   return std::ranges::any_of(file.given, [&](const auto& each) {
-    if (each.second.of_material) return false;
-    const std::vector<std::string>& overridden = find_key(scene_keys(), each.first)->overrides;
-    return each.first == name || std::ranges::find(overridden, name) != overridden.end();
+    return !each.second.of_material &&
+           (each.first == name || contains(find_key(scene_keys(), each.first)->overrides, name));
   });
 }
 
@@ -53,12 +50,12 @@ void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
     if (material.law != Law::name) return;
     static const std::vector<Key<Law>> keys = Law::parameters();
     for (const Key<Law>& key : keys) {
-      const auto given = material.values.find(key.name);
-      if (given == material.values.end()) continue;
+      const Given* given = find_in(material.values, key.name);
+      if (given == nullptr) continue;
       if (scene_gives(file, key.name))
         forget_source(sources, key.name);
-      else if (given->second.value != key.get(usual) || (key.is_written && !key.is_written(usual)))
-        file.given[key.name] = given->second;
+      else if (given->value != key.get(usual) || (key.is_written && !key.is_written(usual)))
+        file.given[key.name] = *given;
     }
   });
   const std::string title = material.law + ".title";
@@ -72,8 +69,7 @@ void add_beside(const NamedMaterial& material, Scene& scene) {
   materials::for_each_law([&]<class Law>(Law law) {
     if (material.law != Law::name) return;
     for (const Key<Law>& key : Law::parameters())
-      if (const auto given = material.values.find(key.name); given != material.values.end())
-        key.set(law, given->second.value);
+      if (const Given* given = find_in(material.values, key.name)) key.set(law, given->value);
     scene.materials.push_back({material.name, law, material.title});
   });
   for (Source source : material.sources) {
@@ -83,27 +79,20 @@ void add_beside(const NamedMaterial& material, Scene& scene) {
   }
 }
 
-Fault check_one_explosive(const SceneFile& file, const Scene& scene, const std::vector<std::string>& names) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (file.body_materials[i] != names[1]) continue;
-    const std::string key = "body." + scene.bodies[i].name + ".material";
-    return error_at(place_of_key(file, key), key,
-                    fmt::format("\"{}\" beside \"{}\", two explosives", names[1], names[0]),
-                    "one explosive in a scene, whose skin is followed");
-  }
-  return std::nullopt;
+InputError two_explosives(const SceneFile& file, const Scene& scene, const std::vector<std::string>& names) {
+  const auto second = std::ranges::find(file.body_materials, names[1]) - file.body_materials.begin();
+  return fault_at(file, "body." + scene.bodies[static_cast<std::size_t>(second)].name + ".material",
+                  fmt::format("\"{}\" beside \"{}\", two explosives", names[1], names[0]),
+                  "one explosive in a scene, whose skin is followed");
 }
 
 /// Keys of a law of whose materials none has the law's name.
-Fault check_unambiguous(const SceneFile& file, const std::string& law,
-                        const std::vector<std::string>& names) {
-  for (const auto& [key, given] : file.given) {
-    if (given.of_material || !key.starts_with(law + ".")) continue;
-    return error_at(given.place, key,
-                    fmt::format("a key of [{}], where bodies are of {}", law, quoted_list(names)),
-                    fmt::format("[material.NAME] of each, or a body of material \"{}\"", law));
-  }
-  return std::nullopt;
+void check_unambiguous(const SceneFile& file, const std::string& law, const std::vector<std::string>& names) {
+  for (const auto& [key, given] : file.given)
+    if (!given.of_material && key.starts_with(law + "."))
+      throw error_at(given.place, key,
+                     fmt::format("a key of [{}], where bodies are of {}", law, quoted_list(names)),
+                     fmt::format("[material.NAME] of each, or a body of material \"{}\"", law));
 }
 
 /// Of the file's own material, which may have other numbers than the shipped one.
@@ -141,9 +130,8 @@ std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
           set_number(owner, name, own, value);
         };
         lifted.get = [name, own, usual = key.default_value()](const SceneFile& owner) {
-          const auto& values = find_named_material(owner, name)->values;
-          const auto given = values.find(own.name);
-          return given == values.end() ? usual : given->second.value;
+          const Given* given = find_in(find_named_material(owner, name)->values, own.name);
+          return given == nullptr ? usual : given->value;
         };
       }
     });
@@ -151,35 +139,27 @@ std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
   return keys;
 }
 
-Fault use_materials(SceneFile& file, Scene& scene) {
+void use_materials(SceneFile& file, Scene& scene) {
   std::erase_if(file.given, [](const auto& each) { return each.second.of_material; });
   scene.sources = file.sources;
-  const auto by_law = names_by_law(file, scene);
-  if (!by_law) return by_law.error();
-  std::map<std::string, std::string> renamed;  // materials that stand for their law
-  for (const auto& [law, names] : *by_law) {
-    const bool has_own = std::ranges::find(names, law) != names.end();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].material = file.body_materials[i];
+  for (const auto& [law, names] : names_by_law(file, scene)) {
+    const bool has_own = contains(names, law);
     if (names.size() > 1 && is_explosive(find_material(scene, law)->law))
-      return check_one_explosive(file, scene, names);
-    if (names.size() > 1 && !has_own)
-      if (auto error = check_unambiguous(file, law, names)) return error;
+      throw two_explosives(file, scene, names);
+    if (names.size() > 1 && !has_own) check_unambiguous(file, law, names);
     const std::string& first = has_own ? law : names.front();
-    renamed[first] = law;
+    for (Body& body : scene.bodies)
+      if (body.material == first) body.material = law;
     for (const std::string& name : names) {
       const NamedMaterial* named = find_named_material(file, name);
       if (named == nullptr) continue;
-      if (name == first) {
+      if (name == first)
         use_as_law(*named, file, scene);
-      } else {
+      else
         add_beside(*named, scene);
-      }
     }
   }
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const auto law = renamed.find(file.body_materials[i]);
-    scene.bodies[i].material = law == renamed.end() ? file.body_materials[i] : law->second;
-  }
-  return std::nullopt;
 }
 
 }  // namespace launchsafe::scene

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace launchsafe::scene {
 namespace {
 
@@ -46,7 +44,7 @@ InputError fault_of(const SceneFile& file, const Body& body, const Axis& along, 
                   fmt::format("{} = \"{}\"", along.name, meant));
 }
 
-Fault fault_of_pair(const SceneFile& file, const Body& body, const Body& other, const Axis& along) {
+void check_pair(const SceneFile& file, const Body& body, const Body& other, const Axis& along) {
   const double tolerance = length_tolerance(file.scene),
                least = least_distance * file.scene.numerics.cell_size;
   for (const bool at_end : {false, true})
@@ -54,10 +52,9 @@ Fault fault_of_pair(const SceneFile& file, const Body& body, const Body& other, 
       const double place = other.*(others_end ? along.end : along.begin);
       const double distance = std::abs(body.*(at_end ? along.end : along.begin) - place);
       if (distance <= tolerance || distance >= least - tolerance) continue;
-      return fault_of(file, body, along, at_end, place,
-                      fmt::format("the {} of the body \"{}\"", others_end ? "end" : "begin", other.name));
+      throw fault_of(file, body, along, at_end, place,
+                     fmt::format("the {} of the body \"{}\"", others_end ? "end" : "begin", other.name));
     }
-  return std::nullopt;
 }
 
 /// The length of the charge's rear face along r that a body lies against, m.
@@ -79,7 +76,7 @@ const Body* next_behind(const Scene& scene, const Body& charge) {
   return next;
 }
 
-Fault check_bottom(const SceneFile& file) {
+void check_bottom(const SceneFile& file) {
   const Scene& scene = file.scene;
   const double tolerance = length_tolerance(scene), bottom = charge_extent(scene).x_end;
   for (const Body& charge : scene.bodies) {
@@ -88,7 +85,7 @@ Fault check_bottom(const SceneFile& file) {
     if (borne >= width - tolerance * static_cast<double>(scene.bodies.size())) continue;
     const Body* next = next_behind(scene, charge);
     const bool moves = next != nullptr && borne <= tolerance;
-    return fault_at(
+    throw fault_at(
         file, "gap.thickness",
         fmt::format("a gap in the drawing: no body lies against {} of the bottom of \"{}\", x = {}, r {}{}",
                     borne > tolerance ? "a part" : "any part", charge.name, centimetres(bottom),
@@ -100,11 +97,10 @@ Fault check_bottom(const SceneFile& file) {
         moves ? fmt::format("body.{}.x = \"{}\"", next->name, exact_range(bottom, next->x_end))
               : std::string{});
   }
-  return std::nullopt;
 }
 
 /// Bodies that hold each other through shared faces move as one projectile; another is in nobody's hands.
-Fault check_hold(const SceneFile& file) {
+void check_hold(const SceneFile& file) {
   const Scene& scene = file.scene;
   const auto& bodies = scene.bodies;
   std::vector<bool> held(bodies.size());
@@ -117,20 +113,20 @@ Fault check_hold(const SceneFile& file) {
       reached.push_back(b);
     }
   const auto loose = std::ranges::find(held, false);
-  if (loose == held.end()) return std::nullopt;
+  if (loose == held.end()) return;
   const Body& body = bodies[static_cast<std::size_t>(loose - held.begin())];
-  return fault_at(
+  throw fault_at(
       file, fmt::format("body.{}.x", body.name),
       fmt::format("\"{}\", r {}, where no face holds it to \"{}\"", exact_range(body.x_begin, body.x_end),
                   exact_range(body.r_begin, body.r_end), bodies.front().name),
       "bodies that hold each other through shared faces, directly or through others", {});
 }
 
-Fault check_chamber(const SceneFile& file) {
+void check_chamber(const SceneFile& file) {
   const Chamber chamber = chamber_of(file.scene);
-  if (chamber.unclear.empty()) return std::nullopt;
+  if (chamber.unclear.empty()) return;
   const auto& stated = file.scene.load.obturation;
-  return fault_at(
+  throw fault_at(
       file, "load.obturation", (stated ? centimetres(*stated) + ", " : "") + chamber.unclear,
       fmt::format("a driving band in a ring of the full radius, {}, that closes the chamber by itself "
                   "and with it the charge (the formulation \"total-lagrangian\" where not the "
@@ -141,28 +137,24 @@ Fault check_chamber(const SceneFile& file) {
 
 }  // namespace
 
-Fault fault_of_near_edges(const SceneFile& file) {
+void check_near_edges(const SceneFile& file) {
   const auto& bodies = file.scene.bodies;
   const double tolerance = length_tolerance(file.scene),
                least = least_distance * file.scene.numerics.cell_size;
   for (std::size_t j = 0; j < bodies.size(); ++j) {
     const Body& body = bodies[j];
     if (body.r_begin > tolerance && body.r_begin < least)
-      return fault_of(file, body, axis_r, false, 0.0, "the axis");
+      throw fault_of(file, body, axis_r, false, 0.0, "the axis");
     for (std::size_t i = 0; i < j; ++i) {
       const Body& other = bodies[i];
       if (overlap(body, other, axis_x) < -least || overlap(body, other, axis_r) < -least) continue;
-      for (const Axis& along : {axis_x, axis_r})
-        if (Fault fault = fault_of_pair(file, body, other, along)) return fault;
+      for (const Axis& along : {axis_x, axis_r}) check_pair(file, body, other, along);
     }
   }
-  return std::nullopt;
 }
 
-Fault fault_of_support(const SceneFile& file) {
-  for (const auto check : {check_bottom, check_hold, check_chamber})
-    if (Fault fault = check(file)) return fault;
-  return std::nullopt;
+void check_support(const SceneFile& file) {
+  for (const auto check : {check_bottom, check_hold, check_chamber}) check(file);
 }
 
 }  // namespace launchsafe::scene

@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cmath>
 #include <iterator>
 
 namespace launchsafe::scene {
@@ -26,61 +24,58 @@ bool has_useless_peak(const SceneFile& file) {
 /// A measured curve beside a peak that would silently do nothing, and one that ends too early. A scene
 /// written back has its curve's points rather than their file, and every key: its peak is no sign of a
 /// mistake.
-Fault check_curve_use(const SceneFile& file) {
+void check_curve_use(const SceneFile& file) {
   const Load& load = file.scene.load;
-  if (load.curve_time.empty()) return std::nullopt;
-  if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file)) {
-    return fault_at(file, "load.peak",
-                    pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
-                    "load.curve alone, or both with load.rescale_to_peak = true");
-  }
+  if (load.curve_time.empty()) return;
+  if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file))
+    throw fault_at(file, "load.peak",
+                   pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
+                   "load.curve alone, or both with load.rescale_to_peak = true");
   if (load.duration && load.curve_time.back() < read_time(load) * (1.0 - 1e-9)) {
     const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
-    return fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
-                    "a curve that lasts until the end of the launch, " + time_text(*load.duration) +
-                        ", or no load.duration, with which it ends at its last point");
+    throw fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
+                   "a curve that lasts until the end of the launch, " + time_text(*load.duration) +
+                       ", or no load.duration, with which it ends at its last point");
   }
-  return std::nullopt;
 }
 
 /// Numbers of the other analytic shape would silently do nothing.
-Fault check_shape(const SceneFile& file) {
+void check_shape(const SceneFile& file) {
   const bool bell = file.scene.load.shape == LoadShape::bell;
   const std::vector<std::string> of_bell{"load.width", "load.steepness"}, of_power{"load.exponent"};
   for (const std::string& key : bell ? of_power : of_bell) {
     if (file.given.contains(key))
-      return fault_at(
+      throw fault_at(
           file, key,
           fmt::format("a number that the shape \"{}\" does not have", word_of(file.scene.load.shape)),
           fmt::format("{}, or another load.shape", fmt::join(bell ? of_bell : of_power, " and ")));
   }
-  return std::nullopt;
 }
 
 /// A curve of next to nothing has no shape that could be scaled.
-Fault check_rescaling(const SceneFile& file) {
+void check_rescaling(const SceneFile& file) {
   constexpr double least_peak = 1.0;  // Pa
   const Load& load = file.scene.load;
-  if (load.curve_pressure.empty() || !load.rescale_to_peak) return std::nullopt;
+  if (load.curve_pressure.empty() || !load.rescale_to_peak) return;
   const double measured = *std::ranges::max_element(load.curve_pressure);
-  if (measured >= least_peak) return std::nullopt;
-  return fault_at(file, "load.rescale_to_peak",
-                  fmt::format("true with a curve whose largest pressure is {}", pressure_text(measured)),
-                  "a curve that reaches " + pressure_text(least_peak));
+  if (measured >= least_peak) return;
+  throw fault_at(file, "load.rescale_to_peak",
+                 fmt::format("true with a curve whose largest pressure is {}", pressure_text(measured)),
+                 "a curve that reaches " + pressure_text(least_peak));
 }
 
-Fault check_smoothing(const SceneFile& file) {
+void check_smoothing(const SceneFile& file) {
   const Load& load = file.scene.load;
-  if (!(load.smoothing > 0.0)) return std::nullopt;
+  if (!(load.smoothing > 0.0)) return;
   const std::string window = time_text(load.smoothing);
   if (load.curve_time.empty())
-    return fault_at(file, "load.smoothing", window + " without a measured curve",
-                    "a window only together with load.curve");
+    throw fault_at(file, "load.smoothing", window + " without a measured curve",
+                   "a window only together with load.curve");
   const double length = load.curve_time.back() - load.curve_time.front();
-  if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return std::nullopt;
-  return fault_at(file, "load.smoothing", window,
-                  fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
-                              time_text(least_smoothing_share * length), time_text(length)));
+  if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return;
+  throw fault_at(file, "load.smoothing", window,
+                 fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
+                             time_text(least_smoothing_share * length), time_text(length)));
 }
 
 /// Largest difference of a stated travel from that which the load gives at the stated exit.
@@ -91,31 +86,30 @@ constexpr double largest_difference_of_velocity = 0.05;
 constexpr double longest_launch = 1.0;
 
 /// What only an exit gives a meaning to.
-Fault fault_without_exit(const SceneFile& file) {
+void check_without_exit(const SceneFile& file) {
   for (const char* key : {"load.exit_decay", "load.muzzle_exit_spread"})
     if (file.given.contains(key))
-      return fault_at(file, key, "a number of the muzzle exit, which is not stated",
-                      "only together with load.muzzle_exit or load.muzzle_travel");
-  return std::nullopt;
+      throw fault_at(file, key, "a number of the muzzle exit, which is not stated",
+                     "only together with load.muzzle_exit or load.muzzle_travel");
 }
 
-Fault fault_of_travel(const SceneFile& file) {
+void check_travel(const SceneFile& file) {
   const Load& load = file.scene.load;
-  if (!load.muzzle_travel) return std::nullopt;
+  if (!load.muzzle_travel) return;
   const double stated = *load.muzzle_travel;
   Scene barrel = file.scene;
   barrel.load = without_exit(load);
   barrel.load.duration.reset();
   if (!load.muzzle_exit) {
-    if (exit_time(load)) return std::nullopt;
+    if (exit_time(load)) return;
     const double end = launch_end(barrel.load);
-    return fault_at(file, "load.muzzle_travel", length_text(stated) + ", which the projectile does not reach",
-                    fmt::format("at most {}, where the load drives it until it ends at {}",
-                                length_text(rigid_motion(barrel, end).travel), time_text(end)));
+    throw fault_at(file, "load.muzzle_travel", length_text(stated) + ", which the projectile does not reach",
+                   fmt::format("at most {}, where the load drives it until it ends at {}",
+                               length_text(rigid_motion(barrel, end).travel), time_text(end)));
   }
   const double travel = rigid_motion(barrel, *load.muzzle_exit).travel;
-  if (std::abs(stated - travel) <= largest_difference_of_travel * travel) return std::nullopt;
-  return fault_at(
+  if (std::abs(stated - travel) <= largest_difference_of_travel * travel) return;
+  throw fault_at(
       file, "load.muzzle_travel",
       fmt::format("{}, while the load drives the projectile {:.3g} m until load.muzzle_exit, {}",
                   length_text(stated), travel, time_text(*load.muzzle_exit)),
@@ -123,7 +117,7 @@ Fault fault_of_travel(const SceneFile& file) {
 }
 
 /// An exit that is no end of this load.
-Fault fault_of_exit(const SceneFile& file) {
+void check_exit(const SceneFile& file) {
   const Load& load = file.scene.load;
   const double exit = *exit_time(load);
   const std::string key = load.muzzle_exit ? "load.muzzle_exit" : "load.muzzle_travel";
@@ -135,9 +129,8 @@ Fault fault_of_exit(const SceneFile& file) {
   const double peak = PressureHistory(barrel).peak_time(), end = launch_end(barrel);
   const std::string allowed = fmt::format("a time after the peak, {}, and before the load is over, {}",
                                           time_text(peak), time_text(end));
-  if (!(exit > peak)) return fault_at(file, key, found + ", not after the peak of the load", allowed);
-  if (exit > end * (1.0 + 1e-9)) return fault_at(file, key, found + ", after the end of the load", allowed);
-  return std::nullopt;
+  if (!(exit > peak)) throw fault_at(file, key, found + ", not after the peak of the load", allowed);
+  if (exit > end * (1.0 + 1e-9)) throw fault_at(file, key, found + ", after the end of the load", allowed);
 }
 
 /// Which unit was taken for which other one where a velocity, which grows with the pressure, is so many times
@@ -156,57 +149,52 @@ std::string unit_taken_for(double ratio) {
 
 /// The first fault of `load.muzzle_exit`, `.muzzle_travel` and what depends on them, or of a load without
 /// end.
-Fault fault_of_end(const SceneFile& file) {
+void check_end(const SceneFile& file) {
   const Load& load = file.scene.load;
   if (load.muzzle_exit || load.muzzle_travel) {
-    if (Fault fault = fault_of_travel(file)) return fault;
-    return fault_of_exit(file);
+    check_travel(file);
+    return check_exit(file);
   }
-  if (Fault fault = fault_without_exit(file)) return fault;
+  check_without_exit(file);
   const double end = end_time(load);
-  if (end > 0.0 && end <= longest_launch) return std::nullopt;
+  if (end > 0.0 && end <= longest_launch) return;
   const bool measured = !load.curve_time.empty();
   const std::string key =
       measured ? load.curve_file.empty() ? "load.curve_time" : "load.curve" : "load.peak_time";
-  return fault_at(file, key, fmt::format("a load that ends at {}", time_text(end)),
-                  fmt::format("a load that is over within {}, or load.duration", time_text(longest_launch)));
+  throw fault_at(file, key, fmt::format("a load that ends at {}", time_text(end)),
+                 fmt::format("a load that is over within {}, or load.duration", time_text(longest_launch)));
 }
 
 }  // namespace
 
-Fault fault_of_load(const SceneFile& file) {
+void check_load(const SceneFile& file) {
   const Load& load = file.scene.load;
-  if (load.curve_time.size() != load.curve_pressure.size()) {
-    return fault_at(file, "load.curve_pressure",
-                    fmt::format("{} values for {} times", load.curve_pressure.size(), load.curve_time.size()),
-                    "one pressure for every time");
-  }
-  if (load.curve_time.size() == 1) {
-    return fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
-  }
+  if (load.curve_time.size() != load.curve_pressure.size())
+    throw fault_at(file, "load.curve_pressure",
+                   fmt::format("{} values for {} times", load.curve_pressure.size(), load.curve_time.size()),
+                   "one pressure for every time");
+  if (load.curve_time.size() == 1)
+    throw fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
   const auto& times = load.curve_time;
   const auto late =
       std::ranges::adjacent_find(times, [](double a, double b) { return !(b - a > least_curve_interval); });
-  if (late != times.end()) {
-    return fault_at(file, "load.curve_time",
-                    fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
-                    "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
-  }
-  if (Fault fault = check_shape(file)) return fault;
-  if (Fault fault = check_curve_use(file)) return fault;
-  if (Fault fault = check_rescaling(file)) return fault;
-  if (times.empty() && load.rescale_to_peak) {
-    return fault_at(file, "load.rescale_to_peak", "true without a measured curve",
-                    "true together with load.curve");
-  }
-  if (Fault fault = check_smoothing(file)) return fault;
-  if (times.empty() && load.base > load.peak) {
-    return fault_at(
+  if (late != times.end())
+    throw fault_at(file, "load.curve_time",
+                   fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
+                   "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
+  check_shape(file);
+  check_curve_use(file);
+  check_rescaling(file);
+  if (times.empty() && load.rescale_to_peak)
+    throw fault_at(file, "load.rescale_to_peak", "true without a measured curve",
+                   "true together with load.curve");
+  check_smoothing(file);
+  if (times.empty() && load.base > load.peak)
+    throw fault_at(
         file, file.given.contains("load.base") ? "load.base" : "load.peak",
         fmt::format("a base of {} and a peak of {}", pressure_text(load.base), pressure_text(load.peak)),
         "a base pressure of at most the peak");
-  }
-  return fault_of_end(file);
+  return check_end(file);
 }
 
 Fault check_expected_velocity(const SceneFile& file) {
@@ -216,7 +204,7 @@ Fault check_expected_velocity(const SceneFile& file) {
   whole.load.duration.reset();
   const double time = read_time(whole.load), velocity = rigid_motion(whole, time).velocity;
   if (std::abs(*expected - velocity) <= largest_difference_of_velocity * velocity) return std::nullopt;
-  return error_at(place_of_key(file, "load.expected_velocity"), "load.expected_velocity",
+  return fault_at(file, "load.expected_velocity",
                   fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
                               rigid_motion_text(whole, time), time_text(time)),
                   fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -52,10 +53,25 @@ class Expected {
   /// Only where !has_value().
   const Error& error() const { return *std::get_if<1>(&content_); }
 
+  /// The value; throws the error where there is none. For readers, see `caught`.
+  T or_throw() && {
+    if (!has_value()) throw error();
+    return std::move(value());
+  }
+
  private:
   std::variant<T, Error> content_;
 };
 
+/// What a reader of many steps gives, or the InputError that it throws: its first fault.
+template <class Read>
+Expected<std::invoke_result_t<Read>> caught(Read&& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    return error;
+  }
+}
 /// Bytes that a message quotes of a part of an InputError. What is allowed may be a list of many keys.
 inline constexpr std::size_t longest_quoted = 240, longest_allowed_quoted = 4000, longest_file_quoted = 1000;
 

@@ -16,24 +16,17 @@ bool share_a_face(const Scene& scene, const Body& a, const Body& b);
 /// Names of the bodies, no charges themselves, that touch a charge.
 std::vector<std::string> bodies_at_the_charge(const Scene& scene);
 
-/// The interfaces of a file.
-struct ReadInterfaces {
-  std::vector<Interface> interfaces;
-  std::vector<Source> sources;  ///< of the values that they have of a contact, by "interface.<name>.<key>"
-};
-/// Reads all [interface.NAME] of a file, in the order of their names. Faults: a table that is none, a key
-/// that does not exist, a value out of range, a contact that is not among `contacts`. Places become
-/// "interface.<name>.<key>", and "interface.<name>".
-Expected<ReadInterfaces> read_interfaces(const toml::table& root, const std::string& file,
-                                         const std::vector<NamedContact>& contacts,
-                                         std::map<std::string, Place>& places);
+/// Reads all [interface.NAME] of a file, in the order of their names, the sources of values that they have of
+/// a contact, by "interface.<name>.<key>", and the places of these and of "interface.<name>". Throws the
+/// fault of a table that is none, a key that does not exist, a value out of range, a contact that is not
+/// among `contacts`.
+void read_interfaces(const toml::table& root, const std::string& file,
+                     const std::vector<NamedContact>& contacts, Scene& scene, std::vector<Source>& sources,
+                     std::map<std::string, Place>& places);
 
-/// Faults that only the whole scene shows: a body that does not touch the charge, keys that are missing or
-/// would do nothing, sliding in a form that has none.
-Fault check_interfaces(const SceneFile& file);
-
-/// The interfaces as "interface.'NAME'.KEY = VALUE", one a line.
-std::string interfaces_as_toml(std::vector<Interface> interfaces);
+/// Throws faults that only the whole scene shows: a body that does not touch the charge, keys that are
+/// missing or would do nothing, sliding in a form that has none.
+void check_interfaces(const SceneFile& file);
 
 /// What holds the charge, as people read it: one line a body that touches it, with what that assumes.
 struct InterfaceText {

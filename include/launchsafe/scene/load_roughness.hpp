@@ -13,6 +13,8 @@ inline constexpr double least_smoothing_share = 1e-6;
 /// Roughness from which on the friction heat of a load is off by more than a kelvin or so.
 inline constexpr double least_roughness = 0.01;
 
+/// The same load averaged over another window (s).
+Load averaged(Load load, double window);
 /// The whole of a measured curve as a load.
 Load load_of_curve(const PressureCurve& curve);
 

@@ -4,8 +4,6 @@
 
 #include "launchsafe/scene/scene.hpp"
 
-#include <cstdint>
-
 namespace launchsafe::scene {
 
 /// Cells of the even grid of the updated-Lagrangian form. An axial grid line runs through `x_anchor` and a

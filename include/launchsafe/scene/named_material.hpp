@@ -63,30 +63,30 @@ const std::vector<NamedMaterial>& shipped_materials();
 const std::vector<NamedContact>& shipped_contacts();
 
 /// The tables [material.NAME] of a file; none if it has none. `known`: materials of other files, which these
-/// may be like, and whose names they must not take. Faults: a name that is taken, an unknown law or key, a
+/// may be like, and whose names they must not take. Throws: a name that is taken, an unknown law or key, a
 /// number that is neither given nor that of another material, a material that is like itself, and those of
 /// sources.
-Expected<std::vector<NamedMaterial>> read_materials(const toml::table& root, const std::string& file,
-                                                    const std::vector<NamedMaterial>& known);
+std::vector<NamedMaterial> read_materials(const toml::table& root, const std::string& file,
+                                          const std::vector<NamedMaterial>& known);
 
 /// The tables [contact.NAME] of a file; none if it has none. `known`: contacts of other files, whose names
-/// these must not take. Faults: a name that is taken, a key that does not exist, a value out of range, those
+/// these must not take. Throws: a name that is taken, a key that does not exist, a value out of range, those
 /// of sources.
-Expected<std::vector<NamedContact>> read_contacts(const toml::table& root, const std::string& file,
-                                                  const std::vector<NamedContact>& known);
+std::vector<NamedContact> read_contacts(const toml::table& root, const std::string& file,
+                                        const std::vector<NamedContact>& known);
 
-/// The first key of a file of materials that is no table of it.
-Fault check_material_tables(const toml::table& root, const std::string& file);
+/// Throws the fault of the first key of a file of materials that is no table of it.
+void check_material_tables(const toml::table& root, const std::string& file);
 /// What a file of materials has. A shipped file gives what it ships; others must not take its names. Faults:
 /// those of `read_materials` and `read_contacts`, a key beside the tables, a scene or a study.
 Expected<NamedMaterials> read_material_file(const std::filesystem::path& file);
 
 /// Keys of [[source]], and of the sources of a material.
 const std::vector<Key<Source>>& source_keys();
-/// The tables "source" of a table; none if it has none. Faults: a key that is not among `known`, one with two
+/// The tables "source" of a table; none if it has none. Throws: a key that is not among `known`, one with two
 /// sources, a source without words.
-Expected<std::vector<Source>> read_sources(const toml::table& table, const std::vector<std::string>& known,
-                                           const std::string& file);
+std::vector<Source> read_sources(const toml::table& table, const std::vector<std::string>& known,
+                                 const std::string& file);
 /// The source of a key; none where nothing is said.
 const Source* source_of(const std::vector<Source>& sources, const std::string& key);
 /// Takes a key away from its source: its value is another one.

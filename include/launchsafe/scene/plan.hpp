@@ -4,9 +4,6 @@
 
 #include "launchsafe/scene/scene.hpp"
 
-#include <array>
-#include <cstdint>
-
 namespace launchsafe::scene {
 
 /// One term of the physics, in or out.

@@ -5,7 +5,6 @@
 #include "launchsafe/scene/input_error.hpp"
 
 #include <filesystem>
-#include <optional>
 
 namespace launchsafe::scene {
 

@@ -2,7 +2,6 @@
 // `read_scene.hpp`.
 #pragma once
 
-#include "launchsafe/keys/key.hpp"
 #include "launchsafe/materials/friction_closure.hpp"
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/materials/laws.hpp"
@@ -328,13 +327,14 @@ std::vector<Interface> sliding_interfaces(const Scene& scene);
 /// The interface that speaks of two bodies (indices into Scene::bodies); none where they are bonded for good.
 const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b);
 
-/// The smallest rectangle around all bodies, the charges, or the others; nothing at 0 without any.
+/// The smallest rectangle around all bodies, the charges, or those that a rule chooses; nothing at 0 without
+/// any.
 struct Extent {
   double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;
 };
 Extent extent_of(const Scene& scene);
 Extent charge_extent(const Scene& scene);
-Extent inert_extent(const Scene& scene);
+Extent extent_where(const Scene& scene, const std::function<bool(const Body&)>& choose);
 /// The round-off of lengths that users write in decimals, m: places closer than this are one.
 double length_tolerance(const Scene& scene);
 

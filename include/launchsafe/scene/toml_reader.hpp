@@ -12,18 +12,7 @@
 
 namespace launchsafe::scene {
 
-// clang-format off
-using keys::Key, keys::KeyDescription, keys::KeyKind, keys::Value;
-using keys::ActsOn, keys::Hotter, keys::Limits, keys::Part, keys::Plausible, keys::Role, keys::Standing;
-using keys::judged_elsewhere, keys::minor_setting, keys::of_combustion, keys::of_model, keys::of_skin_model, keys::over_range, keys::refined_setting,
-    keys::remark, keys::setting_exact_at, keys::vanishing_setting;
-using keys::above, keys::above_to, keys::any_number, keys::at_least, keys::between;
-using keys::flag_key, keys::list_key, keys::number_key, keys::optional_number_key, keys::range_key,
-    keys::text_key, keys::word_key;
-using keys::always_plausible, keys::formerly, keys::may_be_empty, keys::overriding, keys::plausibly, keys::required, keys::then;
-using keys::usually, keys::value_or_range, keys::written_where, keys::zero_or_plausibly;
-using keys::find_key, keys::find_named;
-// clang-format on
+using namespace keys;  // whose words every list of keys is made of
 
 /// "input", "P", "L", "D", "A" or "C".
 std::string_view letter_of(Standing standing);
@@ -102,13 +91,21 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
 
 /// The fault of a key within a table, whose name comes before the key's.
 InputError within(const std::string& table, InputError error);
+/// What `read` gives; what it throws is the fault of a key within that table.
+template <std::invocable Read>
+auto within(const std::string& table, Read&& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw within(table, error);
+  }
+}
 
-/// What one of several tables [table.NAME] says; a fault, if there is one.
-using VisitTable = std::function<Fault(const std::string& name, const toml::table& content)>;
-/// Visits all [table.NAME] of a file in the order of their names, until one has a fault. Anything but a table
-/// is one too: `meaning` tells what NAME is the name of.
-Fault visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
-                   const std::string& file, const VisitTable& visit);
+/// Visits all [table.NAME] of a file in the order of their names. Throws the fault of one that is no table:
+/// `meaning` tells what NAME is the name of.
+using VisitTable = std::function<void(const std::string& name, const toml::table& content)>;
+void visit_tables(const toml::table& root, const std::string& table, std::string_view meaning,
+                  const std::string& file, const VisitTable& visit);
 
 template <class Owner>
 std::vector<const KeyDescription*> descriptions_of(const std::vector<Key<Owner>>& keys) {
@@ -140,16 +137,14 @@ template <class Owner>
 Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_tables(
     const toml::table& root, const std::string& name, const std::vector<Key<Owner>>& keys,
     const std::string& file, const std::string& allowed) {
-  std::vector<std::pair<Owner, std::map<std::string, Place>>> owners;
-  const auto tables = tables_of(root, name, file, allowed);
-  if (!tables) return tables.error();
-  for (const toml::table* table : *tables) {
-    Owner owner;
-    auto places = read_table(*table, keys, {}, file, owner);
-    if (!places) return within(name, places.error());
-    owners.push_back({std::move(owner), std::move(*places)});
-  }
-  return owners;
+  return caught([&] {
+    std::vector<std::pair<Owner, std::map<std::string, Place>>> owners;
+    for (const toml::table* table : tables_of(root, name, file, allowed).or_throw()) {
+      auto& read = owners.emplace_back();
+      read.second = within(name, [&] { return read_table(*table, keys, {}, file, read.first).or_throw(); });
+    }
+    return owners;
+  });
 }
 
 /// The error for a name that no key has, with the nearest one that exists.
