@@ -5,11 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <complex>
-#include <cstddef>
-#include <numbers>
 
 namespace launchsafe::run {
 namespace {
@@ -79,9 +75,7 @@ std::vector<AxialMode> axial_modes(const scene::Scene& scene) {
 
 std::string ring_text(const scene::Scene& scene) {
   const std::string rings = scene::ring_text(scene.load);
-  scene::Load raw = scene.load;
-  raw.smoothing = 0.0;
-  const std::vector<scene::Ring> all = scene::rings_of(raw);
+  const std::vector<scene::Ring> all = scene::rings_of(scene::averaged(scene.load, 0.0));
   if (all.empty()) return rings;
   const std::vector<AxialMode> modes = axial_modes(scene);
   const auto ring =

@@ -1,13 +1,6 @@
 #include "burning_bottom.hpp"
 
-#include "launchsafe/materials/kinetics.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/plan.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace launchsafe::run {
 namespace {

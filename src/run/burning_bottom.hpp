@@ -9,12 +9,6 @@
 #pragma once
 
 #include "charge_heat.hpp"
-#include "launchsafe/math/numbers.hpp"
-#include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/run/case_result.hpp"
-
-#include <cmath>
-#include <vector>
 
 namespace launchsafe::run {
 

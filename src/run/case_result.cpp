@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace launchsafe::run {
 
 std::string to_string(RunStatus status) {
@@ -20,14 +16,12 @@ std::string to_string(RunStatus status) {
 }
 
 std::string to_string(const LimiterCounts& limiters) {
-  std::string text;
-  const auto add = [&text](const char* name, std::uint64_t count) {
-    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count);
-  };
-  add("crack bound", limiters.crack_at_bound);
-  add("tension cut-off", limiters.tension_cutoff);
-  add("Hugoniot guard", limiters.hugoniot_guard);
-  return text;
+  std::vector<std::string> acted;
+  for (const auto& [name, count] : {std::pair{"crack bound", limiters.crack_at_bound},
+                                    std::pair{"tension cut-off", limiters.tension_cutoff},
+                                    std::pair{"Hugoniot guard", limiters.hugoniot_guard}})
+    if (count > 0) acted.push_back(fmt::format("{} {}", name, count));
+  return fmt::format("{}", fmt::join(acted, ", "));
 }
 
 double EnergyBalance::scale() const {

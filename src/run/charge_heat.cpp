@@ -1,13 +1,5 @@
 #include "charge_heat.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/surface/skin.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace launchsafe::run {
 namespace {
 
@@ -26,6 +18,14 @@ bool contains(const mpm::Lattice& lattice, double x, double r) {
   return x >= lattice.x_begin() && x <= lattice.x_end() && r >= lattice.r_begin() && r <= lattice.r_end();
 }
 
+/// Makes the weights of some sum to 1.
+template <class Shares>
+void normalise(Shares& shares) {
+  double sum = 0.0;
+  for (const auto& share : shares) sum += share.weight;
+  for (auto& share : shares) share.weight /= sum;
+}
+
 }  // namespace
 
 TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene)
@@ -35,9 +35,7 @@ TraceRecorder::TraceRecorder(mpm::Simulation& simulation, const scene::Scene& sc
   for (const Charge* charge : charges_)
     if (scene.bodies[static_cast<std::size_t>(charge->particles.body)].x_end >= bottom)
       add_bottom_row(*charge, scene.symmetry == scene::Symmetry::axisymmetric);
-  double area = 0.0;
-  for (const Share& share : bottom_) area += share.weight;
-  for (Share& share : bottom_) share.weight /= area;
+  normalise(bottom_);
   if (!bottom_.empty()) {
     add_stations(scene);
     for (const scene::ObservationPoint& point : scene.output.observation_points) add_observation_point(point);
@@ -83,23 +81,20 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
   const bool axisymmetric = scene.symmetry == scene::Symmetry::axisymmetric;
   for (const scene::StationExtent& extent : scene::stations_of(scene)) {
     std::vector<Share> shares;
-    double volume = 0.0;
     for (const Charge* charge : charges_) {
       const mpm::Lattice& lattice = charge->particles.lattice;
       for (int i = 0; i < lattice.columns(); ++i) {
         const double length = overlap(lattice.x_edges, i, extent.x_begin, extent.x_end).length();
-        if (!(length > 0.0)) continue;
         for (int j = 0; j < lattice.rows(); ++j) {
           const Interval across = overlap(lattice.r_edges, j, extent.r_begin, extent.r_end);
-          if (!(across.length() > 0.0)) continue;
-          const double part = length * across.length() * (axisymmetric ? across.middle() : 1.0);
-          shares.push_back({charge, lattice.slot(i, j), part});
-          volume += part;
+          if (!(length > 0.0) || !(across.length() > 0.0)) continue;
+          shares.push_back({charge, lattice.slot(i, j),
+                            length * across.length() * (axisymmetric ? across.middle() : 1.0)});
         }
       }
     }
     if (shares.empty()) continue;
-    for (Share& share : shares) share.weight /= volume;
+    normalise(shares);
     const double width = extent.r_end - extent.r_begin, middle = 0.5 * (extent.r_begin + extent.r_end);
     trace_.stations.push_back({extent.name, extent.x_end, middle,
                                width * (axisymmetric ? 2.0 * std::numbers::pi * middle : 1.0), false});
@@ -124,17 +119,6 @@ double TraceRecorder::measure_bottom_pressure(const mpm::Simulation& simulation)
         share.weight * (share.charge->particles.pressure[share.slot] - share.charge->deviator(share.slot).xx);
   // Not std::max: a mean that is no number must stay one.
   return mean < floor_ ? floor_ : mean;
-}
-
-void TraceRecorder::continue_from(const TraceRecorder& other) {
-  trace_ = other.trace_;
-  heat_ = other.heat_;
-  bottom_pressure_ = other.bottom_pressure_;
-  chamber_pressure_ = other.chamber_pressure_;
-  bottom_integral_ = other.bottom_integral_;
-  chamber_integral_ = other.chamber_integral_;
-  interval_begin_ = other.interval_begin_;
-  steps_ = other.steps_;
 }
 
 void TraceRecorder::accumulate(const mpm::Simulation& simulation, double dt) {
@@ -206,18 +190,15 @@ void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder
   const double end = materials::adiabatic_temperature(model_.surface.air, air_pressure_);
   for (std::size_t s = 0; s < points_.size(); ++s) {
     const double friction = heating(recorder, s, dt);
-    surface::SkinPoint& point = points_[s];
-    if (point.ignited) {
-      unburnt_[s] = surface::advance_skin(after_ignition_, air_gap_, unburnt_[s], dt, begin, end, friction);
-      point = surface::advance_skin(model_, air_gap_, point, dt, begin, end, friction);
-      continue;
-    }
+    surface::SkinPoint &point = points_[s], &unburnt = unburnt_[s];
+    const bool had_ignited = point.ignited;
     point = surface::advance_skin(model_, air_gap_, point, dt, begin, end, friction);
-    unburnt_[s] = point;
-    if (!point.ignited) continue;
-    unburnt_[s].temperature =
-        std::min(model_.kinetics.ignition_temperature, model_.kinetics.burnt_temperature);
-    unburnt_[s].ignited = false;
+    unburnt = had_ignited
+                  ? surface::advance_skin(after_ignition_, air_gap_, unburnt, dt, begin, end, friction)
+                  : point;
+    if (had_ignited || !point.ignited) continue;
+    unburnt.temperature = std::min(model_.kinetics.ignition_temperature, model_.kinetics.burnt_temperature);
+    unburnt.ignited = false;
     note_ignition(recorder, s, simulation.time() - dt + point.ignition_time);
   }
 }

@@ -1,16 +1,8 @@
 // What a run follows of the charge's heat: the trace of its bottom, the skin at every step, and the bulk.
 #pragma once
 
-#include "launchsafe/materials/friction_closure.hpp"
-#include "launchsafe/mpm/body.hpp"
 #include "launchsafe/mpm/conduction.hpp"
-#include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
-
-#include <array>
-#include <optional>
-#include <vector>
 
 namespace launchsafe::run {
 
@@ -45,15 +37,24 @@ inline void add(materials::SlidingStep& step, const mpm::Body<materials::Charge>
       step.inelastic + weight * (e - (0.5 / charge.law.shear_modulus()) * deviator(p.stress_change));
 }
 
+/// What the recorder of a run has seen so far, and one that goes on from a checkpoint takes over.
+struct SeenByRecorder {
+  trace::BottomTrace trace_;
+  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
+  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
+  double bottom_integral_ = 0, chamber_integral_ = 0;             ///< Pa s, over the present interval
+  double interval_begin_ = 0;                                     ///< s
+  double steps_ = 0;
+};
+
 /// Stations tile the charge's bottom by the width that the scene states, down to the depth that it states;
 /// the scene's observation points come after them. A scene without a charge has none, and its trace holds the
 /// chamber pressure only.
-class TraceRecorder {
+class TraceRecorder : SeenByRecorder {
  public:
   TraceRecorder(mpm::Simulation& simulation, const scene::Scene& scene);
 
-  /// Takes over what another recorder of the same mechanics has seen so far.
-  void continue_from(const TraceRecorder& other);
+  void continue_from(const TraceRecorder& other) { SeenByRecorder::operator=(other); }
   /// Takes in the step that has just been done (its end state; dt in s).
   void accumulate(const mpm::Simulation& simulation, double dt);
   /// Appends a sample of the present state and starts the next interval.
@@ -81,16 +82,10 @@ class TraceRecorder {
   void heat_stations();
   double measure_bottom_pressure(const mpm::Simulation& simulation) const;
 
-  trace::BottomTrace trace_;
   std::vector<const Charge*> charges_;
-  std::vector<Share> bottom_;                                     ///< weights sum to 1
-  std::vector<std::vector<Share>> shares_;                        ///< by station
-  std::array<std::vector<double>, trace::traced_closures> heat_;  ///< by closure and station, J/m3
-  double floor_ = 0;                                              ///< Pa: the air's initial pressure
-  double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
-  double bottom_integral_ = 0, chamber_integral_ = 0;             ///< Pa s, over the present interval
-  double interval_begin_ = 0;                                     ///< s
-  double steps_ = 0;
+  std::vector<Share> bottom_;               ///< weights sum to 1
+  std::vector<std::vector<Share>> shares_;  ///< by station
+  double floor_ = 0;                        ///< Pa: the air's initial pressure
 };
 
 /// Under the reservoir. A station that ignites is at T2 from then on; with two-way coupling its unburnt part

@@ -1,12 +1,5 @@
 #include "closing_gap.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/scene/plan.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace launchsafe::run {
 namespace {
 

@@ -3,12 +3,7 @@
 #pragma once
 
 #include "charge_heat.hpp"
-#include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/surface/gap_columns.hpp"
-
-#include <limits>
-#include <vector>
 
 namespace launchsafe::run {
 

@@ -3,12 +3,8 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::run {
 namespace {
@@ -16,31 +12,6 @@ namespace {
 constexpr double bytes_per_number = 8.0;
 /// While it is stored, a result exists a few times: as it is, as the image of its file, and being written.
 constexpr double copies = 4.0;
-
-/// What the trace records. It keeps two friction histories a station, with a station for every particle of
-/// the bottom row. A step is sampled once at most, however short the interval.
-struct TraceSize {
-  double samples = 0, stations = 0;
-};
-TraceSize trace_size(const scene::Scene& scene, const scene::Plan& plan) {
-  const double row =
-      charge_extent(scene).r_end / scene.numerics.cell_size * scene.numerics.particles_per_cell;
-  return {2.0 + std::min(scene::end_time(scene.load) / scene.output.trace_interval,
-                         static_cast<double>(plan.steps)),
-          static_cast<double>(scene.output.observation_points.size()) + row};
-}
-
-double trace_memory(const TraceSize& size) {
-  constexpr double histories_of_the_bottom = 6.0;
-  return copies * bytes_per_number * size.samples *
-         (histories_of_the_bottom + size.stations * trace::traced_closures);
-}
-
-/// Time, air and skins of every gap.
-double skin_memory(const scene::Scene& scene, const TraceSize& size) {
-  return copies * bytes_per_number * static_cast<double>(scene.surface.gaps.size()) * size.samples *
-         (2.0 + size.stations);
-}
 
 std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
@@ -72,15 +43,24 @@ double work_of_gap(const scene::Scene& scene, const scene::Plan& plan) {
 
 Cost cost_of(const scene::Scene& scene) {
   const scene::Plan plan = scene::make_plan(scene);
-  const TraceSize size = trace_size(scene, plan);
-  const double snapshots = scene.output.asks_for_snapshots() ? copies * snapshot_size(scene).bytes() : 0.0;
+  const auto gaps = static_cast<double>(scene.surface.gaps.size());
+  // The trace has six histories of the bottom, and those of friction at every station: the observation
+  // points, and as many others as particles in the bottom row at most. A step is sampled once at most.
+  const double samples = 2.0 + std::min(scene::end_time(scene.load) / scene.output.trace_interval,
+                                        static_cast<double>(plan.steps));
+  const double stations =
+      static_cast<double>(scene.output.observation_points.size()) +
+      charge_extent(scene).r_end / scene.numerics.cell_size * scene.numerics.particles_per_cell;
+  const double trace = bytes_per_number * samples * (6.0 + stations * trace::traced_closures);
+  // Of every gap time, air and skins.
+  const double skins = bytes_per_number * gaps * samples * (2.0 + stations);
   return {.work = plan.work,
-          .coupled = work_of_gap(scene, plan) * static_cast<double>(scene.surface.gaps.size()),
+          .coupled = work_of_gap(scene, plan) * gaps,
           .particles = plan.memory,
-          .trace = trace_memory(size),
-          .kept_trace = trace_memory(size) / copies,
-          .snapshots = snapshots,
-          .skins = skin_memory(scene, size)};
+          .trace = copies * trace,
+          .kept_trace = trace,
+          .snapshots = scene.output.asks_for_snapshots() ? copies * snapshot_size(scene).bytes() : 0.0,
+          .skins = copies * skins};
 }
 
 SnapshotSize snapshot_size(const scene::Scene& scene) {
@@ -121,46 +101,39 @@ std::string to_text(const SnapshotSize& size) {
 
 std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const Reach& reach) {
   const Cost cost = cost_of(scene);
-  scene::InputError error;
   // Written so that what is no number is out of reach.
   if (!(cost.time() <= reach.longest_run) || std::isinf(cost.time())) {
     const scene::Plan plan = scene::make_plan(scene);
-    error.key = key_of_time(scene, cost, reach.longest_run);
-    error.found = fmt::format(
+    std::string found = fmt::format(
         "{:.3g} particles and {} steps of {:.3g} s (sound at {:.3g} m/s), which take {} at {:.3g} million "
         "particle updates per second",
         static_cast<double>(plan.particles()),
         plan.steps < scene::most_counted ? fmt::format("{}", plan.steps) : "countless", plan.time_step,
         scene::longitudinal_speed(scene), days(cost.time()), 1e-6 * cautious_update_rate);
     if (cost.coupled > 0.0)
-      error.found +=
-          fmt::format(", {} of it where every gap ignites and goes on through {:.3g} s of combustion",
-                      days(cost.coupled / cautious_update_rate), scene.combustion.duration);
-    error.allowed = fmt::format(
-        "a run of at most {}; larger cells or longer steps take less, and --longest-run allows more",
-        days(reach.longest_run));
-    return error;
+      found += fmt::format(", {} of it where every gap ignites and goes on through {:.3g} s of combustion",
+                           days(cost.coupled / cautious_update_rate), scene.combustion.duration);
+    return scene::error_at(
+        {}, key_of_time(scene, cost, reach.longest_run), found,
+        fmt::format(
+            "a run of at most {}; larger cells or longer steps take less, and --longest-run allows more",
+            days(reach.longest_run)));
   }
   const double skins = reach.keeps_skins ? cost.skins : 0.0;
-  if (!(cost.memory() + skins <= reach.memory)) {
-    error.key = key_of_memory(cost, skins);
-    error.found = fmt::format(
-        "a run that needs {} of memory: {} for particles and grid, {} for the trace, {} "
-        "for snapshots, {} for skin temperatures",
-        gigabytes(cost.memory() + skins), gigabytes(cost.particles), gigabytes(cost.trace),
-        gigabytes(cost.snapshots), gigabytes(skins));
-    error.allowed = fmt::format("at most {}, what this machine has left", gigabytes(reach.memory));
-    return error;
-  }
-  return std::nullopt;
+  if (cost.memory() + skins <= reach.memory) return std::nullopt;
+  return scene::error_at(
+      {}, key_of_memory(cost, skins),
+      fmt::format("a run that needs {} of memory: {} for particles and grid, {} for the trace, {} "
+                  "for snapshots, {} for skin temperatures",
+                  gigabytes(cost.memory() + skins), gigabytes(cost.particles), gigabytes(cost.trace),
+                  gigabytes(cost.snapshots), gigabytes(skins)),
+      fmt::format("at most {}, what this machine has left", gigabytes(reach.memory)));
 }
 
 std::optional<scene::InputError> out_of_reach(const scene::SceneFile& file, const Reach& reach) {
   auto error = out_of_reach(file.scene, reach);
   if (!error) return error;
-  const auto given = file.given.find(error->key);
-  const scene::Place place = given == file.given.end() ? scene::Place{file.file} : given->second.place;
-  return scene::error_at(place, error->key, error->found, error->allowed);
+  return scene::error_at(scene::place_of_key(file, error->key), error->key, error->found, error->allowed);
 }
 
 }  // namespace launchsafe::run

@@ -1,14 +1,6 @@
 #include "monitor.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
-
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::run {
 namespace {

@@ -4,11 +4,6 @@
 
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
-
-#include <optional>
-#include <string>
-#include <string_view>
 
 namespace launchsafe::run {
 

@@ -1,24 +1,13 @@
 #include "launchsafe/run/run_case.hpp"
 
-#include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/scene/plan.hpp"
 #include "runner.hpp"
-#include "snapshot.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <memory>
 
 namespace launchsafe::run {
 namespace {
-
-/// By its user or its time limit.
-bool was_cut_short(RunStatus status) {
-  return status == RunStatus::interrupted || status == RunStatus::timed_out;
-}
 
 GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
                      const trace::BottomTrace& trace) {
@@ -101,15 +90,12 @@ std::vector<Snapshot> from_ignition_on(CaseResult burnt) {
   return std::move(snapshots);
 }
 
-double ignition_temperature(const scene::Scene& scene) {
-  return surface::skin_model(scene).kinetics.ignition_temperature;
-}
-
 /// Gives the snapshots of a launch the skins of its gaps.
 void add_skins(const scene::Scene& scene, CaseResult& result) {
+  const double ignition_temperature = surface::skin_model(scene).kinetics.ignition_temperature;
   for (Snapshot& shot : result.mechanics.snapshots)
     for (const GapResult& gap : result.gaps)
-      add_skin(shot, gap, result.mechanics.trace, ignition_temperature(scene));
+      add_skin(shot, gap, result.mechanics.trace, ignition_temperature);
 }
 
 /// The last checkpoint before a time (s), if there is one.
@@ -188,8 +174,9 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
     CaseResult burnt = run_with_skin(scene, gap, own);
     traced.combustion = std::move(burnt.gaps.front().combustion);
     if (traced.combustion) traced.combustion->snapshots = from_ignition_on(std::move(burnt));
-    if (!was_cut_short(burnt.mechanics.status)) continue;
-    note_broken_off(result, gap, burnt.mechanics, "after ignition at");
+    const RunStatus status = burnt.mechanics.status;
+    if (status == RunStatus::interrupted || status == RunStatus::timed_out)
+      note_broken_off(result, gap, burnt.mechanics, "after ignition at");
   }
   if (looks_at_ignition) add_snapshot_of_ignition(scene, result, options);
   add_skins(scene, result);

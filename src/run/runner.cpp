@@ -1,13 +1,9 @@
 #include "runner.hpp"
 
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/plan.hpp"
-#include "snapshot.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 
 #if defined(__SSE2__)

@@ -2,19 +2,12 @@
 #pragma once
 
 #include "burning_bottom.hpp"
-#include "charge_heat.hpp"
 #include "closing_gap.hpp"
-#include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "monitor.hpp"
 #include "snapshot.hpp"
 
 #include <chrono>
-#include <limits>
-#include <memory>
-#include <optional>
-#include <vector>
 
 namespace launchsafe::run {
 

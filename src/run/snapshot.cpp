@@ -1,12 +1,7 @@
 #include "snapshot.hpp"
 
 #include "charge_heat.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "monitor.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
 
 namespace launchsafe::run {
 namespace {

@@ -4,11 +4,6 @@
 #include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/run/case_result.hpp"
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <vector>
-
 namespace launchsafe::run {
 
 /// Fields of all particles, where the stations' part of the charge's bottom is, and the faces that can slide.

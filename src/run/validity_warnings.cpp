@@ -6,11 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 namespace launchsafe::run {
 namespace {
 
@@ -79,24 +74,20 @@ constexpr double largest_homologous_temperature = 0.9;
 /// ignition or none with half the step.
 constexpr double largest_rise_in_a_transit = 0.5;
 
-bool is_finite(const EnergyBalance& energy) {
-  return std::isfinite(energy.kinetic + energy.internal + energy.external + energy.body_force +
-                       energy.damping + energy.contact + energy.plastic + energy.viscous + energy.crack);
-}
-
 bool is_finite(const MonitorSample& sample) {
-  return is_finite(sample.energy) && std::isfinite(sample.time + sample.largest_plastic_strain +
-                                                   sample.largest_crack_radius + sample.momentum);
+  const EnergyBalance& energy = sample.energy;
+  return std::isfinite(energy.kinetic + energy.internal + energy.external + energy.body_force +
+                       energy.damping + energy.contact + energy.plastic + energy.viscous + energy.crack) &&
+         std::isfinite(sample.time + sample.largest_plastic_strain + sample.largest_crack_radius +
+                       sample.momentum);
 }
 
 /// Largest of one number over the monitor's history; NaN wins.
 template <class Number>
 double largest(const MechanicsResult& mechanics, Number number) {
   double most = 0;
-  for (const MonitorSample& sample : mechanics.monitor) {
-    const double value = number(sample);
-    if (!(value <= most)) most = value;
-  }
+  for (const MonitorSample& sample : mechanics.monitor)
+    if (const double value = number(sample); !(value <= most)) most = value;
   return most;
 }
 
@@ -105,11 +96,9 @@ void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
     warnings.add("the run has no monitor history, so that its stability is not known");
     return;
   }
-  const auto broken = std::ranges::find(mechanics.monitor, false,
-                                        [](const MonitorSample& sample) { return is_finite(sample); });
-  if (broken != mechanics.monitor.end()) {
+  const auto broken = std::ranges::find(mechanics.monitor, false, is_finite);
+  if (broken != mechanics.monitor.end())
     warnings.add("the monitor history is not finite from sample {} on", broken - mechanics.monitor.begin());
-  }
 }
 
 /// The largest factor on the inertia of any cell.

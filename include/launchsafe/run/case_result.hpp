@@ -1,22 +1,12 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
-#include "launchsafe/materials/law.hpp"
 #include "launchsafe/math/numbers.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/film.hpp"
-#include "launchsafe/surface/skin.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
 
-#include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::run {
 

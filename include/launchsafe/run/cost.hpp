@@ -4,9 +4,6 @@
 #include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <optional>
-#include <string>
-
 namespace launchsafe::run {
 
 /// Particle updates per second on a core that any machine is trusted to do, a third of what a good one does.

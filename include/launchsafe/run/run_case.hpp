@@ -2,12 +2,9 @@
 // integrated on it.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
 
 #include <atomic>
-#include <functional>
 
 namespace launchsafe::run {
 

@@ -2,10 +2,6 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
-
-#include <string>
-#include <vector>
 
 namespace launchsafe::run {
 
