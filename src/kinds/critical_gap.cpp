@@ -5,7 +5,6 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/raised_load.hpp"
 #include "study_keys.hpp"
 
 #include <fmt/format.h>

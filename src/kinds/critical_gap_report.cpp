@@ -151,7 +151,7 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
   for (const study::CaseOutcome& outcome : result.details) {
     Row row = report::json_of(report::bounded_gap_quantities(), outcome.critical);
-    row.update({{"why", study::to_string(outcome.critical.reason)},
+    row.update({{"why", outcome.critical.reason},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
     lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());

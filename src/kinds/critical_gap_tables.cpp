@@ -153,7 +153,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
        in_detail ? Quantities<JudgedCase>{} : of_part<JudgedCase>(run_quantities(study)),
        {{quantity::remark, [](const JudgedCase& row) {
            const CaseAnswer& answer = *row.answer;
-           return answer.completed() ? to_string(answer.critical.reason) : answer.failure;
+           return answer.completed() ? answer.critical.reason : answer.failure;
          }}}});
 }
 

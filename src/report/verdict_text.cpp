@@ -6,6 +6,8 @@
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/run_cases.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
 
@@ -69,6 +71,55 @@ void add_not_accepted(const study::StudyFile& study, Row& facts) {
   facts["missing_more"] = missing.size() > most_entries;
   missing.resize(std::min(missing.size(), most_entries));
   facts["missing"] = "\n" + scene::acceptances_to_write(missing);
+}
+
+double percent_of(double share) { return shown_value(share, keys::significant(6, percent)); }
+
+/// Where the uncertainty of the calibrated constants comes from, and how it grows.
+void add_fit(const study::Study& study, Row& facts) {
+  const study::CalibrationEvidence& evidence = study.calibration.evidence;
+  const bool stated = std::isfinite(study.fit_uncertainty);
+  facts.update({{"fit_K", stated ? study.fit_uncertainty : evidence.fit_uncertainty},
+                {"fit_stated", stated},
+                {"firings", study.calibration.firings != nullptr},
+                {"firing_risk_percent", percent_of(study::firing_risk)},
+                {"friction_rise_K", evidence.friction_rise},
+                {"air_rise_K", evidence.air_rise},
+                {"other_load_shape_K", study::assumed_other_load_shape},
+                {"other_numerics_K", study::assumed_numerical_uncertainty}});
+}
+
+/// Likewise of what is not known of the launch.
+void add_inputs(const study::Study& study, Row& facts) {
+  if (std::isfinite(study.input_uncertainty)) facts["inputs_K"] = study.input_uncertainty;
+  facts.update({{"load_spread_percent", percent_of(study::assumed_load_spread)},
+                {"interpolated", study.raised_load == study::RaisedLoad::interpolated},
+                {"least_percent", percent_of(study::least_load_ratio - 1.0)},
+                {"most_percent", percent_of(study::largest_load_ratio - 1.0)},
+                {"pulse_spread_percent", percent_of(study::assumed_pulse_spread)},
+                {"temperature_spread_K", study::assumed_temperature_spread},
+                {"gaps_by_cooling", study.gaps_by_cooling}});
+}
+
+/// Likewise of other models of the launch.
+void add_model_form(const study::StudyFile& file, Row& facts) {
+  const study::Study& study = file.study;
+  if (std::isfinite(study.model_form_uncertainty))
+    facts["stated_model_form_K"] = study.model_form_uncertainty;
+  std::map<std::string, std::size_t> unknown;
+  if (study.model_form) {
+    facts["model_form_record"] = study.model_form_record;
+    for (const study::ModelAlternative& each : study.model_form->alternatives)
+      facts[each.not_counted.empty() ? "counted" : "not_counted"].push_back(each.name);
+    for (const study::StudyCase& each : file.cases)
+      if (const auto shift = model_form_shift(*study.model_form, each.scene.scene); !std::isfinite(shift.gap))
+        ++unknown[shift.reason];
+  }
+  facts.update({{"model_form_unknown", study::commonest_first(unknown, file.cases.size())},
+                {"model_form_assumed", !study.model_form || !unknown.empty()},
+                {"assumed_model_form_K", study::assumed_model_form},
+                {"calibrated_peak_MPa",
+                 shown_value(study.calibration.scene.load.peak, keys::significant(4, megapascal))}});
 }
 
 /// A cited limit beside the case that stands nearest to it, if there is one.
@@ -313,12 +364,13 @@ Table gap_share_table(const std::vector<NamedGap>& cases) {
 
 std::string uncertainty_remark(const study::StudyFile& study) {
   const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(study);
-  return noted("uncertainty", {{"largest_K", numerical.largest},
-                               {"source", numerical.source},
-                               {"fit", study::fit_uncertainty_text(study.study)},
-                               {"inputs", study::input_uncertainty_text(study.study)},
-                               {"model_form", study::model_form_uncertainty_text(study)}})
-      .front();
+  Row facts{{"largest_K", numerical.largest},
+            {"source", numerical.source},
+            {"heat_exponent", study::heat_exponent}};
+  add_fit(study.study, facts);
+  add_inputs(study.study, facts);
+  add_model_form(study, facts);
+  return fmt::format("{}", fmt::join(noted("uncertainty", facts), " "));
 }
 
 std::string used_for(const study::Reference& published) {

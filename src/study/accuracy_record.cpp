@@ -10,6 +10,7 @@
 
 namespace launchsafe::study {
 namespace {
+
 /// Limits that two values point to are as far off as three times their difference (see math::Extrapolation).
 constexpr double widening = 3.0;
 
@@ -28,31 +29,25 @@ bool is_better(const keys::Exactness& exactness, const scene::Value& value, cons
   return exactness.larger_is_finer && std::get<double>(value) > std::get<double>(own);
 }
 
-/// A key at which the reference meshes are not exact, and the settings that tell what that changes.
+/// A key at which the reference meshes are not exact, and the settings that tell what that changes: two that
+/// differ in it alone, one having the meshes' value and one the exact, or a finer one.
 struct InexactKey {
   std::string key;
   std::vector<std::pair<const RecordedSetting*, const RecordedSetting*>> pairs;
 };
-
-/// Settings that differ in `key` alone, one having the meshes' value and one the exact, or a finer one.
-InexactKey inexact_key(const AccuracyRecord& record, const std::string& key, const scene::Value& own,
-                       const keys::Exactness& exactness) {
-  InexactKey inexact{key, {}};
-  for (const RecordedSetting& one : record.settings)
-    for (const RecordedSetting& other : record.settings)
-      if (differ_in(key, own, one.setting, other.setting) && is_better(exactness, other.setting.at(key), own))
-        inexact.pairs.push_back({&one, &other});
-  return inexact;
-}
 
 std::vector<InexactKey> inexact_keys(const AccuracyRecord& record) {
   std::vector<InexactKey> inexact;
   if (record.settings.empty()) return inexact;
   for (const auto& [key, own] : record.settings.front().setting) {
     const keys::Exactness exactness = scene::role_of(key).exactness;
-    if (exactness.vanishes) continue;
-    if (exactness.value && same_value(own, *exactness.value)) continue;
-    inexact.push_back(inexact_key(record, key, own, exactness));
+    if (exactness.vanishes || (exactness.value && same_value(own, *exactness.value))) continue;
+    inexact.push_back({key, {}});
+    for (const RecordedSetting& one : record.settings)
+      for (const RecordedSetting& other : record.settings)
+        if (differ_in(key, own, one.setting, other.setting) &&
+            is_better(exactness, other.setting.at(key), own))
+          inexact.back().pairs.push_back({&one, &other});
   }
   return inexact;
 }
@@ -87,11 +82,9 @@ ReferenceValue reference_value_of(const AccuracyRecord& record, const std::vecto
 /// The least of the reference meshes: errors that belong to it grow the soonest.
 double rise_of(const AccuracyRecord& record) {
   double rise = math::infinity;
-  for (const RecordedSetting& each : record.settings) {
-    if (!each.reference || each.temperature.empty()) continue;
-    const double hottest = *std::ranges::max_element(each.temperature);
-    rise = std::min(rise, hottest - record.scene.initial_temperature);
-  }
+  for (const RecordedSetting& each : record.settings)
+    if (each.reference && !each.temperature.empty())
+      rise = std::min(rise, std::ranges::max(each.temperature) - record.scene.initial_temperature);
   return std::isfinite(rise) ? rise : 0.0;
 }
 
@@ -155,23 +148,19 @@ double shape_difference(const RecordedLaunch& launch, const RecordedLaunch& reco
 
 /// Why another load is not covered, apart from its peak.
 std::string foreign_load(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
-  if (launch.duration > longest * recorded.duration) {
+  if (launch.duration > longest * recorded.duration)
     return fmt::format("its launch lasts {:.4g} ms, and {:.4g} ms are more than {:g} times that",
                        1e3 * recorded.duration, 1e3 * launch.duration, longest);
-  }
   const double off = shape_difference(launch, recorded);
-  if (!(off <= most_off_shape)) {
+  if (!(off <= most_off_shape))
     return fmt::format("its load differs in shape by {:.2g} of the peak, more than {:g}", off,
                        most_off_shape);
-  }
-  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off)) {
+  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off))
     return fmt::format("its load rises in {:.3g} ms, and {:.3g} ms are less than a part in {:g} of that",
                        1e3 * recorded.rise_time, 1e3 * launch.rise_time, steepest);
-  }
-  if (!(launch.roughness <= recorded.roughness + most_roughness_added)) {
+  if (!(launch.roughness <= recorded.roughness + most_roughness_added))
     return fmt::format("the roughness of its load is {:.2g}, and {:.2g} is more by over {:g}",
                        recorded.roughness, launch.roughness, most_roughness_added);
-  }
   return {};
 }
 
@@ -229,12 +218,10 @@ bool same_setting(const Setting& a, const Setting& b) {
 RecordedReference reference_of(const AccuracyRecord& record) {
   const std::vector<InexactKey> inexact = inexact_keys(record);
   RecordedReference reference;
-  for (std::size_t gap = 0; gap < record.scene.surface.gaps.size(); ++gap) {
+  for (std::size_t gap = 0; gap < record.scene.surface.gaps.size(); ++gap)
     reference.temperature.push_back(reference_value_of(
         record, inexact, [gap](const RecordedSetting& each) { return each.temperature[gap]; }));
-  }
-  reference.critical_gap =
-      reference_value_of(record, inexact, [](const RecordedSetting& each) { return each.critical_gap; });
+  reference.critical_gap = reference_value_of(record, inexact, std::mem_fn(&RecordedSetting::critical_gap));
   return reference;
 }
 
@@ -251,9 +238,8 @@ void find_bounds(AccuracyRecord& record) {
   record.launch = launch_of(record.scene, record.scene.surface.gaps);
   record.rise = rise_of(record);
   record.unvaried.clear();
-  for (const InexactKey& each : inexact_keys(record)) {
+  for (const InexactKey& each : inexact_keys(record))
     if (each.pairs.empty()) record.unvaried.push_back(each.key);
-  }
   const RecordedReference reference = reference_of(record);
   for (RecordedSetting& each : record.settings) find_bounds(reference, each);
 }
@@ -271,7 +257,7 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
 }
 
 Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene) {
-  constexpr double hottest = 1.2, round_off = 1e-9;
+  constexpr double hottest = 1.2;
   Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
   const double ratio = scene.initial_temperature / record.scene.initial_temperature;
   coverage.growth *= std::pow(std::max(1.0, ratio), 2);

@@ -33,34 +33,24 @@ bool may_take(const scene::KeyDescription& key, const scene::Value& value) {
   return key.kind == scene::KeyKind::number && std::isfinite(number) && whole && key.limits.contain(number);
 }
 
-/// Every key of a setting of the scene, none besides, each with a value that a scene may have.
-Setting setting_from(const ordered_json& object, const std::string& path, const scene::Scene& scene,
-                     RecordReader& reader) {
-  Setting setting;
-  std::vector<std::string> keys;
-  for (const auto& [key, own] : setting_of(scene)) keys.push_back(key);
-  if (!reader.has_keys(object, path, keys)) return setting;
-  for (const std::string& key : keys) {
-    const ordered_json& given = object[key];
-    scene::Value value = math::not_a_number;
-    if (given.is_boolean()) value = given.get<bool>();
-    if (given.is_number()) value = given.get<double>();
-    if (given.is_string()) value = given.get<std::string>();
-    const auto& description = *scene::find_key(scene::scene_keys(), key);
-    if (given.is_array()) {
-      constexpr std::size_t most_places = 1000;
-      reader.read(given, path + "." + key, value.emplace<std::vector<double>>(), description.limits, 0,
-                  most_places);
-    }
-    if (!may_take(description, value))
-      reader.refuse(path + "." + key, found_in(given), scene::allowed_text(description));
-    setting[key] = std::move(value);
-  }
-  return setting;
+/// The value of a key of scenes.
+void describe_value(RecordObject& object, const std::string& key, scene::Value& value) {
+  ordered_json& here = object[key];
+  if (!object.reading()) return std::visit([&here](const auto& known) { here = known; }, value);
+  const scene::KeyDescription& known = *scene::find_key(scene::scene_keys(), key);
+  value = math::not_a_number;
+  if (here.is_boolean()) value = here.get<bool>();
+  if (here.is_number()) value = here.get<double>();
+  if (here.is_string()) value = here.get<std::string>();
+  constexpr std::size_t most_places = 1000;
+  if (here.is_array())
+    object.read(here, key, value.emplace<std::vector<double>>(), known.limits, 0, most_places);
+  if (!may_take(known, value)) object.refuse(key, found_in(here), scene::allowed_text(known));
 }
 
 /// JSON writes what is not finite as null.
-void describe_setting(RecordObject& object, RecordedSetting& each, const AccuracyRecord& record) {
+void describe_setting(RecordObject& object, RecordedSetting& each, const AccuracyRecord& record,
+                      const Setting& own) {
   using scene::above_to, scene::between;
   const std::size_t gaps = record.scene.surface.gaps.size();
   object.value("label", each.label);
@@ -73,53 +63,49 @@ void describe_setting(RecordObject& object, RecordedSetting& each, const Accurac
   object.value("temperature_K", each.temperature,
                between(record.scene.initial_temperature - 1.0, highest_recorded_temperature), gaps, gaps);
   object.value("critical_gap_m", each.critical_gap, OrNone{between(0, widest_gap)});
-  ordered_json& setting = object["setting"];
-  if (object.reading()) {
-    each.setting = setting_from(setting, object.path_of("setting"), record.scene, object.reader());
-    return;
-  }
-  setting = ordered_json::object();
-  for (const auto& entry : each.setting)
-    std::visit([&](const auto& value) { setting[entry.first] = value; }, entry.second);
+  // Every key of a setting of the scene, none besides.
+  object.part("setting", each.setting, [&own](RecordObject& part, Setting& setting) {
+    for (const auto& [key, usual] : own) describe_value(part, key, setting[key]);
+  });
 }
 
 /// What single values do not show.
-void check_settings(const AccuracyRecord& record, RecordReader& reader) {
+void check_settings(const AccuracyRecord& record, RecordObject& object) {
   std::size_t meshes = 0;
   for (std::size_t i = 0; i < record.settings.size(); ++i) {
     const RecordedSetting& each = record.settings[i];
     const std::string path = fmt::format("settings.{}", i);
     if (each.label.empty() || std::ranges::any_of(each.label, [](unsigned char c) { return c < 0x20; }))
-      reader.refuse(path + ".label", quoted(each.label), "a line of text");
+      object.refuse(path + ".label", quoted(each.label), "a line of text");
     for (std::size_t j = 0; j < i; ++j) {
       if (same_setting(each.setting, record.settings[j].setting))
-        reader.refuse(path + ".setting", "the same as that of " + quoted(record.settings[j].label),
+        object.refuse(path + ".setting", "the same as that of " + quoted(record.settings[j].label),
                       "each setting once");
     }
     const double nominal = std::get<double>(each.setting.at("numerics.cell_size"));
     if (each.cell > nominal * (1.0 + 1e-6))
-      reader.refuse(path + ".cell_m", fmt::format("{:g}", each.cell),
+      object.refuse(path + ".cell_m", fmt::format("{:g}", each.cell),
                     fmt::format("at most the cell size of the setting, {:g}", nominal));
     if (!each.reference) continue;
-    if (meshes++ != i) reader.refuse(path + ".reference", "true", "the reference meshes before all others");
+    if (meshes++ != i) object.refuse(path + ".reference", "true", "the reference meshes before all others");
     if (i == 0) continue;
     const RecordedSetting& finer = record.settings[i - 1];
     Setting same = finer.setting;
     same["numerics.cell_size"] = each.setting.at("numerics.cell_size");
     if (!same_setting(same, each.setting) || !(each.cell > finer.cell))
-      reader.refuse(path, "a reference mesh that is no coarser one of the same series",
+      object.refuse(path, "a reference mesh that is no coarser one of the same series",
                     "meshes that differ in the cell size alone, the finest first");
   }
   if (meshes < fewest_reference_meshes)
-    reader.refuse("settings", fmt::format("{} reference meshes", meshes),
+    object.refuse("settings", fmt::format("{} reference meshes", meshes),
                   fmt::format("at least {}", fewest_reference_meshes));
 }
 
-void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
+void check_bounds(const AccuracyRecord& record, RecordObject& object) {
   AccuracyRecord found = record;
   find_bounds(found);
   if (!(found.rise > 0.0))
-    reader.refuse("settings.0.temperature_K", fmt::format("a rise by {:g} K", found.rise),
+    object.refuse("settings.0.temperature_K", fmt::format("a rise by {:g} K", found.rise),
                   "a rise above 0 K");
   const auto text = [](double bound) { return std::isnan(bound) ? "null" : fmt::format("{:.9g}", bound); };
   for (std::size_t i = 0; i < record.settings.size(); ++i) {
@@ -127,7 +113,7 @@ void check_bounds(const AccuracyRecord& record, RecordReader& reader) {
     const auto compare = [&](const char* key, double a, double b) {
       // Equal but for round-off; two that are not known are equal.
       if (same_number(a, b) || (std::isnan(a) && std::isnan(b))) return;
-      reader.refuse(fmt::format("settings.{}.{}", i, key), text(a),
+      object.refuse(fmt::format("settings.{}.{}", i, key), text(a),
                     text(b) + ", which follows from what the settings gave");
     };
     compare("temperature_bound_K", given.temperature_bound, right.temperature_bound);
@@ -141,13 +127,14 @@ void describe_accuracy(RecordObject& object, AccuracyRecord& record) {
   object.scene(record.scene, "the scene of the accuracy study");
   const std::vector<double>& gaps = record.scene.surface.gaps;
   if (object.reading() && std::set<double>(gaps.begin(), gaps.end()).size() != gaps.size())
-    object.reader().refuse("scene", "a gap twice", "each gap once");
+    object.refuse("scene", "a gap twice", "each gap once");
+  const Setting setting = setting_of(record.scene);
   // More settings would take long to compare with each other.
-  object.list("settings", record.settings, 0, 3000, "an array of at most 3000 settings",
-              [&](RecordObject& own, RecordedSetting& each) { describe_setting(own, each, record); });
-  if (!object.reading() || object.reader().fault()) return;
-  check_settings(record, object.reader());
-  if (!object.reader().fault()) check_bounds(record, object.reader());
+  object.list(
+      "settings", record.settings, 0, 3000, "an array of at most 3000 settings",
+      [&](RecordObject& own, RecordedSetting& each) { describe_setting(own, each, record, setting); });
+  if (object.is_sound()) check_settings(record, object);
+  if (object.is_sound()) check_bounds(record, object);
 }
 
 }  // namespace

@@ -57,29 +57,22 @@ double machine_memory() {
   return unlimited;
 }
 
-/// What a limit (bytes) leaves beside what is used by the number in a file, of which `given_up` may go.
-double left_of(double limit, const fs::path& used_file, double given_up) {
-  const double used = number_in(used_file);
+/// What a limit leaves beside what is used, by the numbers in two files (bytes), of which `given_up` may go.
+/// In version 1 the limit is a huge number where there is none.
+double left_of(const fs::path& limit_file, const fs::path& used_file, double given_up) {
+  const double limit = number_in(limit_file), used = number_in(used_file);
+  if (!(limit < 1e15)) return unlimited;
   return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + given_up);
 }
 
-/// What the limit of one control group (version 2) leaves. Its file cache is given up under pressure.
-double left_in_group(const fs::path& group) {
-  const double limit = number_in(group / "memory.max");
-  if (limit == unlimited) return unlimited;
+/// Bytes of the file cache of a control group (version 2), which is given up under pressure.
+double cache_of(const fs::path& group) {
   double cache = 0;
   std::ifstream stream(group / "memory.stat");
   std::string name;
-  for (double value = 0; stream >> name >> value;) {
+  for (double value = 0; stream >> name >> value;)
     if (name == "inactive_file" || name == "active_file") cache += value;
-  }
-  return left_of(limit, group / "memory.current", cache);
-}
-
-/// The same for version 1, whose limit is a huge number where there is none.
-double left_in_version_1(const fs::path& group) {
-  const double limit = number_in(group / "memory.limit_in_bytes");
-  return limit < 1e15 ? left_of(limit, group / "memory.usage_in_bytes", 0.0) : unlimited;
+  return cache;
 }
 
 /// Tasks of others that run on the machine now, the fewest of a few looks: most run for a moment. None where
@@ -130,8 +123,11 @@ int available_cores() {
 }
 
 double available_memory() {
-  double memory = std::min(machine_memory(), left_in_version_1(fs::path(control_root) / "memory"));
-  for (const fs::path& group : control_groups()) memory = std::min(memory, left_in_group(group));
+  const fs::path version_1 = fs::path(control_root) / "memory";
+  double memory = std::min(machine_memory(), left_of(version_1 / "memory.limit_in_bytes",
+                                                     version_1 / "memory.usage_in_bytes", 0.0));
+  for (const fs::path& group : control_groups())
+    memory = std::min(memory, left_of(group / "memory.max", group / "memory.current", cache_of(group)));
   return memory;
 }
 

@@ -1,9 +1,10 @@
 #include "launchsafe/study/bracket.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -31,25 +32,20 @@ constexpr int scan_intervals = 32;
 constexpr double refinement = 64.0;
 
 CriticalGap undefined_at(double gap) {
-  CriticalGap result;
-  result.reason = {GapReason::Code::undefined, gap};
-  return result;
+  return {.reason = fmt::format("the temperature at a gap of {} is not a number", in_centimetres(gap))};
 }
 
 struct Bracket {
   double lower, upper;
 };
 
-/// Halves a bracket down to `width`. Nothing, and the gap in `undefined`, where a state is undefined.
-std::optional<Bracket> bisect(const Ignites& ignites, Bracket bracket, double width, double& undefined) {
+/// Halves a bracket down to `width`. Where a state is undefined, that gap and no upper end (NaN).
+Bracket bisect(const Ignites& ignites, Bracket bracket, double width) {
   while (bracket.upper - bracket.lower > width) {
     const double middle = 0.5 * (bracket.lower + bracket.upper);
     if (middle <= bracket.lower || middle >= bracket.upper) break;
     const std::optional<bool> here = ignites(middle);
-    if (!here) {
-      undefined = middle;
-      return std::nullopt;
-    }
+    if (!here) return {middle, math::not_a_number};
     (*here ? bracket.upper : bracket.lower) = middle;
   }
   return bracket;
@@ -107,6 +103,8 @@ std::string to_string(CriticalGapKind kind) {
   return words.at(static_cast<std::size_t>(kind));
 }
 
+std::string in_centimetres(double gap) { return fmt::format("{:.6g} cm", 100.0 * gap); }
+
 GapOrBound gap_or_bound(const CriticalGap& gap) {
   if (gap.kind == CriticalGapKind::value) return gap.value;
   if (gap.kind == CriticalGapKind::all_safe) return no_ignition;
@@ -127,22 +125,22 @@ CriticalGap find_critical_gap(const Ignites& ignites, double largest, double tol
   if (first == states.end()) {
     result.kind = CriticalGapKind::all_safe;
     result.lower = largest;
-    result.reason = {GapReason::Code::none_ignites, largest};
+    result.reason = fmt::format("no ignition up to {}, where the search ended", in_centimetres(largest));
     return result;
   }
   const auto again = std::find(first, states.end(), false);
   if (again != states.end())
-    result.reason = {GapReason::Code::not_monotone, gaps[static_cast<std::size_t>(again - states.begin())]};
+    result.reason = fmt::format("not monotone: no ignition at {} again",
+                                in_centimetres(gaps[static_cast<std::size_t>(again - states.begin())]));
   if (index == 0) {
     result.kind = CriticalGapKind::all_ignite;
     result.upper = 0.0;
-    if (again == states.end()) result.reason = {GapReason::Code::all_ignite};
+    if (again == states.end()) result.reason = "ignition at every gap, also without one";
     return result;
   }
-  double undefined = 0;
-  const auto narrow = bisect(ignites, {gaps[index - 1], gaps[index]}, tolerance / refinement, undefined);
-  if (!narrow) return undefined_at(undefined);
-  const Bracket bracket = centred(ignites, *narrow, tolerance);
+  const Bracket narrow = bisect(ignites, {gaps[index - 1], gaps[index]}, tolerance / refinement);
+  if (std::isnan(narrow.upper)) return undefined_at(narrow.lower);
+  const Bracket bracket = centred(ignites, narrow, tolerance);
   result.kind = again == states.end() ? CriticalGapKind::value : CriticalGapKind::several_crossings;
   result.lower = bracket.lower;
   result.upper = bracket.upper;
@@ -162,10 +160,9 @@ GapOrBound smallest_igniting_gap(const Ignites& ignites, double begin, double en
       continue;
     }
     if (i == 0) return begin;
-    double undefined = 0;
-    const auto bracket = bisect(ignites, {safe, gap}, tolerance, undefined);
+    const Bracket bracket = bisect(ignites, {safe, gap}, tolerance);
     // The lower end, so that no share towards ignition is told smaller than it is.
-    return bracket ? bracket->lower : math::not_a_number;
+    return std::isnan(bracket.upper) ? math::not_a_number : bracket.lower;
   }
   return no_ignition;
 }

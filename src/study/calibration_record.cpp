@@ -1,6 +1,5 @@
 #include "launchsafe/study/calibration_record.hpp"
 
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/record_reader.hpp"
 
 #include <fmt/format.h>
@@ -25,10 +24,19 @@ bool is_between(double value, const std::vector<Firing>& firings, double Firing:
 constexpr RecordFormat calibration_format{"launchsafe calibration record 3", "calibration.json",
                                           "a study of kind calibration"};
 
-/// What a calibration without a failure has.
-void describe_numbers(RecordObject& object, CalibrationRecord& record) {
-  const OrNone temperature_or_none{between(0, 1e4)};
+void describe_calibration(RecordObject& object, CalibrationRecord& record) {
+  object.value("title", record.title);
+  object.model_version("make the calibration anew");
+  object.value("failure", record.failure);
+  object.scene(record.calibration.scene, "the calibrated scene");
+  object.value("load_fitted", record.load_fitted);
+  object.value("references_sha256", record.references_digest);
   CalibrationEvidence& evidence = record.calibration.evidence;
+  if (object.reading() && !record.failure.empty()) {
+    evidence = no_evidence;
+    return;
+  }
+  const OrNone temperature_or_none{between(0, 1e4)};
   object.value("friction_rise_K", evidence.friction_rise, above_to(0, 5000));
   object.value("air_rise_K", evidence.air_rise, above_to(0, 5000));
   object.value("largest_gap_m", evidence.largest_gap, above_to(0, 0.01));
@@ -43,19 +51,6 @@ void describe_numbers(RecordObject& object, CalibrationRecord& record) {
   object.value("selection_rms_K", record.selection_root_mean_square, temperature_or_none);
   object.value("station_change_to_finer_K", record.stations.finer, temperature_or_none);
   object.value("station_change_from_coarser_K", record.stations.coarser, temperature_or_none);
-}
-
-void describe_calibration(RecordObject& object, CalibrationRecord& record) {
-  object.value("title", record.title);
-  object.model_version("make the calibration anew");
-  object.value("failure", record.failure);
-  object.scene(record.calibration.scene, "the calibrated scene");
-  object.value("load_fitted", record.load_fitted);
-  object.value("references_sha256", record.references_digest);
-  if (object.reading() && !record.failure.empty())
-    record.calibration.evidence = no_evidence;
-  else
-    describe_numbers(object, record);
 }
 
 constexpr RecordFormat firing_format{"launchsafe firing record 1", "calibration.json",
@@ -94,14 +89,7 @@ void describe_posterior(RecordObject& object, Posterior& posterior) {
   describe("scatter", [](PosteriorPoint& each) -> double& { return each.scatter; });
 }
 
-void describe_evidence(RecordObject& object, FiringEvidence& evidence) {
-  object.value("demonstration", evidence.demonstration);
-  object.list("firings", evidence.firings, 1, most_firings, "1 to 1000 firings", describe_firing);
-  object.part("posterior", evidence.posterior, describe_posterior);
-  object.part("posterior_of_doubled_prior", evidence.of_doubled_prior, describe_posterior);
-}
-
-void describe_record(RecordObject& object, CalibrationRecord& record) {
+void describe_firing_record(RecordObject& object, CalibrationRecord& record) {
   object.value("title", record.title);
   object.model_version("make the calibration anew");
   object.scene(record.calibration.scene, "the calibrated scene");
@@ -111,23 +99,26 @@ void describe_record(RecordObject& object, CalibrationRecord& record) {
   object.value("largest_gap_m", evidence.largest_gap, between(0, 0.01));
   object.value("fit_uncertainty_K", evidence.fit_uncertainty, between(0, 1e4));
   FiringEvidence firings = record.calibration.firings ? *record.calibration.firings : FiringEvidence{};
-  describe_evidence(object, firings);
+  object.value("demonstration", firings.demonstration);
+  object.list("firings", firings.firings, 1, most_firings, "1 to 1000 firings", describe_firing);
+  object.part("posterior", firings.posterior, describe_posterior);
+  object.part("posterior_of_doubled_prior", firings.of_doubled_prior, describe_posterior);
   record.calibration.firings = std::make_shared<const FiringEvidence>(std::move(firings));
 }
+
+bool is_firing_record(const std::string& text) { return text.find(firing_format.name) != std::string::npos; }
 
 constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
 constexpr std::array load_shape{"load.shape", "load.peak_time", "load.width", "load.steepness"};
 
-bool states(const StudyFile& study, const std::string& key) {
-  return study.scene.given.contains(key) || study.overrides.contains(key);
-}
-
 /// Whether the scene and the study leave the shape of the load to the calibration: one that they state stays,
 /// and the constants are carried to it as to any other.
 bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
+  const auto is_stated = [&](const char* key) {
+    return study.scene.given.contains(key) || study.overrides.contains(key);
+  };
   return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
-         study.scene.scene.load.curve_time.empty() &&
-         std::ranges::none_of(load_shape, [&](const char* key) { return states(study, key); });
+         study.scene.scene.load.curve_time.empty() && std::ranges::none_of(load_shape, is_stated);
 }
 
 /// The first constant to which the study's scene gives another value than the record.
@@ -136,10 +127,9 @@ Fault contradicted_constant(const StudyFile& study, const scene::Scene& calibrat
   for (const std::string name : constants) {
     const auto& key = *scene::find_key(scene::scene_keys(), name);
     const scene::Value record = key.get(calibrated), own = key.get(study.scene.scene);
-    if (study.overrides.contains(name)) {
+    if (study.overrides.contains(name))
       return fault_at(study, "calibration", "a calibration beside [set] " + name,
                       "either a calibration or its constants in [set]");
-    }
     const double wanted = std::get<double>(record), found = std::get<double>(own);
     if (!study.scene.given.contains(name) || std::abs(found - wanted) <= digits * std::abs(wanted)) continue;
     return fault_at(
@@ -160,22 +150,6 @@ Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) 
   return fault_at(study, "fit_uncertainty.value",
                   fmt::format("{:.3g} K, and {:.3g} K in the record of the calibration", stated, shown),
                   "no less than the record shows, or no fit_uncertainty, which takes it");
-}
-
-/// The record of a calibration of either sort. On firings none fits the load.
-scene::Expected<CalibrationRecord> parse_either(const std::string& text, const std::string& file) {
-  return is_firing_record(text) ? parse_firing_record(text, file) : parse_calibration_record(text, file);
-}
-
-/// The record that a key names, noted as one that the study rests on.
-template <class Record>
-scene::Expected<Record> read_named(StudyFile& study, const std::filesystem::path& folder, const char* key,
-                                   const std::string& name, const std::string& wanted,
-                                   scene::Expected<Record> (*parse)(const std::string&, const std::string&)) {
-  const auto text = read_named_file(study, folder, key, name, wanted);
-  if (!text) return text.error();
-  study.records.push_back(store::sha256(*text));
-  return parse(*text, (folder / name).string());
 }
 
 }  // namespace
@@ -252,8 +226,15 @@ bool StationConvergence::converges() const {
 
 std::string to_json_text(const CalibrationRecord& record) {
   return record_text(record.calibration.firings
-                         ? content_by(firing_format, describe_record, record)
+                         ? content_by(firing_format, describe_firing_record, record)
                          : content_by(calibration_format, describe_calibration, record));
+}
+
+scene::Expected<CalibrationRecord> parse_either_calibration(const std::string& text,
+                                                            const std::string& file) {
+  return is_firing_record(text)
+             ? parse_record<CalibrationRecord>(text, file, firing_format, describe_firing_record)
+             : parse_record<CalibrationRecord>(text, file, calibration_format, describe_calibration);
 }
 
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text,
@@ -261,42 +242,32 @@ scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& t
   if (is_firing_record(text))
     return scene::error_at({file}, "format", "the record of a calibration on firings",
                            "the record of a calibration on published results");
-  return parse_record<CalibrationRecord>(text, file, calibration_format, describe_calibration);
-}
-
-bool is_firing_record(const std::string& text) { return text.find(firing_format.name) != std::string::npos; }
-
-scene::Expected<CalibrationRecord> parse_firing_record(const std::string& text, const std::string& file) {
-  return parse_record<CalibrationRecord>(text, file, firing_format, describe_record);
+  return parse_either_calibration(text, file);
 }
 
 Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;
   if (name.empty()) return std::nullopt;
-  const auto record =
-      read_named(study, folder, "calibration", name, "the calibration.json of a calibration", parse_either);
+  const auto record = read_named_record(study, folder, "calibration", name,
+                                        "the calibration.json of a calibration", parse_either_calibration);
   if (!record) return record.error();
   if (record->calibration.firings && !study.study.kind.gives_verdicts)
     return fault_at(study, "calibration",
                     "a calibration on firings, of whose constants a study of this kind would take one value",
                     "the record of a calibration on published results");
-  if (!record->failure.empty()) {
+  if (!record->failure.empty())
     return fault_at(study, "calibration", "a record without constants: " + record->failure,
                     "the record of a calibration that meets its rows");
-  }
   if (Fault fault = contradicted_constant(study, record->calibration.scene)) return fault;
   std::vector<std::string> keys(constants.begin(), constants.end());
   if (takes_load(study, *record)) keys.insert(keys.end(), load_shape.begin(), load_shape.end());
-  std::vector<Change> changes;
+  Setting values;
   for (const std::string& key : keys) {
     const auto& known = *scene::find_key(scene::scene_keys(), key);
-    const scene::Value value = known.get(record->calibration.scene);
-    study.overrides[key] = scene::format_value(known, value);
-    changes.push_back({key, value, study.overrides[key], "calibration", place_of_key(study, "calibration")});
+    values[key] = known.get(record->calibration.scene);
+    study.overrides[key] = scene::format_value(known, values[key]);
   }
-  auto changed = with_changes(study.scene, changes);
-  if (!changed) return changed.error();
-  study.scene = std::move(*changed);
+  if (Fault fault = set_keys(study, values, "calibration")) return fault;
   study.study.calibration = record->calibration;
   const auto& firings = study.study.calibration.firings;
   study.study.demonstration |= firings && firings->demonstration;
@@ -306,13 +277,13 @@ Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
 Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.model_form_record;
   if (name.empty()) return std::nullopt;
-  if (std::isfinite(study.study.model_form_uncertainty)) {
+  if (std::isfinite(study.study.model_form_uncertainty))
     return fault_at(study, "model_form_uncertainty.value",
                     "a stated uncertainty beside a record of other models",
                     "either model_form_uncertainty or model_form");
-  }
-  auto record = read_named(study, folder, "model_form", name,
-                           "the model_form.json of a comparison of calibrated models", parse_model_form);
+  auto record =
+      read_named_record(study, folder, "model_form", name,
+                        "the model_form.json of a comparison of calibrated models", parse_model_form);
   if (!record) return record.error();
   study.study.model_form = std::move(*record);
   return std::nullopt;

@@ -5,12 +5,10 @@
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/raised_load.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -35,19 +33,21 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
   const bool is_film = input.scene.scene.surface.air_model == scene::AirModel::film;
   const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
   if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;
-  const auto has = [&](ShareKind kind) {
-    return std::ranges::count(critical.shares, kind, &GapShare::kind) > 0;
-  };
-  if (propagates_spread(study) &&
-      !(has(ShareKind::peak_pressure) && has(ShareKind::pulse_length) && has(ShareKind::initial_temperature)))
-    return false;
-  if (!skin_keys(statements.to_be_accepted()).empty() && !has(ShareKind::accepted)) return false;
-  if (cooling_spread(input.scene.scene) > 0.0 && !has(ShareKind::cooling)) return false;
-  return (has(ShareKind::computation) || !(input.numerical_uncertainty > 0.0)) &&
-         (has(ShareKind::fit) || !(fit_share(study, statements.distance, {}, 1.0) > 0.0)) &&
-         (has(ShareKind::stated_inputs) || !(stated_input_share(study, input) > 0.0)) &&
-         (has(ShareKind::model_form) ||
-          !(stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0));
+  using enum ShareKind;
+  const bool spreads = propagates_spread(study);
+  const std::pair<ShareKind, bool> needed[] = {
+      {peak_pressure, spreads},
+      {pulse_length, spreads},
+      {initial_temperature, spreads},
+      {accepted, !skin_keys(statements.to_be_accepted()).empty()},
+      {cooling, cooling_spread(input.scene.scene) > 0.0},
+      {computation, input.numerical_uncertainty > 0.0},
+      {fit, fit_share(study, statements.distance, {}, 1.0) > 0.0},
+      {stated_inputs, stated_input_share(study, input) > 0.0},
+      {model_form, stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0}};
+  return std::ranges::all_of(needed, [&](const auto& each) {
+    return !each.second || std::ranges::count(critical.shares, each.first, &GapShare::kind) > 0;
+  });
 }
 
 /// Whether an answer that was read can be that of the study's case: its gaps, and margins and times that the
@@ -97,10 +97,9 @@ std::string digest_of_analysis(const Study& study) {
                   version::number, version::commit, run::model_version, fmt::join(study.gaps, ","),
                   study.tolerance, study.largest_gap, study.fit_uncertainty, study.input_uncertainty,
                   study.early_time, study.reference_line.slope, study.reference_line.intercept);
-  for (const Reference& row : study.references) {
+  for (const Reference& row : study.references)
     text += fmt::format("{} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.early_temperature,
                         row.spread, row.early_spread, row.ignition_time, row.calibrated);
-  }
   CalibrationRecord record;
   record.calibration = study.calibration;
   text += fmt::format("{}\n{}\n", to_json_text(record), study.model_form_uncertainty);
@@ -143,124 +142,103 @@ std::string answer_key(const std::string& analysis, const StudyCase& input,
 }
 
 /// Takes from the store the answers that are there, and draws the others from runs.
-class AnswerRunner {
- public:
-  AnswerRunner(const StudyFile& study, const StudyOptions& options, Timing& timing)
-      : study_(study),
-        options_(options),
-        timing_(timing),
-        analysis_(digest_of_analysis(study.study)),
-        cases_(case_runs(study, options.shard.count)),
-        answers_(study.cases.size()) {}
+struct AnswerRunner {
+  const StudyFile& study;
+  const StudyOptions& options;
+  Timing& timing;
+  std::string analysis = digest_of_analysis(study.study);
+  std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
+  std::vector<std::optional<CaseAnswer>> answers = std::vector<std::optional<CaseAnswer>>(study.cases.size());
 
   std::vector<CaseAnswer> answer_all() {
     fetch_stored();
-    ProgressTracker tracker(options_.progress);
-    const std::vector<CaseRuns> open = without_answered(tracker);
-    run_cases(open, options_, tracker, timing_, [&](std::size_t i, std::vector<FinishedRun>& runs) {
-      answer_members(open_[i], runs);
-      for (const std::size_t member : open_[i]) tell(tracker, member);
+    ProgressTracker tracker(options.progress);
+    drop_answered(tracker);
+    run_cases(cases, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+      answer_members(cases[i].members, runs);
+      for (const std::size_t member : cases[i].members) tell(tracker, member);
     });
     std::vector<CaseAnswer> result;
-    for (auto& answer : answers_) result.push_back(std::move(*answer));
+    for (auto& answer : answers) result.push_back(std::move(*answer));
     return result;
   }
 
- private:
   void tell(ProgressTracker& tracker, std::size_t i) const {
-    if (answers_[i]->critical.kind == CriticalGapKind::value)
-      tracker.found({study_.cases.label(i), answers_[i]->critical.lower, answers_[i]->critical.upper});
+    if (answers[i]->critical.kind == CriticalGapKind::value)
+      tracker.found({study.cases.label(i), answers[i]->critical.lower, answers[i]->critical.upper});
+  }
+
+  /// The key of the stored answer of a case.
+  std::string key_of(std::size_t member, const StudyCase& input) const {
+    return answer_key(analysis, input, neighbouring_loads(study, member));
   }
 
   void fetch_stored() {
-    if (options_.store == nullptr || options_.store->records().empty()) return;
-    tbb::parallel_for(std::size_t{0}, cases_.size(), [this](std::size_t i) {
-      if (cases_[i].shard == options_.shard.index && !stop_requested(options_)) fetch_answers(cases_[i]);
+    if (options.store == nullptr || options.store->records().empty()) return;
+    tbb::parallel_for(std::size_t{0}, cases.size(), [this](std::size_t i) {
+      if (cases[i].shard != options.shard.index || stop_requested(options)) return;
+      for (const std::size_t each : cases[i].members) {
+        const StudyCase input = study.cases[each];
+        // What is stored under such a key is the reservoir's.
+        if (!compares_closing(study.study, input))
+          answers[each] =
+              stored_answer(study.study, input, key_of(each, input), cases[i].runs.size(), *options.store);
+      }
     });
   }
 
-  void fetch_answers(const CaseRuns& runs) {
-    for (const std::size_t each : runs.members) {
-      const StudyCase input = study_.cases[each];
-      const auto loads = neighbouring_loads(study_, each);
-      // What is stored under such a key is the reservoir's.
-      if (compares_closing(study_.study, input)) continue;
-      answers_[each] = stored_answer(study_.study, input, answer_key(analysis_, input, loads),
-                                     runs.runs.size(), *options_.store);
-    }
-  }
-
-  /// The runs behind which some case still needs an answer.
-  std::vector<CaseRuns> without_answered(ProgressTracker& tracker) {
-    std::vector<CaseRuns> open;
+  /// Leaves the runs behind which some case still needs an answer.
+  void drop_answered(ProgressTracker& tracker) {
     std::map<std::string, std::size_t> answered_cases;  // by the reason why they failed, empty for none
-    for (CaseRuns& each : cases_) {
-      const bool answered = std::ranges::all_of(
-          each.members, [this](std::size_t member) { return answers_[member].has_value(); });
-      if (answered) {
-        timing_.reused += own_runs(each);
-        tracker.expect_cases(each.members.size());
-        for (const std::size_t member : each.members) {
-          tell(tracker, member);
-          ++answered_cases[answers_[member]->failure];
-        }
-      } else {
-        open_.push_back(each.members);
-        open.push_back(std::move(each));
+    const auto is_answered = [this](std::size_t member) { return answers[member].has_value(); };
+    std::erase_if(cases, [&](const CaseRuns& each) {
+      if (!std::ranges::all_of(each.members, is_answered)) return false;
+      timing.reused += own_runs(each);
+      tracker.expect_cases(each.members.size());
+      for (const std::size_t member : each.members) {
+        tell(tracker, member);
+        ++answered_cases[answers[member]->failure];
       }
-    }
-    for (const auto& [failure, cases] : answered_cases) tracker.cases_ended(cases, failure);
-    return open;
+      return true;
+    });
+    for (const auto& [failure, count] : answered_cases) tracker.cases_ended(count, failure);
   }
 
   void answer_members(const std::vector<std::size_t>& members, std::vector<FinishedRun>& runs) {
     std::vector<std::string> hashes;
     for (const FinishedRun& run : runs) hashes.push_back(run.hash);
-    if (const auto loads = neighbouring_loads(study_, members.front())) interpolate_raised_load(*loads, runs);
-    // Cores that find no further run help here. A thread that waits for them must not start another run.
-    tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, members.size(), [&](std::size_t i) {
-        if (answers_[members[i]]) return;
-        const FinishedRun* lacking = run_without_result(runs);
-        // A study that was stopped, and a shard, report nothing: there may be a million such cases.
-        if (lacking == nullptr ||
-            !(lacking->outcome == RunOutcome::other_shard || stop_requested(options_))) {
-          answers_[members[i]] = answer(members[i], runs, hashes);
-          return;
-        }
-        CaseAnswer& without_rows = answers_[members[i]].emplace();
-        without_rows.outcome = lacking->outcome;
-        without_rows.failure = lacking->failure;
-      });
+    if (const auto loads = neighbouring_loads(study, members.front())) interpolate_raised_load(*loads, runs);
+    run_parts(members.size(), [&](std::size_t i) {
+      if (answers[members[i]]) return;
+      const FinishedRun* lacking = run_without_result(runs);
+      // A study that was stopped, and a shard, report nothing: there may be a million such cases.
+      if (lacking == nullptr || !(lacking->outcome == RunOutcome::other_shard || stop_requested(options))) {
+        answers[members[i]] = answer(members[i], runs, hashes);
+        return;
+      }
+      CaseAnswer& without_rows = answers[members[i]].emplace();
+      without_rows.outcome = lacking->outcome;
+      without_rows.failure = lacking->failure;
     });
   }
 
   /// `hashes`: of all runs that the answer rests on.
   CaseAnswer answer(std::size_t member, const std::vector<FinishedRun>& runs,
                     const std::vector<std::string>& hashes) {
-    const StudyCase input = study_.cases[member];
+    const StudyCase input = study.cases[member];
     const bool judged = run_without_result(runs) == nullptr;
-    if (judged && stop_requested(options_))
-      return failed_answer(study_.study, input, RunOutcome::interrupted,
+    if (judged && stop_requested(options))
+      return failed_answer(study.study, input, RunOutcome::interrupted,
                            "interrupted before its gaps were judged");
-    CaseAnswer answer = answer_from(study_.study, input, runs);
-    if (!judged || was_cut_off(runs.front())) return answer;
-    if (options_.store != nullptr && !compares_closing(study_.study, input) &&
+    CaseAnswer answer = answer_from(study.study, input, runs);
+    if (judged && options.store != nullptr && !compares_closing(study.study, input) &&
         std::ranges::none_of(runs, was_cut_off)) {
       answer.runs = hashes;
-      save_answer(*options_.store, answer_key(analysis_, input, neighbouring_loads(study_, member)), answer);
+      save_answer(*options.store, key_of(member, input), answer);
       answer.runs.clear();
     }
     return answer;
   }
-
-  const StudyFile& study_;
-  const StudyOptions& options_;
-  Timing& timing_;
-  std::string analysis_;
-  std::vector<CaseRuns> cases_;
-  std::vector<std::optional<CaseAnswer>> answers_;
-  std::vector<std::vector<std::size_t>> open_;  ///< members of the cases that are run
 };
 
 }  // namespace
@@ -311,7 +289,10 @@ std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const St
   const auto evidence = std::make_shared<const CaseEvidence>(
       CaseEvidence{answer.completed(), answer.failure, answer.run.limiters, answer.validity_warnings,
                    answer.friction_rise, std::move(statements)});
-  answer.critical.reason.of_case = evidence;
+  // What its input says now, rather than when it was stored.
+  if (std::string reason = why_no_critical_gap(*evidence);
+      !reason.empty() && answer.critical.kind == CriticalGapKind::indeterminate)
+    answer.critical.reason = std::move(reason);
   judge_rows(study, evidence, answer.critical, answer.verdicts);
   return answer;
 }
@@ -339,7 +320,7 @@ CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::ve
 }
 
 std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing) {
-  return AnswerRunner(study, options, timing).answer_all();
+  return AnswerRunner{study, options, timing}.answer_all();
 }
 
 }  // namespace launchsafe::study

@@ -1,15 +1,16 @@
 // Which runs the cases of a study need, which they share, and how they are divided over shards.
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/raised_load.hpp"
+#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <queue>
+#include <regex>
 #include <unordered_map>
 
 namespace launchsafe::study {
@@ -81,49 +82,55 @@ std::vector<CaseRuns> cases_by_runs(const StudyFile& study) {
   return cases;
 }
 
-/// The run of the mechanics of a case, of its longer launch if there is one.
-CaseRun longer_run(const StudyCase& input) {
-  return mechanics_run(*with_longer_launch(input.scene.scene),
-                       fmt::format("{}, {}", input.label,
-                                   scene::is_cut_short(input.scene.scene.load) ? "until the launch is over"
-                                                                               : "without muzzle exit"));
+/// The same launch with the pressure at the hot end of the assumed spread.
+scene::Scene with_raised_load(const scene::Scene& scene) {
+  scene::Scene raised = scene;
+  const double factor = 1.0 + assumed_load_spread;
+  scene::Load& load = raised.load;
+  load.peak *= factor;
+  if (!load.rescale_to_peak)
+    for (double& pressure : load.curve_pressure) pressure *= factor;
+  return raised;
 }
 
 /// The runs of the first of the cases that share them.
 void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
+  const auto add = [&](std::size_t index, auto make) {
+    cases.runs.push_back({[of = &study, index, make] { return make(of->cases[index]); }});
+  };
   const std::size_t first = cases.members.front();
-  const StudyFile* of = &study;
-  const bool longer = study.study.in_detail && with_longer_launch(study.cases[first].scene.scene);
-  if (!compares_closing(study.study, study.cases[first]))
-    cases.runs.push_back({[of, first, checkpoints, longer] {
-      const StudyCase input = of->cases[first];
-      CaseRun run = mechanics_run(input.scene.scene, input.label);
-      run.checkpoints = checkpoints || longer;
+  const StudyCase input = study.cases[first];
+  const bool longer = study.study.in_detail && with_longer_launch(input.scene.scene);
+  if (!compares_closing(study.study, input))
+    add(first, [checkpoints = checkpoints || longer](const StudyCase& own) {
+      CaseRun run = mechanics_run(own.scene.scene, own.label);
+      run.checkpoints = checkpoints;
       return run;
-    }});
-  for (const double gap : launched_gaps(study, study.cases[first]))
-    cases.runs.push_back({[of, first, gap] {
-      const StudyCase input = of->cases[first];
-      return skin_run(closing_scene(input), gap,
-                      fmt::format("{}, {} {:.6g} cm", input.label,
-                                  input.closing ? "closing from" : "through ignition at", 100.0 * gap));
-    }});
-  if (propagates_spread(study.study)) {
-    if (const auto loads = neighbouring_loads(study, first))
-      for (const std::size_t each : {loads->above, loads->beside}) {
-        cases.runs.push_back({[of, each] {
-          const StudyCase input = of->cases[each];
-          return mechanics_run(input.scene.scene, input.label);
-        }});
-        cases.runs.back().first_run_of = each;
-      }
-    else
-      cases.runs.push_back({[of, first] {
-        const StudyCase input = of->cases[first];
-        return mechanics_run(with_raised_load(input.scene.scene), label_of_raised(input));
-      }});
+    });
+  for (const double gap : launched_gaps(study, input))
+    add(first, [gap](const StudyCase& own) {
+      return skin_run(closing_scene(own), gap,
+                      fmt::format("{}, {} {:.6g} cm", own.label,
+                                  own.closing ? "closing from" : "through ignition at", 100.0 * gap));
+    });
+  if (const auto loads = neighbouring_loads(study, first); loads && propagates_spread(study.study)) {
+    for (const std::size_t each : {loads->above, loads->beside}) {
+      add(each, [](const StudyCase& other) { return mechanics_run(other.scene.scene, other.label); });
+      cases.runs.back().first_run_of = each;
+    }
+  } else if (propagates_spread(study.study)) {
+    add(first, [](const StudyCase& own) {
+      return mechanics_run(with_raised_load(own.scene.scene),
+                           fmt::format("{}, load +{:.3g} %", own.label, 100.0 * assumed_load_spread));
+    });
   }
-  if (longer) cases.runs.push_back({[of, first] { return longer_run(of->cases[first]); }});
+  if (longer)
+    add(first, [](const StudyCase& own) {
+      const bool cut_short = scene::is_cut_short(own.scene.scene.load);
+      return mechanics_run(
+          *with_longer_launch(own.scene.scene),
+          fmt::format("{}, {}", own.label, cut_short ? "until the launch is over" : "without muzzle exit"));
+    });
 }
 
 void predict_costs(std::vector<CaseRuns>& cases) {
@@ -139,21 +146,50 @@ void predict_costs(std::vector<CaseRuns>& cases) {
     }
 }
 
+/// The axis over the peak pressure of a full factorial, and how many cases lie between neighbours on it.
+struct PressureAxis {
+  std::vector<double> peaks;  ///< Pa, in the order written
+  std::size_t stride = 1;
+};
+
+/// Nothing where launches under other loads end at other times.
+std::optional<PressureAxis> pressure_axis(const StudyFile& study) {
+  if (study.scene.scene.load.muzzle_travel) return std::nullopt;
+  std::optional<PressureAxis> found;
+  std::size_t cases = 1;
+  for (std::size_t i = study.study.axes.size(); i-- > 0;) {
+    const Axis& axis = study.study.axes[i];
+    if (axis.key.name == "load.peak") found = {axis.values, cases};
+    cases *= axis.values.size();
+  }
+  return cases == study.cases.size() ? found : std::nullopt;
+}
+
+bool are_neighbours(double lower, double upper) {
+  const double ratio = upper / lower;
+  return ratio >= least_load_ratio && ratio <= largest_load_ratio;
+}
+
+/// The place of the pressure nearest to one among those that are its neighbours on one side.
+std::optional<std::size_t> neighbour_of(double peak, const std::vector<double>& peaks, bool above) {
+  std::optional<std::size_t> nearest;
+  for (std::size_t i = 0; i < peaks.size(); ++i) {
+    if (!(above ? are_neighbours(peak, peaks[i]) : are_neighbours(peaks[i], peak))) continue;
+    if (!nearest || std::abs(peaks[i] - peak) < std::abs(peaks[*nearest] - peak)) nearest = i;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::string Shard::part() const { return whole() ? std::string{} : fmt::format("{}-of-{}", index, count); }
 
 bool parse_shard(std::string_view text, Shard& shard) {
   constexpr int most_shards = 10000;
-  const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos) return false;
-  const auto whole_number = [](std::string_view digits, int& number) {
-    const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    return status == std::errc{} && end == digits.data() + digits.size();
-  };
-  Shard read;
-  if (!whole_number(text.substr(0, slash), read.index) || !whole_number(text.substr(slash + 1), read.count))
-    return false;
+  static const std::regex form("([0-9]{1,9})/([0-9]{1,9})");
+  std::cmatch part;
+  if (!std::regex_match(text.data(), text.data() + text.size(), part, form)) return false;
+  const Shard read{std::stoi(part[1]), std::stoi(part[2])};
   if (read.index < 1 || read.index > read.count || read.count > most_shards) return false;
   shard = read;
   return true;
@@ -186,6 +222,50 @@ std::optional<scene::Scene> with_longer_launch(const scene::Scene& scene) {
   scene::Scene other = scene;
   other.load = std::move(*longer);
   return other;
+}
+
+bool propagates_spread(const Study& study) {
+  return study.kind.gives_verdicts && study.kind.bounds_critical_gaps &&
+         !std::isfinite(study.input_uncertainty);
+}
+
+std::optional<NeighbouringLoads> neighbouring_loads(const StudyFile& study, std::size_t index) {
+  if (study.study.raised_load != RaisedLoad::interpolated) return std::nullopt;
+  const auto axis = pressure_axis(study);
+  if (!axis) return std::nullopt;
+  const std::vector<double>& peaks = axis->peaks;
+  const std::size_t own = index / axis->stride % peaks.size();
+  const auto above = neighbour_of(peaks[own], peaks, true);
+  auto beside = neighbour_of(peaks[own], peaks, false);
+  if (above && !beside) beside = neighbour_of(peaks[*above], peaks, true);
+  if (!above || !beside) return std::nullopt;
+  const auto at = [&](std::size_t place) { return index + (place - own) * axis->stride; };
+  const NeighbouringLoads loads{at(*above), at(*beside), peaks[own], peaks[*above], peaks[*beside]};
+  // One with a scene of its own may differ in more.
+  for (const std::size_t each : {index, loads.above, loads.beside})
+    if (study.cases.has_own_scene(each)) return std::nullopt;
+  return loads;
+}
+
+void interpolate_raised_load(const NeighbouringLoads& loads, std::vector<FinishedRun>& runs) {
+  const auto beside = runs.begin() + 2;
+  FinishedRun &own = runs[0], &raised = runs[1];
+  if (raised.has_result() && raised.failure.empty()) {
+    const auto trace = [](const FinishedRun& run) -> const trace::BottomTrace& {
+      return run.result.mechanics.trace;
+    };
+    if (!beside->has_result() || !beside->failure.empty()) {
+      raised = *beside;
+    } else if (auto between =
+                   trace::at_load((1.0 + assumed_load_spread) * loads.own_peak, {loads.own_peak, trace(own)},
+                                  {loads.above_peak, trace(raised)}, {loads.beside_peak, trace(*beside)})) {
+      raised.result.mechanics.trace = std::move(*between);
+    } else {
+      raised = {};
+      raised.failure = "the run failed: launches at neighbouring peak pressures end at other times";
+    }
+  }
+  runs.erase(beside);
 }
 
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints) {

@@ -3,9 +3,7 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/raised_load.hpp"
 
 #include <fmt/format.h>
 
@@ -14,15 +12,6 @@
 
 namespace launchsafe::study {
 namespace {
-
-/// The alternatives of a record that count, or those that do not.
-std::string names_of(const ModelFormRecord& record, bool counted) {
-  std::vector<std::string> names;
-  for (const ModelAlternative& each : record.alternatives) {
-    if (each.not_counted.empty() == counted) names.push_back(each.name);
-  }
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
 
 /// Whether any case has an input of a kind otherwise than the scene as it was written.
 bool has_other(const StudyFile& study, bool (*is_of_the_kind)(const scene::KeyDescription& key)) {
@@ -201,88 +190,6 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   return all;
 }
 
-std::string fit_uncertainty_text(const Study& study) {
-  if (study.calibration.firings)
-    return fmt::format(
-        "{:.3g} K at the thickest gap that was fired, and in a case what raises its own heat until it is as "
-        "close to ignition as all but {:g} % of the rounds at most, by all that the firings leave open of "
-        "the "
-        "constants, with the prior or with one twice as wide.",
-        study.fit_uncertainty, 100.0 * firing_risk);
-  const CalibrationEvidence& evidence = study.calibration.evidence;
-  const std::string base = std::isfinite(study.fit_uncertainty)
-                               ? fmt::format("{:.3g} K, as the study states", study.fit_uncertainty)
-                               : fmt::format(
-                                     "{:.3g} K, as the study states none: that of the shipped "
-                                     "calibration",
-                                     evidence.fit_uncertainty);
-  const std::string rows = fmt::format(
-      "for the rows that the constants were fitted to, where friction heats by {:.4g} K and the air by "
-      "{:.4g} K",
-      evidence.friction_rise, evidence.air_rise);
-  return fmt::format(
-      "{}, {}; their relative errors are carried to a case's own heating by friction and air. Under another "
-      "load shape it is at least {:.3g} K, and with other numerics {:.3g} K for the mesh error that the "
-      "constants absorbed come in.",
-      base, rows, assumed_other_load_shape, assumed_numerical_uncertainty);
-}
-
-std::string model_form_uncertainty_text(const StudyFile& study) {
-  const Study& s = study.study;
-  const std::string otherwise = fmt::format(
-      "{:.3g} K are assumed, more than any of the models of the 155 mm "
-      "shell that count moves T max, growing with the power {:g} of the pressure",
-      assumed_model_form, heat_exponent);
-  if (std::isfinite(s.model_form_uncertainty))
-    return fmt::format("{:.3g} K, as the study states for its own scene.", s.model_form_uncertainty);
-  if (!s.model_form) return "the study names no record of other models, so that " + otherwise + ".";
-  std::map<std::string, std::size_t> reasons;
-  for (const StudyCase& each : study.cases) {
-    const ModelFormShift shift = model_form_shift(*s.model_form, each.scene.scene);
-    if (!std::isfinite(shift.gap)) ++reasons[shift.reason];
-  }
-  std::string text = fmt::format(
-      "what a gap thicker by as much as the smallest critical gap of another model is below that of the "
-      "default changes, by the record `{}` of {} and, counting for nothing, {}; models that only move away "
-      "from ignition take nothing from a margin. At {:.4g} MPa all of them were calibrated on the same rows: "
-      "there they agree by construction, and the model form is not assessable",
-      s.model_form_record, names_of(*s.model_form, true), names_of(*s.model_form, false),
-      1e-6 * s.calibration.scene.load.peak);
-  if (!reasons.empty())
-    text += fmt::format("; where it does not speak of a case, {}, {}",
-                        commonest_first(reasons, study.cases.size()), otherwise);
-  return text + ".";
-}
-
-std::string input_uncertainty_text(const Study& study) {
-  const std::string raised_load =
-      study.raised_load == RaisedLoad::launched
-          ? "by a run of its own"
-          : fmt::format(
-                "between the launches at neighbouring peak pressures, where two lie {:.3g} to {:.3g} "
-                "% apart, hotter by what that misses the middle one of three by, and by a run of its "
-                "own elsewhere",
-                100.0 * (least_load_ratio - 1.0), 100.0 * (largest_load_ratio - 1.0));
-  const std::string spread =
-      std::isfinite(study.input_uncertainty)
-          ? fmt::format(
-                "{:.3g} K, as the study states for its own scene; at a higher peak it grows with the power "
-                "{:g} of the pressure",
-                study.input_uncertainty, heat_exponent)
-          : fmt::format(
-                "the study states none, so that two standard deviations are assumed of each: the load "
-                "{:.3g} % higher, {}, its pulse {:.3g} % longer, and the initial temperature {:.3g} K higher",
-                100.0 * assumed_load_spread, raised_load, 100.0 * assumed_pulse_spread,
-                assumed_temperature_spread);
-  const std::string cooling =
-      study.gaps_by_cooling
-          ? fmt::format(". A gap that cooling opens is thicker by what {:.3g} K more open, and by a quarter",
-                        assumed_temperature_spread)
-          : std::string{};
-  return spread + cooling +
-         ". The noise of a measured curve and what smoothing took from its peak come on top.";
-}
-
 std::string commonest_first(const std::map<std::string, std::size_t>& reasons, std::size_t cases) {
   constexpr std::size_t most_named = 3;
   std::vector<std::pair<std::string, std::size_t>> ordered(reasons.begin(), reasons.end());
@@ -300,18 +207,14 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
 scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder) {
   AccuracyRecords records;
   const std::string& names = study.study.accuracy;
-  if (!names.empty() && std::isfinite(study.study.numerical_uncertainty)) {
+  if (!names.empty() && std::isfinite(study.study.numerical_uncertainty))
     return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
-  }
   for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end + 2) {
     end = std::min(names.find(", ", begin), names.size());
     const std::string name = names.substr(begin, end - begin);
-    const auto text =
-        read_named_file(study, folder, "accuracy", name, "the accuracy.json of an accuracy study");
-    if (!text) return text.error();
-    study.records.push_back(store::sha256(*text));
-    auto record = parse_accuracy_record(*text, (folder / name).string());
+    auto record = read_named_record(study, folder, "accuracy", name, "the accuracy.json of an accuracy study",
+                                    parse_accuracy_record);
     if (!record) return record.error();
     records.push_back(std::move(*record));
   }
@@ -322,10 +225,9 @@ Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double to
   const std::string asked = fmt::format("a tolerance of {:g} K", tolerance);
   if (records.empty())
     return fault_at(study, "accuracy", asked + ", and no accuracy record", "accuracy = \"...accuracy.json\"");
-  if (has_other_numerics(study)) {
+  if (has_other_numerics(study))
     return fault_at(study, "set", asked + ", and numerics of the study's own",
                     "a tolerance, or numerics in [set] or [[vary]]");
-  }
   const scene::Scene& own = study.scene.scene;
   const AccuracyRecord& record = record_for(records, own);
   const std::string foreign = why_foreign(record, own);
@@ -341,16 +243,8 @@ Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double to
                                     : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
                                                   best->temperature_bound * coverage.growth, best->label));
   }
-  std::vector<Change> changes;
-  for (const auto& [name, value] : chosen->setting) {
-    // Reading let nothing else pass than the keys of a setting with values that scenes may have.
-    const auto* key = scene::find_key(scene::scene_keys(), name);
-    changes.push_back(
-        {name, value, scene::format_value(*key, value), "accuracy", place_of_key(study, "accuracy")});
-  }
-  auto changed = with_changes(study.scene, changes);
-  if (!changed) return changed.error();
-  study.scene = std::move(*changed);
+  // Reading let nothing else pass than the keys of a setting with values that scenes may have.
+  if (Fault fault = set_keys(study, chosen->setting, "accuracy")) return fault;
   study.chosen_setting = fmt::format(
       "{}: T max within {:.3g} K where {:.3g} K were asked, {:.3g} s of processor time a run", chosen->label,
       coverage.growth * chosen->temperature_bound, tolerance, chosen->processor_time);

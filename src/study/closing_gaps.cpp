@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -39,13 +38,8 @@ double time_at_share(const scene::Load& load, double share) {
 }
 
 scene::Scene scene_on(const StudyCase& input, const ClosingTerms& terms) {
-  scene::Scene scene = closing_scene(input);
-  scene.surface.base = terms.base;
-  scene.surface.roughness = terms.roughness;
-  scene.surface.release = terms.release;
-  scene.surface.release_duration = terms.release_duration;
-  scene.surface.air_flow = terms.air_flow;
-  scene.surface.melts = terms.melts;
+  scene::Scene scene = input.scene.scene;
+  scene.surface = terms.surface;
   scene.charge().kinetics = terms.kinetics;
   return scene;
 }
@@ -53,10 +47,10 @@ scene::Scene scene_on(const StudyCase& input, const ClosingTerms& terms) {
 CaseRun run_on(const StudyCase& input, const ClosingTerms& terms, double gap) {
   scene::Scene scene = scene_on(input, terms);
   // Without a gap its terms are nothing, but for when the charge lets go.
-  if (gap <= terms.roughness) {
+  if (gap <= terms.surface.roughness) {
     scene.surface = *input.closing;
-    scene.surface.release = terms.release;
-    if (terms.release > 0.0) scene.surface.release_duration = terms.release_duration;
+    scene.surface.release = terms.surface.release;
+    if (terms.surface.release > 0.0) scene.surface.release_duration = terms.surface.release_duration;
   }
   return skin_run(scene, gap, fmt::format("{}, closing from {:.6g} cm", input.label, 100.0 * gap));
 }
@@ -117,9 +111,9 @@ std::vector<double> scanned_gaps(const Study& study, const StudyCase& input) {
   std::vector<double> gaps = gaps_of(study, input);
   const int parts = study.in_detail ? scan_gaps : 1;
   for (int i = 0; i <= parts; ++i) gaps.push_back(largest_gap(study) * i / parts);
-  std::sort(gaps.begin(), gaps.end());
-  gaps.erase(std::unique(gaps.begin(), gaps.end(), [](double a, double b) { return b - a < same_gap; }),
-             gaps.end());
+  std::ranges::sort(gaps);
+  const auto same = std::ranges::unique(gaps, [](double a, double b) { return b - a < same_gap; });
+  gaps.erase(same.begin(), same.end());
   return gaps;
 }
 
@@ -157,7 +151,7 @@ std::vector<double> wanted(const Study& study, const Search& search) {
 /// The bracket that the points leave.
 void narrow(ClosingAnswer& answer) {
   answer.lower = not_a_number;
-  answer.upper = std::numeric_limits<double>::infinity();
+  answer.upper = math::infinity;
   for (const ClosingPoint& point : answer.points) {
     if (!is_known(point) || point.ignited) {
       answer.upper = point.ignited ? point.gap : not_a_number;
@@ -195,7 +189,10 @@ std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& se
       const ClosingPoint* known = search.answer->at(gap);
       const std::vector<ClosingTerms>& terms = search.bound.terms;
       const std::size_t first = known ? known->launches : 0;
-      for (std::size_t i = first; i < terms.size() && terms[i].air_flow == terms[first].air_flow; ++i)
+      const auto flows_alike = [&](std::size_t i) {
+        return terms[i].surface.air_flow == terms[first].surface.air_flow;
+      };
+      for (std::size_t i = first; i < terms.size() && flows_alike(i); ++i)
         launches.push_back({&search, &terms[i], gap});
     }
   return launches;
@@ -208,29 +205,26 @@ using KnownLaunches = std::map<std::string, ClosingPoint>;
 void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run,
                 KnownLaunches& known) {
   std::vector<PlannedRun> runs;
-  std::vector<ClosingPoint*> points;
-  std::vector<const ClosingPoint*> point_of_launch;
+  std::vector<std::string> hashes;  // of the launches
   for (const Asked& each : launches) {
     const auto make = [&study, each] {
       return run_on(study.cases[each.search->index], *each.terms, each.gap);
     };
     const CaseRun asked = make();
-    const auto [found, is_new] = known.try_emplace(asked.hash);
-    point_of_launch.push_back(&found->second);
-    if (!is_new) continue;
-    runs.push_back({make, cost_of(asked)});
-    points.push_back(&found->second);
+    hashes.push_back(asked.hash);
+    if (known.try_emplace(asked.hash).second) runs.push_back({make, cost_of(asked)});
   }
   const auto makers = runs;
-  run(std::move(runs),
-      [&](std::size_t i, const FinishedRun& finished) { *points[i] = point_of(makers[i].make(), finished); });
+  run(std::move(runs), [&](std::size_t i, const FinishedRun& finished) {
+    const CaseRun asked = makers[i].make();
+    known.at(asked.hash) = point_of(asked, finished);
+  });
   for (std::size_t i = 0; i < launches.size(); ++i) {
-    const Search& search = *launches[i].search;
-    const ClosingPoint launch =
-        with_share(*point_of_launch[i], study.cases[search.index], *launches[i].terms);
-    std::vector<ClosingPoint>& points_of_gaps = search.answer->points;
-    const auto point = std::ranges::find(points_of_gaps, launches[i].gap, &ClosingPoint::gap);
-    point == points_of_gaps.end() ? points_of_gaps.push_back(launch) : join(launch, *point);
+    const auto& [search, terms, gap] = launches[i];
+    const ClosingPoint launch = with_share(known.at(hashes[i]), study.cases[search->index], *terms);
+    std::vector<ClosingPoint>& points = search->answer->points;
+    const auto point = std::ranges::find(points, gap, &ClosingPoint::gap);
+    point == points.end() ? points.push_back(launch) : join(launch, *point);
   }
 }
 
@@ -273,45 +267,42 @@ std::vector<materials::KineticsParameters> kinetics_of(const scene::Scene& scene
 }
 
 std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner) {
-  using scene::GapBase;
   const scene::Scene& scene = input.scene.scene;
-  const scene::Surface& own = *input.closing;
-  const ClosingTerms insulated{GapBase::insulated, own.roughness, own.release, own.release_duration,
-                               own.air_flow};
-  ClosingTerms conducting = insulated, melting = insulated, smooth = insulated;
-  conducting.base = GapBase::conducting;
-  melting.melts = true;
-  smooth.roughness = std::min(smoothest, own.roughness);
-  if (!(own.release_duration && *own.release_duration < scene::transit_time(scene)))
-    smooth.release_duration.reset();
-  std::vector<ClosingBound> bounds{{"conducting", {conducting}}, {"insulated", {insulated}}};
-  if (with_corner) {
-    std::vector<double> releases{0.0, own.release};
-    for (const double share : release_shares) releases.push_back(time_at_share(scene.load, share));
-    std::sort(releases.begin(), releases.end());
-    releases.erase(std::unique(releases.begin(), releases.end()), releases.end());
-    ClosingBound flowing{"flowing", {smooth, smooth}}, corner{"corner", {}, why_without_corner(scene)};
-    flowing.terms.front().air_flow = scene::AirFlow::trapped;
-    flowing.terms.back().air_flow = scene::AirFlow::common_pressure;
-    for (ClosingTerms terms : flowing.terms)
-      for (const double release : releases) {
-        terms.release = release;
-        corner.terms.push_back(terms);
-      }
-    bounds.push_back({"melting", {melting}});
-    bounds.push_back({"smooth", {smooth}});
-    bounds.push_back(std::move(flowing));
-    bounds.push_back(std::move(corner));
-  }
   const std::vector<materials::KineticsParameters> kinetics = kinetics_of(scene);
-  for (ClosingBound& bound : bounds) {
-    const std::vector<ClosingTerms> terms = std::exchange(bound.terms, {});
-    for (ClosingTerms each : terms)
-      for (const materials::KineticsParameters& pair : kinetics) {
-        each.kinetics = pair;
-        bound.terms.push_back(each);
-      }
-  }
+  std::vector<ClosingBound> bounds;
+  const auto add = [&](const char* name, const std::vector<scene::Surface>& surfaces,
+                       std::string unknown_for = {}) {
+    bounds.push_back({name, {}, std::move(unknown_for)});
+    for (const scene::Surface& surface : surfaces)
+      for (const materials::KineticsParameters& each : kinetics)
+        bounds.back().terms.push_back({surface, each});
+  };
+  scene::Surface insulated = *input.closing;
+  insulated.base = scene::GapBase::insulated;
+  insulated.melts = false;
+  scene::Surface conducting = insulated, melting = insulated, smooth = insulated;
+  conducting.base = scene::GapBase::conducting;
+  add("conducting", {conducting});
+  add("insulated", {insulated});
+  if (!with_corner) return bounds;
+  melting.melts = true;
+  smooth.roughness = std::min(smoothest, smooth.roughness);
+  if (!(smooth.release_duration && *smooth.release_duration < scene::transit_time(scene)))
+    smooth.release_duration.reset();
+  std::set<double> releases{0.0, smooth.release};
+  for (const double share : release_shares) releases.insert(time_at_share(scene.load, share));
+  std::vector<scene::Surface> flowing{smooth, smooth}, corner;
+  flowing.front().air_flow = scene::AirFlow::trapped;
+  flowing.back().air_flow = scene::AirFlow::common_pressure;
+  for (scene::Surface each : flowing)
+    for (const double release : releases) {
+      each.release = release;
+      corner.push_back(each);
+    }
+  add("melting", {melting});
+  add("smooth", {smooth});
+  add("flowing", flowing);
+  add("corner", corner, why_without_corner(scene));
   return bounds;
 }
 
@@ -376,7 +367,6 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input) {
 /// corner be the hottest: what may come nearest to ignition counts.
 ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
                                  double ignition_temperature) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   ClosingEvidence evidence;
   evidence.known = !answers.empty();
   const ClosingPoint* worst = nullptr;
@@ -399,7 +389,7 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
     }
   }
   if (corner_ignites) {
-    evidence.corner_margin = -infinite;
+    evidence.corner_margin = -math::infinity;
   } else if (corner_known) {
     evidence.corner_margin = ignition_temperature - worst->maximum_temperature;
     evidence.numerical = worst->at_most - worst->maximum_temperature;
@@ -411,9 +401,8 @@ CriticalGap critical_gap_of(const ClosingAnswer& answer) {
   CriticalGap gap;
   gap.lower = answer.lower;
   gap.upper = answer.upper;
-  if (std::isnan(answer.upper)) {
-    gap.reason.code = GapReason::Code::undefined;
-  } else if (std::isinf(answer.upper)) {
+  if (std::isnan(answer.upper)) return gap;
+  if (std::isinf(answer.upper)) {
     gap.kind = CriticalGapKind::all_safe;
   } else if (std::isnan(answer.lower)) {
     gap.kind = CriticalGapKind::all_ignite;

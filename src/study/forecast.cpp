@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <sstream>
 
@@ -21,9 +22,8 @@ std::vector<std::string> lines_only_in(const std::string& text, const std::strin
   std::istringstream others(other), own(text);
   for (std::string line; std::getline(others, line);) ++counts[line];
   std::vector<std::string> result;
-  for (std::string line; std::getline(own, line);) {
+  for (std::string line; std::getline(own, line);)
     if (--counts[line] < 0) result.push_back(line);
-  }
   return result;
 }
 
@@ -41,42 +41,28 @@ std::string difference(const std::string& input, const RunRecord& before, store:
   return text;
 }
 
-/// Why runs have to run, from what is recorded.
-class Reasons {
- public:
-  explicit Reasons(store::CaseStore* store) : store_(store) {
-    if (store_ == nullptr) return;
-    for (RunRecord& entry : store_->records()) {
-      if (entry.state == CaseState::done) by_label_.insert_or_assign(entry.label, std::move(entry));
-    }
-  }
+/// Runs that are done, by their labels.
+using Done = std::map<std::string, RunRecord>;
+Done done_in(const store::CaseStore* store) {
+  Done done;
+  if (store == nullptr) return done;
+  for (RunRecord& entry : store->records())
+    if (entry.state == CaseState::done) done.insert_or_assign(entry.label, std::move(entry));
+  return done;
+}
 
-  std::string why_run(const CaseRun& needed) const {
-    if (store_ == nullptr) return "nothing is stored";
-    if (const auto entry = store_->record_of(needed.hash)) return why_again(*entry);
-    const auto same_label = by_label_.find(needed.label);
-    if (same_label == by_label_.end()) return "never run here";
-    return difference(identity_of(needed).input(), same_label->second, *store_);
+/// Why a run has to run, from what is recorded.
+std::string why_run(const CaseRun& needed, store::CaseStore* store, const Done& done) {
+  if (store == nullptr) return "nothing is stored";
+  if (const auto entry = store->record_of(needed.hash)) {
+    if (entry->state == CaseState::done) return "its file is gone or damaged";
+    constexpr std::array ends{"done", "failed", "timed out", "interrupted"};
+    return fmt::format("{} before: {}", ends.at(static_cast<std::size_t>(entry->state)), entry->reason);
   }
-
- private:
-  static std::string why_again(const RunRecord& entry) {
-    switch (entry.state) {
-      case CaseState::done:
-        return "its file is gone or damaged";
-      case CaseState::failed:
-        return "failed before: " + entry.reason;
-      case CaseState::timed_out:
-        return "timed out before: " + entry.reason;
-      case CaseState::interrupted:
-        return "interrupted before: " + entry.reason;
-    }
-    return {};
-  }
-
-  store::CaseStore* store_;
-  std::map<std::string, RunRecord> by_label_;
-};
+  const auto same_label = done.find(needed.label);
+  if (same_label == done.end()) return "never run here";
+  return difference(identity_of(needed).input(), same_label->second, *store);
+}
 
 /// True for a run that would not be tried now: it was timed out under a limit no smaller than today's, or it
 /// failed and nothing may be computed.
@@ -112,7 +98,7 @@ double time_on(std::vector<double> times, int jobs) {
   return std::ranges::max(ends);
 }
 
-ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, const Reasons& reasons,
+ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, const Done& done,
                          double update_rate) {
   const scene::Plan plan = scene::make_plan(needed.scene);
   ForecastRun run;
@@ -135,7 +121,7 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
   }
   const std::string refusal = refusal_of(needed.scene, options);
   run.refused = !refusal.empty();
-  run.why = run.refused ? "refused: " + refusal : reasons.why_run(needed);
+  run.why = run.refused ? "refused: " + refusal : why_run(needed, options.store, done);
   run.given_up = run.refused || is_given_up(run.hash, options);
   run.time = run.given_up ? 0.0 : cost_of(needed) / update_rate;
   return run;
@@ -196,7 +182,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   Forecast forecast;
   forecast.update_rate = update_rate;
   learn_rate(forecast, options);
-  const Reasons reasons(options.store);
+  const Done done = done_in(options.store);
   std::vector<CaseRuns> all = case_runs(study, options.shard.count, study.confirmations_per_case > 0);
   std::erase_if(all, [&](const CaseRuns& each) { return each.shard != options.shard.index; });
   for (CaseRuns& each : all) {
@@ -217,7 +203,7 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   std::vector<std::vector<ForecastRun>> runs(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     for (const PlannedRun& each : cases[i].runs) {
-      runs[i].push_back(forecast_run(each.make(), options, reasons, forecast.update_rate));
+      runs[i].push_back(forecast_run(each.make(), options, done, forecast.update_rate));
       runs[i].back().shard = cases[i].shard;
     }
     runs[i].front().cases = cases[i].members.size();
@@ -239,9 +225,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
     }
   }
   forecast.jobs = std::max(1, std::min(jobs_of(options), static_cast<int>(forecast.run_count)));
-  const double share = forecast.runs.empty() ? 1.0
-                                             : static_cast<double>(forecast.run_count) /
-                                                   static_cast<double>(forecast.runs.size());
+  const double share = static_cast<double>(forecast.run_count) /
+                       static_cast<double>(std::max<std::size_t>(forecast.runs.size(), 1));
   forecast.confirmation_time = share * time_on(confirmation_times, forecast.jobs);
   forecast.disk *= share;
   forecast.time = share * time_on(times, forecast.jobs) + forecast.confirmation_time;

@@ -5,8 +5,6 @@
 #include "launchsafe/study/closing_gaps.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <numbers>
@@ -131,10 +129,8 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurv
 /// K, the largest difference between traced temperatures and coupled runs.
 double coupling_share(const CaseOutcome& outcome) {
   double coupling = 0;
-  for (const Confirmation& confirmation : outcome.confirmations) {
-    if (std::isfinite(confirmation.difference))
-      coupling = std::max(coupling, std::abs(confirmation.difference));
-  }
+  for (const Confirmation& each : outcome.confirmations)
+    if (std::isfinite(each.difference)) coupling = std::max(coupling, std::abs(each.difference));
   return coupling;
 }
 
@@ -176,34 +172,26 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   std::vector<RaisedLaunch> lowered;
   if (critical.kind == CriticalGapKind::value) lowered = raised_launches(study, outcome, End::away, &row);
   std::vector<GapShare> shares(raised.size());
-  // Cores that find no further run help here; a thread that waits for them must not start one.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, raised.size(), [&](std::size_t i) {
-      GapShare& share = shares[i];
-      share.kind = raised[i].kind;
-      share.raised = critical_gap_of(study, critical, raised[i], End::towards_ignition);
-      const auto away = std::ranges::find(lowered, share.kind, &RaisedLaunch::kind);
-      share.lowered =
-          away == lowered.end() ? critical.upper : critical_gap_of(study, critical, *away, End::away);
-    });
+  run_parts(raised.size(), [&](std::size_t i) {
+    GapShare& share = shares[i];
+    share.kind = raised[i].kind;
+    share.raised = critical_gap_of(study, critical, raised[i], End::towards_ignition);
+    const auto away = std::ranges::find(lowered, share.kind, &RaisedLaunch::kind);
+    share.lowered =
+        away == lowered.end() ? critical.upper : critical_gap_of(study, critical, *away, End::away);
   });
   set_shares(critical, std::move(shares));
 }
 
-CriticalGap indeterminate(GapReason reason) {
-  CriticalGap gap;
-  gap.reason = std::move(reason);
-  return gap;
-}
-
-/// With the bracket (m) that was traced.
-std::optional<GapReason> disagreement_of(const Confirmation& confirmation, double lower, double upper) {
-  using Code = GapReason::Code;
-  if (!confirmation.ran || confirmation.agrees()) return std::nullopt;
-  const Code code = !confirmation.completed ? Code::coupled_run_failed
-                    : confirmation.ignited  ? Code::coupled_run_ignites
-                                            : Code::coupled_run_does_not_ignite;
-  return GapReason{code, confirmation.gap, lower, upper, 0, confirmation.failure};
+/// With the bracket that was traced; empty where there is none.
+std::string disagreement_of(const Confirmation& confirmation, const CriticalGap& traced) {
+  if (!confirmation.ran || confirmation.agrees()) return {};
+  return fmt::format("the coupled run at {} {} (traced bracket {:.6g} to {})",
+                     in_centimetres(confirmation.gap),
+                     !confirmation.completed ? "did not complete: " + confirmation.failure
+                     : confirmation.ignited  ? "ignites, the traced temperatures do not"
+                                             : "does not ignite, the traced temperatures do",
+                     100.0 * traced.lower, in_centimetres(traced.upper));
 }
 
 /// Those of a completed run itself.
@@ -211,12 +199,11 @@ std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
   if (!outcome.completed()) return {};
   std::vector<std::string> warnings =
       run::validity_warnings(outcome.input.scene.scene, outcome.result.mechanics);
-  if (outcome.raised && outcome.raised->status != run::RunStatus::completed) {
+  if (outcome.raised && outcome.raised->status != run::RunStatus::completed)
     warnings.push_back(
         fmt::format("the run with the load raised by {:.3g} %, for the uncertainty of the inputs: {}{}{}",
                     100.0 * assumed_load_spread, run::to_string(outcome.raised->status),
                     outcome.raised->reason.empty() ? "" : ", ", outcome.raised->reason));
-  }
   return warnings;
 }
 
@@ -235,20 +222,13 @@ CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
-  using Code = GapReason::Code;
-  if (!outcome.completed() || !outcome.evidence->validity_warnings.empty()) {
-    outcome.critical = indeterminate(
-        {.code = outcome.completed() ? Code::validity_warning : Code::failed, .of_case = outcome.evidence});
-    return;
+  if (outcome.completed() && outcome.evidence->validity_warnings.empty()) {
+    const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
+    const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
+    outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), study.tolerance);
   }
-  const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
-  const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
-  outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), study.tolerance);
-  if (outcome.evidence->input.has_unaccepted()) {
-    const GapOrBound indicative = gap_or_bound(outcome.critical);
-    outcome.critical = indeterminate({.code = Code::unaccepted, .of_case = outcome.evidence});
-    outcome.critical.indicative = indicative;
-  }
+  if (std::string reason = why_no_critical_gap(*outcome.evidence); !reason.empty())
+    outcome.critical = {.reason = std::move(reason), .indicative = gap_or_bound(outcome.critical)};
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
@@ -256,9 +236,7 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
   const LoadCurveErrors load_curve = load_curve_errors(scene.load);
   for (const double gap : gaps_of(study, outcome.input)) {
     if (!has_trace(outcome)) {
-      GapVerdict row;
-      row.gap = gap;
-      outcome.verdicts.push_back(std::move(row));
+      outcome.verdicts.emplace_back().gap = gap;
     } else {
       outcome.result.gaps.push_back(run::evaluate_gap(scene, outcome.result.mechanics.trace, gap));
       outcome.verdicts.push_back(row_of(study, outcome, load_curve, outcome.result.gaps.back()));
@@ -296,9 +274,7 @@ double opening_at_base(const CaseOutcome& outcome) {
 }
 
 double largest_gap(const Study& study) {
-  double largest = study.largest_gap;
-  for (const double gap : study.gaps) largest = std::max(largest, gap);
-  return largest;
+  return study.gaps.empty() ? study.largest_gap : std::max(study.largest_gap, std::ranges::max(study.gaps));
 }
 
 surface::SkinModel without_reaction(surface::SkinModel model) {
@@ -369,13 +345,12 @@ CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcom
 
 void apply_confirmations(const Study& study, CaseOutcome& outcome) {
   find_bounds_of_critical_gap(study, outcome);
-  for (const Confirmation& confirmation : outcome.confirmations) {
+  for (const Confirmation& confirmation : outcome.confirmations)
     // The bracket stays readable in the reason; a number that was not confirmed is none.
-    if (auto reason = disagreement_of(confirmation, outcome.critical.lower, outcome.critical.upper)) {
-      outcome.critical = indeterminate(std::move(*reason));
+    if (std::string reason = disagreement_of(confirmation, outcome.critical); !reason.empty()) {
+      outcome.critical = {.reason = std::move(reason)};
       return;
     }
-  }
 }
 
 bool misses_calibrated_rows(const CaseOutcome& outcome) {

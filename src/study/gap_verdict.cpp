@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
 
 namespace launchsafe::study {
 namespace {
@@ -62,14 +61,6 @@ std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regress
   return curve;
 }
 
-void find_ignition(const math::LeastSquares& line, double ignition_temperature, GapFit& fit) {
-  const double slope = line.coefficients[1];
-  if (!(slope > 0.0)) return;
-  const double gap_cm = (ignition_temperature - line.coefficients[0]) / slope;
-  fit.reaches_ignition = 0.01 * gap_cm;
-  fit.reaches_ignition_half_width = 0.01 * line.prediction_half_width(straight(gap_cm), 0.95) / slope;
-}
-
 /// Whether a key acts on the skin of a given trace, or in proportion to what the trace holds.
 bool is_of_skin(const std::string& key) {
   constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
@@ -107,7 +98,11 @@ std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vecto
   fit.left_out = left_out_errors(*fitted, straight, gaps_cm);
   if (fitted->degrees_of_freedom < 1) return fit;
   const double ignition = kinetics.ignition_temperature;
-  find_ignition(*fitted, ignition, fit);
+  if (slope > 0.0) {
+    const double gap_cm = (ignition - fitted->coefficients[0]) / slope;
+    fit.reaches_ignition = 0.01 * gap_cm;
+    fit.reaches_ignition_half_width = 0.01 * fitted->prediction_half_width(straight(gap_cm), 0.95) / slope;
+  }
   const std::pair<const char*, Regressors> curves[] = {
       {"straight line", straight},
       {"parabola", [](double at) { return math::polynomial_row(at, 2); }},

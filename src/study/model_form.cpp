@@ -58,14 +58,13 @@ std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& 
 
 std::optional<PressureInterval> interval_of(const std::vector<double>& pressures, double peak) {
   constexpr double round_off = 1e-9;
-  if (pressures.empty() || !(peak >= pressures.front() * (1.0 - round_off)) ||
-      !(peak <= pressures.back() * (1.0 + round_off)))
-    return std::nullopt;
-  peak = std::clamp(peak, pressures.front(), pressures.back());
-  const auto next = std::ranges::lower_bound(pressures, peak * (1.0 - round_off));
-  const auto above = static_cast<std::size_t>(next - pressures.begin());
-  if (std::abs(pressures[above] - peak) <= round_off * peak) return PressureInterval{above, above};
-  return PressureInterval{above - 1, above};
+  const auto is_there = [&](double pressure) { return std::abs(pressure - peak) <= round_off * peak; };
+  const auto place = [&](auto found) { return static_cast<std::size_t>(found - pressures.begin()); };
+  const auto there = std::ranges::find_if(pressures, is_there);
+  if (there != pressures.end()) return PressureInterval{place(there), place(there)};
+  const auto above = std::ranges::upper_bound(pressures, peak);
+  if (above == pressures.begin() || above == pressures.end()) return std::nullopt;
+  return PressureInterval{place(above) - 1, place(above)};
 }
 
 /// The shift at one recorded pressure. NaN where it is not known: where the default has a bound alone, how
@@ -124,27 +123,23 @@ void describe_gaps(RecordObject& object, std::vector<GapOrBound>& gaps, std::siz
       list.push_back(gap == no_ignition ? ordered_json(no_ignition_text) : ordered_json(gap));
     return;
   }
-  if (!list.is_array() || list.size() != pressures) {
-    return object.reader().refuse(object.path_of(key), found_in(list),
-                                  fmt::format("{} critical gaps", pressures));
-  }
+  if (!list.is_array() || list.size() != pressures)
+    return object.refuse(key, found_in(list), fmt::format("{} critical gaps", pressures));
   for (const ordered_json& each : list) {
     double& gap = gaps.emplace_back(no_ignition);
-    if (each != no_ignition_text)
-      object.reader().read(each, object.path_of(key), gap, OrNone{scene::between(0, widest_critical_gap)});
+    if (each != no_ignition_text) object.read(each, key, gap, OrNone{scene::between(0, widest_critical_gap)});
   }
 }
+
+bool is_unknown(double gap) { return std::isnan(gap); }
 
 void describe_alternative(RecordObject& object, ModelAlternative& each, std::size_t pressures) {
   object.value("name", each.name);
   object.value("title", each.title);
   object.value("not_counted", each.not_counted);
   describe_gaps(object, each.critical_gap, pressures);
-  const bool known = std::ranges::none_of(each.critical_gap, [](double gap) { return std::isnan(gap); });
-  if (object.reading() && !known && each.not_counted.empty()) {
-    object.reader().refuse(object.path_of("critical_gap_m"), "null",
-                           "known critical gaps of a model that counts");
-  }
+  if (object.reading() && each.not_counted.empty() && std::ranges::any_of(each.critical_gap, is_unknown))
+    object.refuse("critical_gap_m", "null", "known critical gaps of a model that counts");
 }
 
 void describe_model_form(RecordObject& object, ModelFormRecord& record) {
@@ -152,12 +147,10 @@ void describe_model_form(RecordObject& object, ModelFormRecord& record) {
   object.scene(record.scene, "a scene");
   std::vector<double>& pressures = record.peak_pressures;
   object.value("peak_pressures_Pa", pressures, scene::above_to(0, 10e9), 1, most_pressures);
-  for (std::size_t i = 1; object.reading() && i < pressures.size(); ++i) {
-    if (!(pressures[i] > pressures[i - 1]))
-      object.reader().refuse("peak_pressures_Pa",
-                             fmt::format("{:g} after {:g}", pressures[i], pressures[i - 1]),
-                             "increasing pressures");
-  }
+  const auto falls = std::ranges::adjacent_find(pressures, std::greater_equal{});
+  if (object.reading() && falls != pressures.end())
+    object.refuse("peak_pressures_Pa", fmt::format("{:g} after {:g}", falls[1], falls[0]),
+                  "increasing pressures");
   describe_gaps(object, record.critical_gap, pressures.size());
   object.list(
       "alternatives", record.alternatives, 1, most_alternatives, "1 to 1000 alternatives",
@@ -188,8 +181,7 @@ scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<
       return fmt::format("{}: {}", each.name, reason);
     ModelAlternative alternative{each.name, each.title, why_not_counted(*each.calibration),
                                  each.critical_gap};
-    const auto unknown = [](double gap) { return std::isnan(gap); };
-    if (alternative.not_counted.empty() && std::ranges::any_of(alternative.critical_gap, unknown))
+    if (alternative.not_counted.empty() && std::ranges::any_of(alternative.critical_gap, is_unknown))
       return fmt::format("{}: a critical gap is not known", each.name);
     record.alternatives.push_back(std::move(alternative));
   }

@@ -4,8 +4,7 @@
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -44,106 +43,89 @@ surface::SkinModel heated_more(surface::SkinModel skin, double friction, double 
 }
 
 /// Adds the causes of one case.
-class Causes {
- public:
-  Causes(const Study& study, const CaseOutcome& outcome, End end)
-      : study_(study),
-        outcome_(outcome),
-        end_(end),
-        skin_(surface::skin_model(outcome.input.scene.scene)),
-        trace_(own_trace(outcome)) {}
+struct Causes {
+  const Study& study;
+  const CaseOutcome& outcome;
+  End end;
+  surface::SkinModel skin = surface::skin_model(outcome.input.scene.scene);
+  SharedTrace trace = own_trace(outcome);
+  double rise = not_a_number;  ///< K, of a skin that does not react
+  std::vector<RaisedLaunch> raised = {};
 
   void add_inputs() {
-    const scene::Load& load = outcome_.input.scene.scene.load;
+    const scene::Load& load = outcome.input.scene.scene.load;
     if (const auto exit = scene::exit_time(load); exit && load.muzzle_exit_spread > 0.0) {
       const double delay = towards() ? load.muzzle_exit_spread : -load.muzzle_exit_spread;
-      add(ShareKind::muzzle_exit, skin_,
-          std::make_shared<trace::BottomTrace>(trace::delayed(*trace_, *exit, delay)));
+      add(ShareKind::muzzle_exit, skin,
+          std::make_shared<trace::BottomTrace>(trace::delayed(*trace, *exit, delay)));
     }
-    if (!outcome_.raised) return;
-    add(ShareKind::peak_pressure, skin_, trace_at_pressure(outcome_, end_));
-    add(ShareKind::pulse_length, skin_, trace_of_length(outcome_, end_));
-    add(ShareKind::initial_temperature, at_temperature(skin_, end_), trace_);
+    if (!outcome.raised) return;
+    add(ShareKind::peak_pressure, skin, trace_at_pressure(outcome, end));
+    add(ShareKind::pulse_length, skin, trace_of_length(outcome, end));
+    add(ShareKind::initial_temperature, at_temperature(skin, end), trace);
   }
 
   void add_knowledge(const GapVerdict& row) {
-    rise_ = row.heated - outcome_.input.scene.scene.initial_temperature;
+    rise = row.heated - outcome.input.scene.scene.initial_temperature;
     const Uncertainty& u = row.uncertainty;
-    if (!outcome_.raised) add_temperature(ShareKind::stated_inputs, u.input);
+    if (!outcome.raised) add_temperature(ShareKind::stated_inputs, u.input);
     if (u.load_curve > 0.0) add_load_curve();
     // Without sliding, which may be infinite.
     add_temperature(ShareKind::computation, u.sampling + u.integration + u.coupling + u.numerical);
-    const bool slides = friction_share(outcome_) > 0.0 || opening_at_base(outcome_) > 0.0;
+    const bool slides = friction_share(outcome) > 0.0 || opening_at_base(outcome) > 0.0;
     if (u.sliding > 0.0 && slides) add_sliding();
     add_temperature(ShareKind::fit, u.fit);
-    if (const auto stated =
-            stated_model_form_share(study_, outcome_.input, outcome_.evidence->input.model_form))
+    const ModelFormShift& shift = outcome.evidence->input.model_form;
+    if (const auto stated = stated_model_form_share(study, outcome.input, shift))
       add_temperature(ShareKind::model_form, *stated);
     else
-      add_shift(ShareKind::model_form);
-    if (const double further = cooling_spread(outcome_.input.scene.scene); further > 0.0)
-      add(ShareKind::cooling, skin_, trace_, towards() ? further : -further);
+      add(ShareKind::model_form, skin, trace, towards() ? shift.gap : -shift.later);
+    if (const double further = cooling_spread(outcome.input.scene.scene); further > 0.0)
+      add(ShareKind::cooling, skin, trace, towards() ? further : -further);
     add_accepted();
   }
 
-  std::vector<RaisedLaunch> take() { return std::move(raised_); }
+  bool towards() const { return end == End::towards_ignition; }
 
- private:
-  bool towards() const { return end_ == End::towards_ignition; }
-
-  void add(ShareKind kind, surface::SkinModel skin, SharedTrace trace, double thicker = 0.0) {
-    raised_.push_back({kind, std::move(skin), std::move(trace), thicker});
+  void add(ShareKind kind, surface::SkinModel its_skin, SharedTrace its_trace, double thicker = 0.0) {
+    raised.push_back({kind, std::move(its_skin), std::move(its_trace), thicker});
   }
 
   /// Of a launch that heats nothing, no factor on its heat makes the skin hotter.
   SharedTrace trace_where_known(double factor) const {
-    return rise_ > 0.0 && std::isfinite(factor) ? trace_ : SharedTrace{};
+    return rise > 0.0 && std::isfinite(factor) ? trace : SharedTrace{};
   }
 
   /// A cause that is known as a change of T max, K.
   void add_temperature(ShareKind kind, double change) {
     if (change == 0.0) return;
-    const double factor = towards() ? 1.0 + change / rise_ : std::max(0.0, 1.0 - change / rise_);
-    add(kind, heated_more(skin_, factor, factor), trace_where_known(factor));
+    const double factor = towards() ? 1.0 + change / rise : std::max(0.0, 1.0 - change / rise);
+    add(kind, heated_more(skin, factor, factor), trace_where_known(factor));
   }
 
   void add_load_curve() {
-    const LoadCurveErrors errors = load_curve_errors(outcome_.input.scene.scene.load);
+    const LoadCurveErrors errors = load_curve_errors(outcome.input.scene.scene.load);
     const double friction = 1.0 + errors.of_friction + errors.of_both, air = 1.0 + errors.of_both;
     add(ShareKind::load_curve,
-        towards() ? heated_more(skin_, friction, air) : heated_more(skin_, 1.0 / friction, 1.0 / air),
-        trace_);
+        towards() ? heated_more(skin, friction, air) : heated_more(skin, 1.0 / friction, 1.0 / air), trace);
   }
 
   /// Heat and opening that the temperatures leave out: there is nothing to take away at the other end.
   void add_sliding() {
     if (!towards()) return;
-    const double factor = 1.0 + friction_share(outcome_) / rise_;
-    add(ShareKind::sliding, heated_more(skin_, factor, factor), trace_where_known(factor),
-        opening_at_base(outcome_));
+    const double factor = 1.0 + friction_share(outcome) / rise;
+    add(ShareKind::sliding, heated_more(skin, factor, factor), trace_where_known(factor),
+        opening_at_base(outcome));
   }
 
   /// Constants that somebody accepts buy nothing: what the calibrated ones change is not known to be wrong.
   void add_accepted() {
-    if (!study_.kind.gives_verdicts || !towards()) return;
-    const scene::Scene &scene = outcome_.input.scene.scene, &calibrated = study_.calibration.scene;
-    const std::vector<std::string> keys = skin_keys(outcome_.evidence->input.to_be_accepted());
+    if (!study.kind.gives_verdicts || !towards()) return;
+    const scene::Scene &scene = outcome.input.scene.scene, &calibrated = study.calibration.scene;
+    const std::vector<std::string> keys = skin_keys(outcome.evidence->input.to_be_accepted());
     if (!keys.empty())
-      add(ShareKind::accepted, surface::skin_model(with_calibrated(scene, calibrated, keys)), trace_);
+      add(ShareKind::accepted, surface::skin_model(with_calibrated(scene, calibrated, keys)), trace);
   }
-
-  void add_shift(ShareKind kind) {
-    const ModelFormShift& shift = outcome_.evidence->input.model_form;
-    add(kind, skin_, trace_, towards() ? shift.gap : -shift.later);
-  }
-
-  const Study& study_;
-  const CaseOutcome& outcome_;
-  End end_;
-  surface::SkinModel skin_;
-  SharedTrace trace_;
-  double rise_ = not_a_number;  ///< K, of a skin that does not react
-  std::vector<RaisedLaunch> raised_;
 };
 
 /// Whether all of a skin's temperatures are numbers and it does not ignite.
@@ -158,13 +140,11 @@ OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface:
   gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());
   std::vector<char> safe(gaps.size());
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, gaps.size(), [&](std::size_t i) {
-      const auto history = surface::integrate_skin(model, trace, gaps[i]);
-      temperatures[i] =
-          std::max(surface::maximum_at_stations(history, trace).temperature, history.hottest_depth);
-      safe[i] = is_safe(history);
-    });
+  run_parts(gaps.size(), [&](std::size_t i) {
+    const auto history = surface::integrate_skin(model, trace, gaps[i]);
+    temperatures[i] =
+        std::max(surface::maximum_at_stations(history, trace).temperature, history.hottest_depth);
+    safe[i] = is_safe(history);
   });
   OtherAnswer answer;
   answer.maximum_temperature.assign(temperatures.begin(), temperatures.end() - 1);
@@ -172,7 +152,8 @@ OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface:
   if (std::ranges::count(safe, true) == std::ssize(safe)) {
     answer.critical.kind = CriticalGapKind::all_safe;
     answer.critical.lower = gaps.back();
-    answer.critical.reason = {.code = GapReason::Code::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
+    answer.critical.reason =
+        fmt::format("none of {} gaps up to {} ignites", gaps.size(), in_centimetres(gaps.back()));
   } else {
     answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), study.tolerance);
   }
@@ -183,10 +164,10 @@ OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface:
 
 std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome& outcome, End end,
                                           const GapVerdict* row) {
-  Causes causes(study, outcome, end);
+  Causes causes{study, outcome, end};
   causes.add_inputs();
   if (row != nullptr) causes.add_knowledge(*row);
-  return causes.take();
+  return std::move(causes.raised);
 }
 
 void evaluate_film(const Study& study, CaseOutcome& outcome) {
@@ -206,7 +187,7 @@ void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mech
     return;
   }
   OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
-  none.critical.reason = {.code = GapReason::Code::longer_launch_failed, .detail = failure_of(mechanics)};
+  none.critical.reason = "the run of the longer launch: " + failure_of(mechanics);
   outcome.longer_launch = std::move(none);
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -258,38 +259,33 @@ std::string name_for_people(const std::string& key) {
 }
 
 /// What a record does with a difference: nothing, as it does not matter to it or as the record judges it by
-/// its own numbers; it carries its errors over; it says nothing.
-enum class Effect { none, carried, foreign };
+/// its own numbers; it carries its errors over; it says nothing. Over a hotter value alone errors are
+/// carried.
+enum class Effect { none, carried, foreign, carried_if_hotter };
 Effect effect_on(RecordKind record, const Difference& difference) {
+  using enum Effect;
+  // Of each part to the kinds of record, in their orders. Firings tell nothing of what was not fired.
+  constexpr std::array<std::array<Effect, 4>, 8> effects{{
+      {carried_if_hotter, foreign, foreign, carried_if_hotter},  // constant
+      {foreign, foreign, foreign, foreign},                      // model
+      {carried_if_hotter, foreign, none, carried_if_hotter},     // calibrated
+      {carried, foreign, none, carried},                         // range
+      {carried, foreign, none, carried},                         // load_shape
+      {carried, carried, none, none},                            // setting
+      {none, none, none, none},                                  // minor_setting
+      {none, none, none, none},                                  // free
+  }};
   const keys::Role role = difference.key.role();
-  const bool of_accuracy = record == RecordKind::accuracy, of_firings = record == RecordKind::firings;
-  switch (role.part) {
-    case Part::free:
-    case Part::minor_setting:
-      return Effect::none;
-    case Part::setting:
-      return record == RecordKind::calibration || of_firings ? Effect::carried : Effect::none;
-    // Firings tell nothing of what was not fired.
-    case Part::range:
-      if (of_firings) return Effect::foreign;
-      // Models are compared over the peak pressures of their record.
-      if (record == RecordKind::model_form && difference.key.name == "load.peak") return Effect::none;
-      return of_accuracy ? Effect::none : Effect::carried;
-    case Part::load_shape:
-      if (of_firings) return Effect::foreign;
-      return of_accuracy ? Effect::none : Effect::carried;
-    case Part::calibrated:
-      if (of_accuracy) return Effect::none;
-      return !of_firings && is_hotter(difference) ? Effect::carried : Effect::foreign;
-    case Part::constant:
-      // What heats the skin alone is among the numbers of the recorded launch; the chemistry comes after it.
-      if (of_accuracy && (!keys::reaches_mechanics(role.acts_on) || role.acts_on == ActsOn::chemistry))
-        return Effect::none;
-      return !of_accuracy && !of_firings && is_hotter(difference) ? Effect::carried : Effect::foreign;
-    case Part::model:
-      break;
-  }
-  return Effect::foreign;
+  // Models are compared over the peak pressures of their record.
+  if (role.part == Part::range && record == RecordKind::model_form && difference.key.name == "load.peak")
+    return none;
+  // What heats the skin alone is among the numbers of the recorded launch; the chemistry comes after it.
+  if (role.part == Part::constant && record == RecordKind::accuracy &&
+      (!keys::reaches_mechanics(role.acts_on) || role.acts_on == ActsOn::chemistry))
+    return none;
+  const Effect effect = effects.at(static_cast<std::size_t>(role.part)).at(static_cast<std::size_t>(record));
+  if (effect != carried_if_hotter) return effect;
+  return is_hotter(difference) ? carried : foreign;
 }
 
 }  // namespace

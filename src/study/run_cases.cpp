@@ -39,49 +39,54 @@ RunRecord entry_for(const CaseRun& run, CaseState state, std::string reason) {
 }
 
 /// The runs of all cases as tasks; a case is judged by the thread that ends the last of its runs.
-class CaseLoop {
- public:
-  CaseLoop(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
-           Timing& timing, const OnCaseDone& on_done)
-      : cases_(cases),
-        options_(options),
-        tracker_(tracker),
-        timing_(timing),
-        on_done_(on_done),
-        open_(cases.size()) {
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      open_[i].runs.resize(cases[i].runs.size());
-      open_[i].left = cases[i].runs.size();
-      if (cases[i].shard == options.shard.index)
-        for (const std::size_t member : cases[i].members) case_of_member_.emplace(member, i);
-    }
-  }
+struct CaseLoop {
+  struct OpenCase {
+    std::vector<FinishedRun> runs = {};
+    std::atomic<std::size_t> left = 0;
+    std::atomic<bool> spoilt = false;  ///< the first of them did not complete
+    /// The runs of other cases, by case and place, that are its first run.
+    std::vector<std::pair<std::size_t, std::size_t>> takers = {};
+  };
+
+  const std::vector<CaseRuns>& cases;
+  const StudyOptions& options;
+  ProgressTracker& tracker;
+  Timing& timing;
+  const OnCaseDone& on_done;
+  std::vector<OpenCase> open_cases = std::vector<OpenCase>(cases.size());
+  std::unordered_map<std::size_t, std::size_t> case_of_member = {};  ///< of the shard that is run
+  std::mutex mutex = {};
 
   void run() {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      open_cases[i].runs.resize(cases[i].runs.size());
+      open_cases[i].left = cases[i].runs.size();
+      if (cases[i].shard != options.shard.index) continue;
+      tracker.expect_cases(cases[i].members.size());
+      for (const std::size_t member : cases[i].members) case_of_member.emplace(member, i);
+    }
     std::vector<WaitingTask> tasks;
     std::vector<std::pair<std::size_t, std::size_t>> places;
-    for (const CaseRuns& each : cases_)
-      if (each.shard == options_.shard.index) tracker_.expect_cases(each.members.size());
-    for (std::size_t i = 0; i < cases_.size(); ++i) {
-      if (cases_[i].shard != options_.shard.index) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (cases[i].shard != options.shard.index) {
         give_up(i, RunOutcome::other_shard, "not run: it belongs to another shard");
         continue;
       }
-      for (std::size_t j = 0; j < cases_[i].runs.size(); ++j) {
+      for (std::size_t j = 0; j < cases[i].runs.size(); ++j) {
         if (const auto other = run_elsewhere(i, j)) {
-          open_[*other].takers.emplace_back(i, j);
+          open_cases[*other].takers.emplace_back(i, j);
           continue;
         }
-        tasks.push_back({cases_[i].runs[j].cost, [this, i, j] { return task_of(i, j); }});
+        tasks.push_back({cases[i].runs[j].cost, [this, i, j] { return task_of(i, j); }});
         places.emplace_back(i, j);
-        tracker_.expect(1, tasks.back().cost);
+        tracker.expect(1, tasks.back().cost);
       }
     }
-    const auto outcomes = run_tasks(tasks, {options_.jobs, options_.memory_limit}, tracker_, options_.stop);
+    const auto outcomes = run_tasks(tasks, {options.jobs, options.memory_limit}, tracker, options.stop);
     for (std::size_t task = 0; task < tasks.size(); ++task) {
       const auto [i, j] = places[task];
       if (outcomes[task].refused) {
-        note_refusal(cases_[i].runs[j].make(), outcomes[task].failure);
+        note_refusal(cases[i].runs[j].make(), outcomes[task].failure);
         finish(i, j, without_result(RunOutcome::refused, "the run failed: " + outcomes[task].failure));
       } else if (!outcomes[task].started) {
         finish(i, j, without_result(RunOutcome::interrupted, "not run: the study was interrupted before"));
@@ -89,38 +94,29 @@ class CaseLoop {
     }
   }
 
- private:
-  struct OpenCase {
-    std::vector<FinishedRun> runs;
-    std::atomic<std::size_t> left{0};
-    std::atomic<bool> spoilt{false};  ///< the first of them did not complete
-    /// The runs of other cases, by case and place, that are its first run.
-    std::vector<std::pair<std::size_t, std::size_t>> takers;
-  };
-
   /// The case of this loop whose first run is also that run of another case.
   std::optional<std::size_t> run_elsewhere(std::size_t i, std::size_t j) const {
-    const auto& of_member = cases_[i].runs[j].first_run_of;
-    const auto found = of_member ? case_of_member_.find(*of_member) : case_of_member_.end();
-    return found == case_of_member_.end() ? std::nullopt : std::optional(found->second);
+    const auto& of_member = cases[i].runs[j].first_run_of;
+    const auto found = of_member ? case_of_member.find(*of_member) : case_of_member.end();
+    return found == case_of_member.end() ? std::nullopt : std::optional(found->second);
   }
 
   /// Cheap where the result is stored.
   Task task_of(std::size_t i, std::size_t j) {
     constexpr double reading_share = 1e-3;
-    const auto run = std::make_shared<const CaseRun>(cases_[i].runs[j].make());
+    const auto run = std::make_shared<const CaseRun>(cases[i].runs[j].make());
     const auto work = [this, i, j, run](const Allotment& allotment) {
       finish(i, j, perform(i, *run, allotment));
     };
-    if (options_.store != nullptr && options_.store->holds(run->hash))
+    if (options.store != nullptr && options.store->holds(run->hash))
       return {reading_share * cost_of(*run), work, 0.0, {}};
-    if (std::string refusal = refusal_of(run->scene, options_); !refusal.empty())
+    if (std::string refusal = refusal_of(run->scene, options); !refusal.empty())
       return {1.0, work, 0.0, std::move(refusal)};
     return {cost_of(*run), work, memory_of(*run), {}};
   }
 
   FinishedRun perform(std::size_t i, const CaseRun& run, const Allotment& allotment) {
-    if (open_[i].spoilt)
+    if (open_cases[i].spoilt)
       return without_result(RunOutcome::interrupted, "not run: the first run of its case did not complete");
     FinishedRun finished = load_or_compute(run, allotment);
     finished.hash = run.hash;
@@ -130,20 +126,20 @@ class CaseLoop {
 
   FinishedRun load_or_compute(const CaseRun& run, const Allotment& allotment) {
     try {
-      if (options_.store == nullptr) return with_result(compute(run, allotment), RunOutcome::ran);
-      if (options_.store->holds(run.hash)) {
-        if (auto stored = options_.store->load(run.hash))
+      if (options.store == nullptr) return with_result(compute(run, allotment), RunOutcome::ran);
+      if (options.store->holds(run.hash)) {
+        if (auto stored = options.store->load(run.hash))
           return with_result(std::move(*stored), RunOutcome::reused);
       }
-      const auto before = options_.store->record_of(run.hash);
+      const auto before = options.store->record_of(run.hash);
       if (before && before->state == CaseState::timed_out &&
-          (!options_.compute || options_.time_limit <= before->time_limit)) {
+          (!options.compute || options.time_limit <= before->time_limit)) {
         run::CaseResult result;
         result.mechanics.status = run::RunStatus::timed_out;
         result.mechanics.reason = before->reason;
         return with_result(std::move(result), RunOutcome::timed_out);
       }
-      if (!options_.compute) {
+      if (!options.compute) {
         if (before && before->state == CaseState::failed)
           return without_result(RunOutcome::failed, "the run failed: " + before->reason);
         return without_result(RunOutcome::not_stored, "the run failed: it is not stored");
@@ -152,8 +148,8 @@ class CaseLoop {
       keep(run, computed);
       return computed;
     } catch (const std::exception& error) {
-      if (options_.store != nullptr && options_.compute)
-        options_.store->note(entry_for(run, CaseState::failed, error.what()));
+      if (options.store != nullptr && options.compute)
+        options.store->note(entry_for(run, CaseState::failed, error.what()));
       return without_result(RunOutcome::failed, fmt::format("the run failed: {}", error.what()));
     } catch (...) {
       return without_result(RunOutcome::failed, "the run failed: an unknown exception");
@@ -162,11 +158,11 @@ class CaseLoop {
 
   run::CaseResult compute(const CaseRun& run, const Allotment& allotment) const {
     const int threads = useful_threads(scene::particle_count(run.scene), allotment.threads);
-    const run::RunOptions run_options{options_.stop,   options_.time_limit, allotment.report_share, threads,
-                                      run.checkpoints, run.launch,          run.same_until};
-    if (run.skin_gap) return options_.runners.with_skin(run.scene, *run.skin_gap, run_options);
+    const run::RunOptions run_options{options.stop,    options.time_limit, allotment.report_share, threads,
+                                      run.checkpoints, run.launch,         run.same_until};
+    if (run.skin_gap) return options.runners.with_skin(run.scene, *run.skin_gap, run_options);
     run::CaseResult result;
-    result.mechanics = options_.runners.mechanics(run.scene, run_options);
+    result.mechanics = options.runners.mechanics(run.scene, run_options);
     return result;
   }
 
@@ -178,36 +174,36 @@ class CaseLoop {
     RunRecord entry = entry_for(run, state, state == CaseState::done ? std::string{} : mechanics.reason);
     entry.wall_time = mechanics.wall_time;
     entry.processor_time = mechanics.processor_time;
-    if (state == CaseState::timed_out) entry.time_limit = options_.time_limit;
+    if (state == CaseState::timed_out) entry.time_limit = options.time_limit;
     if (state == CaseState::done)
-      options_.store->save(identity_of(run), run.scene, computed.result, std::move(entry));
+      options.store->save(identity_of(run), run.scene, computed.result, std::move(entry));
     else
-      options_.store->note(std::move(entry));
+      options.store->note(std::move(entry));
   }
 
   /// Once: a study that is started again and again refuses the same run each time.
   void note_refusal(const CaseRun& run, const std::string& reason) {
-    if (options_.store == nullptr || !options_.compute) return;
-    const auto before = options_.store->record_of(run.hash);
+    if (options.store == nullptr || !options.compute) return;
+    const auto before = options.store->record_of(run.hash);
     if (before && before->state == CaseState::failed && before->reason == reason) return;
-    options_.store->note(entry_for(run, CaseState::failed, reason));
+    options.store->note(entry_for(run, CaseState::failed, reason));
   }
 
   void count(const FinishedRun& run) {
     const run::MechanicsResult& mechanics = run.result.mechanics;
     const bool computed = run.outcome == RunOutcome::ran || mechanics.steps > 0;
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(mutex);
     if (run.outcome == RunOutcome::reused) {
-      ++timing_.reused;
+      ++timing.reused;
     } else if (run.has_result() && computed) {
-      ++timing_.runs;
-      timing_.particle_updates += mechanics.particle_updates();
-      timing_.run_time += mechanics.work_time();
+      ++timing.runs;
+      timing.particle_updates += mechanics.particle_updates();
+      timing.run_time += mechanics.work_time();
     }
   }
 
   void finish(std::size_t i, std::size_t j, FinishedRun run) {
-    OpenCase& open = open_[i];
+    OpenCase& open = open_cases[i];
     if (j == 0) {
       open.spoilt = !run.failure.empty();
       for (const auto& [other, place] : open.takers) finish(other, place, run);
@@ -218,31 +214,21 @@ class CaseLoop {
     const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
     const bool ended = decisive.outcome != RunOutcome::interrupted;
     std::string reason;
-    std::optional<std::string> failure;
     try {
-      on_done_(i, open.runs);
+      on_done(i, open.runs);
       if (!decisive.expected) reason = decisive.failure;
     } catch (const std::exception& error) {
-      failure = error.what();
+      reason = fmt::format("the run failed: {}", error.what());
+      give_up(i, RunOutcome::failed, reason);
     }
-    if (failure) give_up(i, RunOutcome::failed, reason = "the run failed: " + *failure);
     open.runs.clear();
-    if (ended) tracker_.cases_ended(cases_[i].members.size(), reason);
+    if (ended) tracker.cases_ended(cases[i].members.size(), reason);
   }
 
   void give_up(std::size_t i, RunOutcome outcome, const std::string& failure) {
-    for (FinishedRun& each : open_[i].runs) each = without_result(outcome, failure);
-    on_done_(i, open_[i].runs);
+    for (FinishedRun& each : open_cases[i].runs) each = without_result(outcome, failure);
+    on_done(i, open_cases[i].runs);
   }
-
-  const std::vector<CaseRuns>& cases_;
-  const StudyOptions& options_;
-  ProgressTracker& tracker_;
-  Timing& timing_;
-  const OnCaseDone& on_done_;
-  std::vector<OpenCase> open_;
-  std::unordered_map<std::size_t, std::size_t> case_of_member_;  ///< of the shard that is run
-  std::mutex mutex_;
 };
 
 double scheduled(double work) { return std::isfinite(work) ? std::max(work, 1.0) : 1.0; }
@@ -310,7 +296,7 @@ const FinishedRun* run_without_result(const std::vector<FinishedRun>& runs) {
 
 void run_cases(const std::vector<CaseRuns>& cases, const StudyOptions& options, ProgressTracker& tracker,
                Timing& timing, const OnCaseDone& on_done) {
-  CaseLoop(cases, options, tracker, timing, on_done).run();
+  CaseLoop{cases, options, tracker, timing, on_done}.run();
 }
 
 std::string refusal_of(const scene::Scene& scene, const StudyOptions& options) {

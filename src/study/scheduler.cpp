@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -20,18 +21,19 @@ namespace {
 constexpr std::size_t most_reasons = 20, most_gaps = 40;  ///< that are told apart
 constexpr double too_early = 2.0;                         ///< s of work from which nothing is learned
 
-/// One task from start to end, whatever it throws.
-void perform(const Task& task, int threads, TaskOutcome& outcome, ProgressTracker& tracker) {
+/// One task from start to end, whatever it throws; nothing of one that is refused.
+void perform(const Task& task, const std::string& refusal, int threads, TaskOutcome& outcome,
+             ProgressTracker& tracker) {
   double reported = 0;
   const auto report_share = [&](double share) {
     const double now = std::clamp(share, reported, 1.0);
     tracker.advanced((now - reported) * task.cost);
     reported = now;
   };
-  outcome.started = true;
+  outcome = {refusal.empty(), !refusal.empty(), refusal};
   tracker.started();
   try {
-    task.work({report_share, threads});
+    if (outcome.started) task.work({report_share, threads});
   } catch (const std::exception& error) {
     outcome.failure = error.what();
     if (outcome.failure.empty()) outcome.failure = "an exception without a message";
@@ -64,14 +66,14 @@ class Queue {
       const auto fits = [this](std::size_t index) {
         const Task& task = made(index);
         // Sums of rounded numbers may end a bit short of the limit that they began with.
-        return task.memory <= free_ || running_ == 0 || is_refused(task);
+        return task.memory <= free_ || running_ == 0 || !why_refused(task).empty();
       };
       const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), fits);
       if (found != waiting_.rend()) {
         std::pair taken{*found, std::move(*made_[*found])};
         made_[*found].reset();
         waiting_.erase(std::next(found).base());
-        if (!is_refused(taken.second)) {
+        if (why_refused(taken.second).empty()) {
           free_ -= taken.second.memory;
           ++running_;
         }
@@ -96,8 +98,12 @@ class Queue {
     changed_.notify_all();
   }
 
-  /// It must not be begun, or does not fit even alone.
-  bool is_refused(const Task& task) const { return !task.refusal.empty() || task.memory > limit_; }
+  /// Why a task must not be begun, as perhaps it does not fit even alone; empty for one that may.
+  std::string why_refused(const Task& task) const {
+    if (!task.refusal.empty() || !(task.memory > limit_)) return task.refusal;
+    return fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
+                       1e-9 * limit_);
+  }
 
  private:
   const Task& made(std::size_t index) {
@@ -119,16 +125,6 @@ class Queue {
   std::mutex mutex_;
   std::condition_variable changed_;
 };
-
-TaskOutcome refusal(const Task& task, double limit, ProgressTracker& tracker) {
-  tracker.started();
-  tracker.advanced(task.cost);
-  tracker.finished();
-  if (!task.refusal.empty()) return {false, true, task.refusal};
-  return {false, true,
-          fmt::format("it needs about {:.3g} GB of memory, and the limit is {:.3g} GB", 1e-9 * task.memory,
-                      1e-9 * limit)};
-}
 
 }  // namespace
 
@@ -181,15 +177,19 @@ void ProgressTracker::found(FoundGap gap) {
   if (gaps.size() > most_gaps) gaps.pop_back();
 }
 
-void ProgressTracker::started() {
-  const std::lock_guard lock(mutex_);
+void ProgressTracker::count_busy() {
   const double now = clock_();
-  if (first_start_ < 0) {
-    first_start_ = now;
-    cases_before_ = progress_.cases_done;
-  }
   busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
   busy_since_ = now;
+}
+
+void ProgressTracker::started() {
+  const std::lock_guard lock(mutex_);
+  if (first_start_ < 0) {
+    first_start_ = clock_();
+    cases_before_ = progress_.cases_done;
+  }
+  count_busy();
   ++progress_.running;
   most_running_ = std::max(most_running_, progress_.running);
   report();
@@ -203,9 +203,7 @@ void ProgressTracker::advanced(double cost) {
 
 void ProgressTracker::finished() {
   const std::lock_guard lock(mutex_);
-  const double now = clock_();
-  busy_ += static_cast<double>(progress_.running) * (now - busy_since_);
-  busy_since_ = now;
+  count_busy();
   --progress_.running;
   ++progress_.done;
   report();
@@ -213,22 +211,21 @@ void ProgressTracker::finished() {
 
 /// The time that tasks took for their work, for the work that is left, on as many threads as there are tasks
 /// for.
-double ProgressTracker::seconds_left(double now) const {
-  const double busy = busy_ + static_cast<double>(progress_.running) * (now - busy_since_);
+double ProgressTracker::seconds_left() {
+  count_busy();
   const double left = std::max(0.0, cost_ - cost_done_);
   const std::size_t tasks_left = progress_.total - std::min(progress_.total, progress_.done);
-  if (!(cost_done_ > 0) || (busy < too_early && left > 0)) return -1.0;
+  if (!(cost_done_ > 0) || (busy_ < too_early && left > 0)) return -1.0;
   const std::size_t at_a_time =
       std::clamp<std::size_t>(tasks_left, 1, std::max<std::size_t>(most_running_, 1));
-  return busy * left / cost_done_ / static_cast<double>(at_a_time);
+  return busy_ * left / cost_done_ / static_cast<double>(at_a_time);
 }
 
 void ProgressTracker::report() {
   if (!callback_) return;
-  const double now = clock_();
   progress_.fraction = cost_ > 0 ? std::clamp(cost_done_ / cost_, 0.0, 1.0) : 0.0;
-  progress_.seconds_left = seconds_left(now);
-  const double elapsed = first_start_ < 0 ? 0.0 : now - first_start_;
+  progress_.seconds_left = seconds_left();
+  const double elapsed = first_start_ < 0 ? 0.0 : busy_since_ - first_start_;
   if (elapsed > 0)
     progress_.cases_per_second = static_cast<double>(progress_.cases_done - cases_before_) / elapsed;
   callback_(progress_);
@@ -246,12 +243,9 @@ std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const 
     while (const auto taken = queue.take(stop)) {
       const auto& [index, task] = *taken;
       tracker.expect(0, task.cost - tasks[index].cost);
-      if (queue.is_refused(task)) {
-        outcomes[index] = refusal(task, memory, tracker);
-        continue;
-      }
-      perform(task, queue.threads_of_one(jobs), outcomes[index], tracker);
-      queue.give_back(task);
+      const std::string refusal = queue.why_refused(task);
+      perform(task, refusal, queue.threads_of_one(jobs), outcomes[index], tracker);
+      if (refusal.empty()) queue.give_back(task);
     }
   };
   const int most = static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(tasks.size(), 1), 1024));
@@ -267,6 +261,10 @@ std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const 
     group.wait();
   });
   return outcomes;
+}
+
+void run_parts(std::size_t count, const std::function<void(std::size_t)>& part) {
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, part); });
 }
 
 }  // namespace launchsafe::study

@@ -15,47 +15,40 @@ std::string kelvin(double value, int digits) {
                                                   : fmt::format("{:.0f} K", value);
 }
 
-std::string margin_text(const char* relation, const Evidence& evidence) {
-  return fmt::format("margin {} {} {}", kelvin(evidence.margin, 3), relation,
-                     kelvin(evidence.uncertainty, 2));
-}
-
-/// A bound of the critical gap (m), to the digits that count.
-std::string bound_text(double length) { return fmt::format("{:.3g} cm", 100.0 * length); }
-
-/// Of a rule its name in files, and its words where they are always the same.
+/// Of a rule its name in files, and its words, which cause_text fills.
 struct RuleWords {
-  const char *name, *text = "";
+  const char *name, *text;
 };
 /// In the order of ReasonCode.
 constexpr std::array<RuleWords, 23> rules{{
     {"not-judged", "nothing was judged"},
-    {"failed"},
+    {"failed", "{failure}"},
     {"no-temperature", "the temperature is not a number"},
-    {"validity-warning"},
-    {"ignition"},
+    {"validity-warning", "validity warning: {warnings}{and_unaccepted}"},
+    {"ignition", "ignition{with_unaccepted}"},
     {"closing-ignition", "ignition where the gap closes"},
-    {"unaccepted"},
+    {"unaccepted", "validity warning: {unaccepted}"},
     {"no-margin", "no margin to the ignition temperature"},
-    {"optimistic"},
+    {"optimistic", "{optimistic}"},
     {"beyond-firings",
      "no round with a gap as thick was fired without ignition at such a pressure and temperature"},
-    {"critical-gap-indeterminate"},
-    {"several-crossings"},
+    {"critical-gap-indeterminate", "the critical gap is indeterminate: {critical_gap}"},
+    {"several-crossings", "ignition comes and goes with the gap: {critical_gap}"},
     {"smaller-gaps-ignite", "no ignition here, but at smaller gaps"},
-    {"margin-within-uncertainty"},
+    {"margin-within-uncertainty", "margin {margin} within the uncertainty, {uncertainty}"},
     {"calibrated-margin-within-uncertainty",
      "with the constants of the surface as calibrated the margin is within the uncertainty"},
-    {"margin-over-uncertainty"},
+    {"margin-over-uncertainty", "margin {margin} over uncertainty {uncertainty}"},
     {"no-lower-bound", "the critical gap has no lower bound"},
     {"may-ignite-without-gap", "the launch may ignite without a gap"},
-    {"not-below-bound"},
+    {"not-below-bound", "the critical gap may be as small as {at_least:.3g} cm"},
     {"closing-unknown", "what this gap does where it closes is not known"},
     {"closing-without-corner",
      "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) were not "
      "computed, as in no study of many cases"},
-    {"closing-corner"},
-    {"below-bound"},
+    {"closing-corner",
+     "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) {corner}"},
+    {"below-bound", "below the lower bound of the critical gap, {at_least:.3g} cm"},
 }};
 const RuleWords& words_of(ReasonCode code) { return rules.at(static_cast<std::size_t>(code)); }
 
@@ -64,45 +57,24 @@ const RuleWords& words_of(ReasonCode code) { return rules.at(static_cast<std::si
 std::string to_string(ReasonCode code) { return words_of(code).name; }
 
 std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
-  switch (judgement.code) {
-    case ReasonCode::failed:
-      return evidence.of_case->failure.empty() ? "the run failed" : evidence.of_case->failure;
-    case ReasonCode::validity_warning: {
-      const std::string unaccepted = unaccepted_text(evidence.of_case->input);
-      return fmt::format("validity warning: {}{}{}", validity_warnings_text(evidence),
-                         unaccepted.empty() ? "" : "; ", unaccepted);
-    }
-    case ReasonCode::ignition: {
-      const std::string unaccepted = unaccepted_text(evidence.of_case->input);
-      return unaccepted.empty() ? "ignition" : "ignition; validity warning: " + unaccepted;
-    }
-    case ReasonCode::unaccepted:
-      return "validity warning: " + unaccepted_text(evidence.of_case->input);
-    case ReasonCode::optimistic:
-      return to_string(evidence.of_case->input.optimistic
-                           ? evidence.of_case->input.optimistic
-                           : optimistic_by_run(evidence.of_case->friction_rise));
-    case ReasonCode::critical_gap_indeterminate:
-      return "the critical gap is indeterminate: " + to_string(judgement.critical_gap);
-    case ReasonCode::several_crossings:
-      return "ignition comes and goes with the gap: " + to_string(judgement.critical_gap);
-    case ReasonCode::margin_within_uncertainty:
-      return margin_text("within the uncertainty,", evidence);
-    case ReasonCode::margin_over_uncertainty:
-      return margin_text("over uncertainty", evidence);
-    case ReasonCode::not_below_bound:
-      return "the critical gap may be as small as " + bound_text(judgement.at_least);
-    case ReasonCode::closing_corner:
-      return "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) " +
-             (std::isfinite(evidence.closing.corner_margin)
-                  ? fmt::format("the margin is {:.1f} K, and the uncertainty {:.2g} K",
-                                evidence.closing.corner_margin, evidence.closing_uncertainty())
-                  : std::string("it ignites"));
-    case ReasonCode::below_bound:
-      return "below the lower bound of the critical gap, " + bound_text(judgement.at_least);
-    default:
-      return words_of(judgement.code).text;
-  }
+  const char* text = words_of(judgement.code).text;
+  if (evidence.of_case == nullptr) return text;
+  const CaseEvidence& of_case = *evidence.of_case;
+  const std::string unaccepted = unaccepted_text(of_case.input);
+  const std::string& optimistic = of_case.input.optimistic;
+  const std::string corner = std::isfinite(evidence.closing.corner_margin)
+                                 ? fmt::format("the margin is {:.1f} K, and the uncertainty {:.2g} K",
+                                               evidence.closing.corner_margin, evidence.closing_uncertainty())
+                                 : "it ignites";
+  return fmt::format(
+      fmt::runtime(text), fmt::arg("failure", of_case.failure.empty() ? "the run failed" : of_case.failure),
+      fmt::arg("warnings", validity_warnings_text(evidence)), fmt::arg("unaccepted", unaccepted),
+      fmt::arg("and_unaccepted", unaccepted.empty() ? "" : "; " + unaccepted),
+      fmt::arg("with_unaccepted", unaccepted.empty() ? "" : "; validity warning: " + unaccepted),
+      fmt::arg("optimistic", optimistic.empty() ? optimistic_by_run(of_case.friction_rise) : optimistic),
+      fmt::arg("critical_gap", judgement.critical_gap), fmt::arg("margin", kelvin(evidence.margin, 3)),
+      fmt::arg("uncertainty", kelvin(evidence.uncertainty, 2)),
+      fmt::arg("at_least", 100.0 * judgement.at_least), fmt::arg("corner", corner));
 }
 
 std::string validity_warnings_text(const Evidence& evidence) {
@@ -132,30 +104,6 @@ std::string accepted_text(const CaseStatements& input) {
   return scene::accepted_text(input.to_be_accepted());
 }
 
-std::string to_string(const Optimistic& optimistic) {
-  switch (optimistic.why) {
-    case Optimistic::Why::nothing:
-      return {};
-    case Optimistic::Why::film:
-      return "no ignition under gap.air = \"film\", which gives what compression supplies alone, shows "
-             "nothing";
-    case Optimistic::Why::cooling:
-      return fmt::format(
-          "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
-          fmt::join(optimistic.cooling, ", "));
-    case Optimistic::Why::short_travel:
-      return fmt::format(
-          "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}",
-          optimistic.number, fewest_calibres);
-    case Optimistic::Why::unheated:
-      return fmt::format(
-          "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition "
-          "shows nothing",
-          optimistic.number, least_friction_rise);
-  }
-  return {};
-}
-
 std::string limiters_text(const Evidence& evidence) {
   return evidence.of_case == nullptr ? std::string{} : run::to_string(evidence.of_case->limited);
 }
@@ -181,45 +129,12 @@ std::string extrapolated_text(const Evidence& evidence) {
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
-std::string to_string(const GapReason& reason) {
-  using Code = GapReason::Code;
-  const std::string gap = fmt::format("{:.6g} cm", 100.0 * reason.gap);
-  const auto unconfirmed = [&](const std::string& what) {
-    return fmt::format("the coupled run at {} {} (traced bracket {:.6g} to {:.6g} cm)", gap, what,
-                       100.0 * reason.lower, 100.0 * reason.upper);
-  };
-  const CaseEvidence* of_case = reason.of_case.get();
-  switch (reason.code) {
-    case Code::nothing:
-      return {};
-    case Code::none_ignites:
-      return fmt::format("no ignition up to {}, where the search ended", gap);
-    case Code::none_of_gaps:
-      return fmt::format("none of {} gaps up to {} ignites", reason.gaps, gap);
-    case Code::all_ignite:
-      return "ignition at every gap, also without one";
-    case Code::not_monotone:
-      return fmt::format("not monotone: no ignition at {} again", gap);
-    case Code::undefined:
-      return fmt::format("the temperature at a gap of {} is not a number", gap);
-    case Code::failed:
-      return of_case == nullptr ? "the run failed" : of_case->failure;
-    case Code::validity_warning:
-      return fmt::format(
-          "validity warning: {}",
-          of_case == nullptr ? "" : fmt::format("{}", fmt::join(of_case->validity_warnings, "; ")));
-    case Code::unaccepted:
-      return "validity warning: " + (of_case == nullptr ? "" : unaccepted_text(of_case->input));
-    case Code::coupled_run_failed:
-      return unconfirmed("did not complete: " + reason.detail);
-    case Code::coupled_run_ignites:
-      return unconfirmed("ignites, the traced temperatures do not");
-    case Code::coupled_run_does_not_ignite:
-      return unconfirmed("does not ignite, the traced temperatures do");
-    case Code::longer_launch_failed:
-      return "the run of the longer launch: " + reason.detail;
-  }
-  return {};
+std::string why_no_critical_gap(const CaseEvidence& of_case) {
+  if (!of_case.completed) return of_case.failure;
+  const std::string warnings = of_case.validity_warnings.empty()
+                                   ? unaccepted_text(of_case.input)
+                                   : fmt::format("{}", fmt::join(of_case.validity_warnings, "; "));
+  return warnings.empty() ? warnings : "validity warning: " + warnings;
 }
 
 std::string reason_text(const Evidence& evidence, const Judgement& judgement) {

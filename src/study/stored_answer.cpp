@@ -19,6 +19,7 @@ class Values {
   /// To be read.
   explicit Values(json stored) : list_(std::move(stored)), reading_(true), sound_(list_.is_array()) {}
 
+  /// Members, parts by their own descriptions, and lists of either.
   template <class... Members>
   void add(Members&... members) {
     (add_one(members), ...);
@@ -37,13 +38,6 @@ class Values {
     sound_ = sound_ && number <= static_cast<std::size_t>(last);
     if (sound_) value = static_cast<Enumeration>(number);
   }
-  template <class Part, class Describe>
-  void list(std::vector<Part>& parts, const Describe& describe) {
-    std::size_t count = parts.size();
-    add(count);
-    if (reading_) parts.resize(std::min(count, list_.size()));
-    for (Part& each : parts) describe(*this, each);
-  }
 
   /// Whether all that was stored was read, and each value is one of its member.
   bool is_sound() const { return sound_ && next_ == list_.size(); }
@@ -56,9 +50,21 @@ class Values {
  private:
   template <class Member>
   void add_one(Member& member) {
-    if (!reading_) return list_.push_back(member);
-    sound_ = sound_ && next_ < list_.size() && list_[next_].type() == json(member).type();
-    if (sound_) list_[next_++].get_to(member);
+    if constexpr (requires { describe(*this, member); }) {
+      describe(*this, member);
+    } else if (!reading_) {
+      list_.push_back(member);
+    } else {
+      sound_ = sound_ && next_ < list_.size() && list_[next_].type() == json(member).type();
+      if (sound_) list_[next_++].get_to(member);
+    }
+  }
+  template <class Part>
+  void add_one(std::vector<Part>& parts) {
+    std::size_t count = parts.size();
+    add(count);
+    if (reading_) parts.resize(std::min(count, list_.size()));
+    for (Part& each : parts) add_one(each);
   }
 
   json list_ = json::array();
@@ -66,27 +72,26 @@ class Values {
   std::size_t next_ = 0;
 };
 
-void describe_text(Values& values, std::string& text) { values.add(text); }
-
-void describe_as_calibrated(Values& values, AsCalibrated& each) {
+void describe(Values& values, AsCalibrated& each) {
   values.add(each.key, each.ignites);
   values.amounts(each.temperature);
 }
 
-void describe_gap(Values& values, GapVerdict& row) {
+void describe(Values& values, Peak& peak) {
+  values.amounts(peak.temperature, peak.time);
+  values.add(peak.point);
+}
+
+void describe(Values& values, GapVerdict& row) {
   Uncertainty& u = row.uncertainty;
   values.amounts(row.gap, row.spread, row.early_spread, row.heated);
   values.add(row.margin);
-  for (Peak* peak : {&row.maximum, &row.until_exit, &row.early}) {
-    values.amounts(peak->temperature, peak->time);
-    values.add(peak->point);
-  }
+  values.add(row.maximum, row.until_exit, row.early);
   values.amounts(row.air.taken, row.air.supplied, row.air.stored, row.air.isothermal);
   values.amounts(u.sampling, u.integration, u.coupling, u.numerical, u.fit, u.input, u.load_curve,
                  u.model_form, u.sliding);
-  values.list(row.as_calibrated, describe_as_calibrated);
   bool ignites = row.ignition.has_value();
-  values.add(ignites);
+  values.add(row.as_calibrated, ignites);
   if (!ignites) return;
   NamedIgnition& ignition = row.ignition ? *row.ignition : row.ignition.emplace();
   values.choice(ignition.cause, surface::IgnitionCause::arrhenius);
@@ -94,35 +99,27 @@ void describe_gap(Values& values, GapVerdict& row) {
   values.add(ignition.point, ignition.chemical_share);
 }
 
-void describe_share(Values& values, GapShare& share) {
+void describe(Values& values, GapShare& share) {
   values.choice(share.kind, last_share_kind);
   values.amounts(share.raised, share.lowered);
 }
 
 /// The bounds of a critical gap, which follow from its shares, where they were sought.
-void describe_critical_gap(Values& values, CriticalGap& gap) {
+void describe(Values& values, CriticalGap& gap) {
   values.choice(gap.kind, CriticalGapKind::several_crossings);
   values.amounts(gap.value, gap.lower, gap.upper, gap.indicative);
-  GapReason& reason = gap.reason;
-  values.choice(reason.code, GapReason::Code::longer_launch_failed);
-  values.amounts(reason.gap, reason.lower, reason.upper, reason.gaps);
-  values.add(reason.detail);
   bool bounded = !std::isnan(gap.bounds.at_least) || !gap.shares.empty();
-  values.add(bounded);
-  values.list(gap.shares, describe_share);
+  values.add(gap.reason, bounded, gap.shares);
   if (bounded) set_shares(gap, std::exchange(gap.shares, {}));
 }
 
-void describe_answer(Values& values, CaseAnswer& answer) {
+void describe(Values& values, CaseAnswer& answer) {
   values.add(answer.failure, answer.friction_rise);
   run::LimiterCounts& limiters = answer.run.limiters;
   values.choice(answer.run.status, run::last_status);
   values.amounts(answer.run.steps, answer.run.particles, answer.run.energy_drift, limiters.crack_at_bound,
                  limiters.tension_cutoff, limiters.hugoniot_guard);
-  values.list(answer.runs, describe_text);
-  values.list(answer.validity_warnings, describe_text);
-  describe_critical_gap(values, answer.critical);
-  values.list(answer.verdicts, describe_gap);
+  values.add(answer.runs, answer.validity_warnings, answer.critical, answer.verdicts);
 }
 
 /// Whether its numbers contradict each other.
@@ -142,7 +139,7 @@ std::string check_of(const std::string& key, const std::string& bytes) { return 
 
 std::string bytes_of(CaseAnswer answer) {
   Values values;
-  describe_answer(values, answer);
+  describe(values, answer);
   return values.bytes();
 }
 
@@ -168,7 +165,7 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   if (check == nullptr || bytes == nullptr || *check != check_of(key, *bytes)) return std::nullopt;
   Values values(json::from_cbor(*bytes, true, false));
   CaseAnswer answer;
-  describe_answer(values, answer);
+  describe(values, answer);
   return values.is_sound() && is_sound(answer) ? std::optional(std::move(answer)) : std::nullopt;
 }
 

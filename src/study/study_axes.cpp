@@ -1,4 +1,4 @@
-// The scene keys that a study varies, and what is wrong with a study and where.
+// The scene keys that a study varies, what is wrong with a study and where, and the limits that it cites.
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
@@ -51,6 +51,56 @@ Fault check_load_axis(const StudyFile& study, const std::string& key, const std:
                     "peak pressures with load.rescale_to_peak = true in the scene");
   return fault_at(study, key, scene_key + ", which a measured curve does not have",
                   "a scene without a measured curve, or a key that has an effect");
+}
+
+/// The cases whose peak pressure is nearest to one, Pa.
+std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count, double peak_pressure) {
+  std::vector<std::size_t> nearest;
+  double least = math::infinity;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double distance = std::abs(study.cases[i].peak_pressure - peak_pressure);
+    const double slack = 1e-9 * peak_pressure;
+    if (distance > least + slack) continue;
+    if (distance < least - slack) nearest.clear();
+    least = std::min(least, distance);
+    nearest.push_back(i);
+  }
+  return nearest;
+}
+
+/// Those of them that have the defect of the study's scene; all where none has.
+std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std::size_t> cases) {
+  const materials::ViscoScramParameters& own = study.scene.scene.charge().strength;
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : cases) {
+    const StudyCase& each = study.cases[i];
+    if (each.crack_radius == own.initial_crack_radius && each.flaw_size == own.flaw_size) kept.push_back(i);
+  }
+  return kept.empty() ? cases : kept;
+}
+
+LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,
+                        const CitedLimit& limit) {
+  LimitComparison comparison;
+  comparison.limit = limit;
+  const double pressure = std::isnan(limit.peak_pressure)
+                              ? scene::PressureHistory(study.scene.scene.load).stated_peak()
+                              : limit.peak_pressure;
+  const std::size_t count = std::min(study.cases.size(), critical.size());
+  const std::vector<std::size_t> cases = with_own_defect(study, nearest_cases(study, count, pressure));
+  comparison.cases = cases.size();
+  if (cases.empty()) return comparison;
+  // In the order of the smallest that the critical gap may be.
+  const auto smallest = [&](std::size_t i) {
+    const GapOrBound gap = gap_or_bound(*critical[i]);
+    return std::isnan(gap) ? -1.0 : gap;
+  };
+  const std::size_t nearest = *std::ranges::min_element(cases, {}, smallest);
+  comparison.nearest = nearest;
+  const double off = std::abs(study.cases[nearest].peak_pressure - pressure);
+  if (critical[nearest]->kind == CriticalGapKind::value && off <= pressure_slack * pressure)
+    comparison.difference = critical[nearest]->value - limit.gap;
+  return comparison;
 }
 
 }  // namespace
@@ -131,10 +181,9 @@ Fault add_axis(StudyFile& study, const std::string& name, const std::string& stu
 
 Fault check_free(const StudyFile& study, const std::string& scene_key, const Place& place,
                  const std::string& faulty_key) {
-  if (study.overrides.contains(scene_key)) {
+  if (study.overrides.contains(scene_key))
     return scene::error_at(place, faulty_key, scene_key + ", which [set] or the calibration fixes",
                            fmt::format("{} either in [[vary]], or in [set] or a calibration", scene_key));
-  }
   for (const Axis& other : study.study.axes) {
     if (other.key.name != scene_key) continue;
     return scene::error_at(place, faulty_key,
@@ -152,6 +201,33 @@ Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimensi
   });
   if (twice == values.end()) return std::nullopt;
   return fault_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
+}
+
+const std::vector<scene::Key<CitedLimit>>& cited_limit_keys() {
+  static const std::vector<scene::Key<CitedLimit>> keys{
+      scene::number_key("gap", scene::Dimension::length, scene::above(0), scene::Standing::literature,
+                        "Largest gap that others allow.", &CitedLimit::gap) |
+          scene::required(),
+      scene::number_key(
+          "peak_pressure", scene::Dimension::pressure, scene::above(0), scene::Standing::literature,
+          "Peak pressure that it was found for; absent where none was stated.", &CitedLimit::peak_pressure),
+      scene::text_key("source", scene::Standing::literature, "Who found it, and how.",
+                      "firing tests of 1998, table 3", &CitedLimit::source) |
+          scene::required(),
+  };
+  return keys;
+}
+
+Fault read_cited_limits(const toml::table& root, StudyFile& study) {
+  return read_rows(root, "cited_limit", cited_limit_keys(), study.file, study, study.study.cited_limits);
+}
+
+std::vector<LimitComparison> compare_with_limits(const StudyFile& study,
+                                                 const std::vector<const CriticalGap*>& critical) {
+  std::vector<LimitComparison> comparisons;
+  for (const CitedLimit& limit : study.study.cited_limits)
+    comparisons.push_back(compare(study, critical, limit));
+  return comparisons;
 }
 
 }  // namespace launchsafe::study

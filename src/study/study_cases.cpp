@@ -175,6 +175,18 @@ scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
   return error;
 }
 
+Fault set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
+               const std::string& study_key) {
+  std::vector<Change> changes;
+  for (const auto& [key, value] : values)
+    changes.push_back({key, value, scene::format_value(*scene::find_key(scene::scene_keys(), key), value),
+                       study_key, place_of_key(study, study_key)});
+  auto changed = with_changes(study.scene, changes);
+  if (!changed) return changed.error();
+  study.scene = std::move(*changed);
+  return std::nullopt;
+}
+
 StudyCase case_of(std::string label, SceneFile scene) {
   const scene::Scene& s = scene.scene;
   StudyCase made;
@@ -212,11 +224,7 @@ scene::Scene closing_scene(const StudyCase& input) {
 Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
                        const LabelOf& label_of) {
   const auto start = std::make_shared<const Start>(start_of(study));
-  struct Point {
-    std::string label;
-    std::vector<double> coordinates;
-  };
-  std::vector<Point> points(count);
+  std::vector<std::pair<std::string, std::vector<double>>> rows(count);  // label, coordinates
   std::atomic<std::size_t> first_fault = count;
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     if (i > first_fault) return;
@@ -228,12 +236,12 @@ Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf&
       return;
     }
     const StudyCase made = varied_case(*start, std::move(coordinates), std::move(*scene));
-    points[i] = {label_of(i, made), made.coordinates};
+    rows[i] = {label_of(i, made), made.coordinates};
   });
   if (first_fault < count)
     return with_changes(start->scene, changes_of(study, coordinates_of(first_fault))).error();
   study.cases.reserve(count);
-  for (Point& point : points) study.cases.add(std::move(point.label), std::move(point.coordinates));
+  for (auto& [label, coordinates] : rows) study.cases.add(std::move(label), std::move(coordinates));
   study.cases.make_with(
       [start](const std::vector<double>& coordinates) { return known_case(*start, coordinates); });
   return std::nullopt;

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {
@@ -85,20 +84,25 @@ std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scen
 }
 
 /// No stress case of a stability study may pass for any but the film.
-Optimistic optimistic_by_input(const Study& study, const scene::Scene& scene,
-                               const scene::RigidMotion& launch) {
-  if (scene.surface.air_model == scene::AirModel::film) return {Optimistic::Why::film};
+std::string optimistic_by_input(const Study& study, const scene::Scene& scene,
+                                const scene::RigidMotion& launch) {
+  if (scene.surface.air_model == scene::AirModel::film)
+    return "no ignition under gap.air = \"film\", which gives what compression supplies alone, shows nothing";
   if (!study.kind.gives_verdicts) return {};
-  if (std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene); !cooling.empty())
-    return {Optimistic::Why::cooling, std::move(cooling)};
+  if (const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene); !cooling.empty())
+    return fmt::format(
+        "no ignition with {} shows nothing: that only averages or removes heat, accepted or not",
+        fmt::join(cooling, ", "));
   const double calibres = scene::calibres_of(scene, launch);
   if (calibres >= fewest_calibres) return {};
-  return {Optimistic::Why::short_travel, {}, calibres};
+  return fmt::format(
+      "no ignition within {:.3g} calibres of travel shows nothing: no barrel is shorter than {:g}", calibres,
+      fewest_calibres);
 }
 
 bool nobody_accepts(const scene::Implausible& value) { return !value.accepted(); }
 
-Judgement indeterminate(ReasonCode code, const CriticalGap& critical, GapReason why = {}) {
+Judgement indeterminate(ReasonCode code, const CriticalGap& critical, std::string why = {}) {
   return {Verdict::indeterminate, code, critical.bounds.at_least, std::move(why)};
 }
 
@@ -151,10 +155,8 @@ Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, J
 
 std::vector<scene::Implausible> CaseStatements::to_be_accepted() const {
   std::vector<scene::Implausible> values = implausible;
-  for (const scene::Implausible& each : distance.foreign) {
-    const bool known = std::ranges::any_of(values, [&](const auto& value) { return value.key == each.key; });
-    if (!known) values.push_back(each);
-  }
+  for (const scene::Implausible& each : distance.foreign)
+    if (std::ranges::count(values, each.key, &scene::Implausible::key) == 0) values.push_back(each);
   return values;
 }
 
@@ -190,9 +192,12 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   return all;
 }
 
-Optimistic optimistic_by_run(double friction_rise) {
+std::string optimistic_by_run(double friction_rise) {
   if (friction_rise >= least_friction_rise) return {};
-  return {Optimistic::Why::unheated, {}, friction_rise};
+  return fmt::format(
+      "friction heats the charge's bottom by {:.2g} K over the launch, less than {:g} K: no ignition shows "
+      "nothing",
+      friction_rise, least_friction_rise);
 }
 
 std::string to_string(Verdict verdict) {
@@ -214,7 +219,7 @@ Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
   if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
   // Written so that NaN is never safe.
   if (!(evidence.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
-  if (of_case.input.optimistic || optimistic_by_run(of_case.friction_rise))
+  if (!of_case.input.optimistic.empty() || !optimistic_by_run(of_case.friction_rise).empty())
     return indeterminate(ReasonCode::optimistic, critical);
   if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(evidence.gap))
     return indeterminate(ReasonCode::beyond_firings, critical);

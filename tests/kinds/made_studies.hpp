@@ -86,7 +86,7 @@ inline study::CaseAnswer all_safe_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, 1.0);
   answer.critical.kind = study::CriticalGapKind::all_safe;
   answer.critical.lower = 1e-3;
-  answer.critical.reason = {study::GapReason::Code::none_ignites, 1e-3};
+  answer.critical.reason = "no ignition up to 0.1 cm, where the search ended";
   return answer;
 }
 
@@ -94,7 +94,7 @@ inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, -1.0);
   answer.critical.kind = study::CriticalGapKind::all_ignite;
   answer.critical.upper = 0.0;
-  answer.critical.reason = {study::GapReason::Code::all_ignite};
+  answer.critical.reason = "ignition at every gap, also without one";
   return answer;
 }
 
@@ -103,7 +103,7 @@ inline study::CaseAnswer broken_answer(const study::Study& study, const std::str
   answer.failure = why;
   answer.run.status = run::RunStatus::energy_drift;
   const auto evidence = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.failure = why});
-  answer.critical.reason = {.code = study::GapReason::Code::failed, .of_case = evidence};
+  answer.critical.reason = study::why_no_critical_gap(*evidence);
   for (const double gap : study.gaps) {
     study::GapVerdict row;
     row.gap = gap;

@@ -335,7 +335,7 @@ TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
   const CaseAnswer answer =
       answer_of(study.study, study.cases[0], quadratic_launch(study.cases[0].scene.scene));
   EXPECT_EQ(answer.verdicts.at(0).uncertainty.fit, 0.0);
-  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << to_string(answer.critical.reason);
+  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << answer.critical.reason;
 }
 
 TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {

@@ -184,7 +184,7 @@ TEST(ClosingGaps, NeitherMeltingNorSmoothFacesAloneDecide) {
   StudyCase input = closing_study().cases.front();
   input.closing->melts = true;
   for (const ClosingBound& bound : closing_bounds(input))
-    for (const ClosingTerms& terms : bound.terms) EXPECT_EQ(terms.melts, bound.name == "melting");
+    for (const ClosingTerms& terms : bound.terms) EXPECT_EQ(terms.surface.melts, bound.name == "melting");
 }
 
 std::vector<std::string> kinetics_names(const std::function<void(materials::KineticsParameters&)>& change) {
@@ -239,7 +239,7 @@ TEST(ClosingGaps, TheCornerLetsGoAsFastAsSoundOrFaster) {
   const double passage = scene::transit_time(input.scene.scene);
   const auto duration = [&](std::optional<double> own, std::size_t bound) {
     input.closing->release_duration = own;
-    return closing_bounds(input)[bound].terms.front().release_duration;
+    return closing_bounds(input)[bound].terms.front().surface.release_duration;
   };
   EXPECT_EQ(closing_bounds(input)[2].name, "melting");
   for (const std::size_t smooth : {std::size_t{3}, std::size_t{4}, std::size_t{5}}) {

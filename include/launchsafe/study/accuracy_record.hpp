@@ -2,15 +2,8 @@
 // meshes tend to, the launch that was computed, and whether it says something of another one.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/scene.hpp"
-
-#include <cstddef>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 
@@ -66,13 +59,11 @@ struct Coverage {
 /// localisation, and of the pressure that heats the air. Below the recorded launch they keep their size, in
 /// kelvin. Above it they grow with p^2, with the root of the crack radius (as does the stress intensity that
 /// drives crack growth) and with the localisation; what a wider gap adds is left to the rise of T max (see
-/// StudyCase::rise_of_uncertainty). A record says nothing
-/// - beyond 1.25 times the peak pressure: the recorded wall may just not have yielded;
-/// - beyond three times the crack radius, in metres or in flaw sizes, the localisation, or the rate at which
-///   the air of the widest gap heats the skin, or where it has no cracks or no gap and the launch has;
-/// - of a load that lasts more than 1.1 times as long, rises in less than 1/1.25 of the time, differs in
-///   shape by more than a tenth of the peak, or is rougher by more than 0.01 (a hundredth of the friction
-///   heat).
+/// StudyCase::rise_of_uncertainty). A record says nothing beyond 1.25 times the peak pressure, as the
+/// recorded wall may just not have yielded; beyond three times the crack radius, in metres or in flaw sizes,
+/// the localisation, or the rate at which the air of the widest gap heats the skin; and of a load that lasts
+/// longer, rises faster, differs in shape or is rougher by more than what accuracy_record.cpp allows (a
+/// roughness of 0.01 is a hundredth of the friction heat).
 Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch);
 
 /// Whether an input belongs to a setting: it makes a computation finer or coarser, and nothing else.
@@ -146,9 +137,8 @@ std::string to_json_text(const AccuracyRecord& record);
 /// A record from text; `file` is named in errors. Refused is what the program cannot have written: a text
 /// that was edited, so that its content has another digest; keys that are unknown, missing or given twice;
 /// values of another type or beyond any launch; settings that no scene may have; meshes that are no series;
-/// bounds that do not follow from what the settings gave. A record whose temperatures were made up and whose
-/// digest was computed anew is not recognised: a digest guards against mistakes and idle edits, not against
-/// forgers.
+/// bounds that do not follow from what the settings gave. A digest guards against mistakes and idle edits,
+/// not against forgers.
 scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, const std::string& file);
 
 /// Why a record says nothing of a scene, whatever its setting and launch; empty where it may. At another

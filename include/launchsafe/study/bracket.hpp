@@ -6,7 +6,6 @@
 #include "launchsafe/math/numbers.hpp"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,43 +83,13 @@ enum class CriticalGapKind {
 };
 std::string to_string(CriticalGapKind kind);
 
-struct CaseEvidence;
-
-/// Why a critical gap is no value; its words are in statement_text.cpp.
-struct GapReason {
-  enum class Code {
-    nothing,                      ///< it is one
-    none_ignites,                 ///< up to `gap`, where the search ended
-    none_of_gaps,                 ///< none of `gaps` up to `gap` ignites
-    all_ignite,                   ///< every gap, also none
-    not_monotone,                 ///< no ignition at `gap` again
-    undefined,                    ///< the temperature at `gap` is not a number
-    failed,                       ///< the run of the case, see `of_case`
-    validity_warning,             ///< of the case
-    unaccepted,                   ///< something of the case
-    coupled_run_failed,           ///< at `gap`, see `detail`; `lower` and `upper` are the traced bracket
-    coupled_run_ignites,          ///< at `gap`, unlike the traced temperatures
-    coupled_run_does_not_ignite,  ///< likewise
-    longer_launch_failed          ///< see `detail`
-  };
-  Code code = Code::nothing;
-  double gap = math::not_a_number;    ///< m
-  double lower = math::not_a_number;  ///< m
-  double upper = math::not_a_number;  ///< m
-  std::size_t gaps = 0;
-  std::string detail = {};                           ///< why a run failed
-  std::shared_ptr<const CaseEvidence> of_case = {};  ///< not stored
-};
-/// For people; empty where there is none.
-std::string to_string(const GapReason& reason);
-
 /// A critical gap. What a kind does not have is NaN: a bound has no value.
 struct CriticalGap {
   CriticalGapKind kind = CriticalGapKind::indeterminate;
   double value = math::not_a_number;  ///< m, middle of the bracket
   double lower = value;               ///< m, does not ignite
   double upper = value;               ///< m, ignites
-  GapReason reason = {};              ///< why it is no value
+  std::string reason = {};            ///< why it is no value, for people
   std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
   GapBounds bounds = {};              ///< that follow; NaN until the shares are known
   /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing
@@ -132,6 +101,9 @@ struct CriticalGap {
 void set_shares(CriticalGap& gap, std::vector<GapShare> shares);
 
 GapOrBound gap_or_bound(const CriticalGap& gap);
+
+/// A gap (m) as a reason tells it: "0.0395 cm".
+std::string in_centimetres(double gap);
 
 /// Whether a gap (m) ignites; nothing where that is undefined.
 using Ignites = std::function<std::optional<bool>(double gap)>;

@@ -47,17 +47,14 @@ inline constexpr CalibrationEvidence no_evidence{not_a_number, not_a_number, not
 
 /// The record as a file, with the SHA-256 of its content.
 std::string to_json_text(const CalibrationRecord& record);
-/// Whether a text is meant to be the record of a calibration on firings.
-bool is_firing_record(const std::string& text);
 /// Refuses an edited record, one of another model version, one on firings, and a scene that no reader takes.
 /// `file` is named in errors.
 scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& text, const std::string& file);
-
-/// Likewise of one on firings. Rounds that were made up and a digest that was computed anew are not
+/// Likewise, or one on firings. Rounds that were made up and a digest that was computed anew are not
 /// recognised, as firings that were made up are not: a digest guards against mistakes and idle edits.
 /// Constants of the scene that are not those of the posterior buy nothing, as verdicts count with the heat
 /// that the posterior asks for.
-scene::Expected<CalibrationRecord> parse_firing_record(const std::string& text, const std::string& file);
+scene::Expected<CalibrationRecord> parse_either_calibration(const std::string& text, const std::string& file);
 
 /// Reads the record that a study names, if it names one, gives its load and constants to the scene, and notes
 /// them among the overrides. A fit uncertainty that the study does not state becomes the record's.

@@ -2,7 +2,6 @@
 // assumed; the calibrated constants; and what is not known of the launch.
 #pragma once
 
-#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
@@ -79,13 +78,6 @@ struct AcceptancesOfStudy {
   std::vector<std::string> extrapolated;     ///< as in the reasons of verdicts
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
-
-/// Where the share of the calibrated constants comes from and how it grows; a sentence without its subject.
-std::string fit_uncertainty_text(const Study& study);
-/// Likewise for other models of the launch.
-std::string model_form_uncertainty_text(const StudyFile& study);
-/// Likewise for what is not known of the launch.
-std::string input_uncertainty_text(const Study& study);
 
 /// Those that a study names. Faults: none there, no record, or a stated uncertainty beside it.
 scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder);

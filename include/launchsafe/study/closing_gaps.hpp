@@ -5,22 +5,12 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::study {
 
-/// Terms on which a gap closes.
+/// Terms on which a gap closes, and the charge ignites.
 struct ClosingTerms {
-  scene::GapBase base = scene::GapBase::conducting;
-  double roughness = 0;                         ///< m
-  double release = 0;                           ///< s
-  std::optional<double> release_duration = {};  ///< s; none: that of scene::Surface
-  scene::AirFlow air_flow = scene::AirFlow::trapped;
-  bool melts = false;
-  materials::KineticsParameters kinetics = {};
+  scene::Surface surface;
+  materials::KineticsParameters kinetics;
 };
 
 /// Sets of terms that are looked at together: the hottest of them counts.

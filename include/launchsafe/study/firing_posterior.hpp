@@ -2,14 +2,8 @@
 // rounds that ignited and rounds that did not (Bayes), and how much more heat a launch has to bear for that.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
-
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -40,8 +40,7 @@ struct Forecast {
   double kept_memory = 0;        ///< bytes that are kept till the end of the cases asked for
   double report_memory = 0;      ///< bytes of the report of all cases, besides
   double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
-  double disk =
-      0;  ///< bytes, rather too many, of the files of all that is to run, the coupled runs among them
+  double disk = 0;    ///< bytes, rather too many, of the files of all that is to run, coupled runs too
   int jobs = 1;
 };
 

@@ -5,8 +5,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/surface/skin.hpp"
 
-#include <string>
-
 namespace launchsafe::study {
 
 struct FinishedRun;  // run_cases.hpp

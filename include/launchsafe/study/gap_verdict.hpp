@@ -1,7 +1,6 @@
 // What a study knows of one gap, and of one case with its gaps.
 #pragma once
 
-#include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"

@@ -6,8 +6,6 @@
 #include "launchsafe/study/bracket.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
-#include <optional>
-
 namespace launchsafe::study {
 
 struct CalibrationRecord;

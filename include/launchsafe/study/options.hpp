@@ -1,13 +1,10 @@
 // What the caller of a study may choose, watch and replace, and how it is divided over processes or machines.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/study/scheduler.hpp"
-
-#include <string_view>
 
 namespace launchsafe::study {
 

@@ -3,11 +3,8 @@
 #pragma once
 
 #include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/scene.hpp"
 
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace launchsafe::study {
 

@@ -75,12 +75,13 @@ class ProgressTracker {
 
  private:
   void report();
-  double seconds_left(double now) const;
+  void count_busy();
+  double seconds_left();
   ProgressCallback callback_;
   Clock clock_;
   std::mutex mutex_;
   double first_start_ = -1;  ///< s, when the first task began
-  double busy_since_ = 0;    ///< s, when the number of running tasks last changed
+  double busy_since_ = 0;    ///< s, up to when the running tasks are counted
   double busy_ = 0;          ///< s, of all tasks together until then
   std::size_t most_running_ = 0;
   std::size_t cases_before_ = 0;  ///< done before the first task began
@@ -131,5 +132,9 @@ struct Resources {
 /// the jobs' threads. Once `stop` is set no further task starts. Outcomes are in the order of the tasks.
 std::vector<TaskOutcome> run_tasks(const std::vector<WaitingTask>& tasks, const Resources& resources,
                                    ProgressTracker& tracker, const std::atomic<bool>* stop = nullptr);
+
+/// So many parts of a task, which are independent. Cores that find no further task help; a thread that waits
+/// for them must not start one.
+void run_parts(std::size_t count, const std::function<void(std::size_t)>& part);
 
 }  // namespace launchsafe::study

@@ -2,10 +2,8 @@
 // wrong with a study and where.
 #pragma once
 
+#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/study_file.hpp"
-
-#include <filesystem>
-#include <utility>
 
 namespace launchsafe::study {
 
@@ -76,6 +74,23 @@ Fault read_rows(const toml::table& root, const std::string& name, const std::vec
 scene::Expected<std::string> read_named_file(const StudyFile& study, const std::filesystem::path& folder,
                                              const std::string& key, const std::string& name,
                                              const std::string& wanted);
+
+/// The record in such a file, noted as one that the study rests on.
+template <class Record>
+scene::Expected<Record> read_named_record(StudyFile& study, const std::filesystem::path& folder,
+                                          const std::string& key, const std::string& name,
+                                          const std::string& wanted,
+                                          scene::Expected<Record> (*parse)(const std::string& text,
+                                                                           const std::string& file)) {
+  const auto text = read_named_file(study, folder, key, name, wanted);
+  if (!text) return text.error();
+  study.records.push_back(store::sha256(*text));
+  return parse(*text, (folder / name).string());
+}
+
+/// Gives scene keys of the study's scene other values, which `study_key` of the study asks for.
+Fault set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
+               const std::string& study_key);
 
 using scene::Leaf;
 /// All keys of a table and of the tables in it, as people wrote them.

@@ -2,10 +2,7 @@
 // kept, and a case is made when it is asked for.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/model_form.hpp"
 
@@ -13,8 +10,6 @@
 #include <boost/iterator/transform_iterator.hpp>
 
 #include <any>
-#include <cstddef>
-#include <map>
 
 namespace launchsafe::study {
 
@@ -201,8 +196,7 @@ struct Study {
   std::vector<Reference> references;
   ReferenceLine reference_line;
   std::vector<CitedLimit> cited_limits;
-  std::string
-      references_file;  ///< path of a file with the references, from the study file's folder; or empty
+  std::string references_file;  ///< path of a file with them, from the study file's folder; or empty
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
@@ -228,8 +222,7 @@ struct Study {
 
   // kinds that may use the record of an accuracy study
   std::string accuracy;  ///< paths of records from the study file's folder, "a, b"; empty: none
-  double setting_tolerance =
-      not_a_number;  ///< K, of T max; picks a setting from the record; NaN: the scene's
+  double setting_tolerance = not_a_number;  ///< K, of T max: picks a recorded setting; NaN: the scene's
   /// K, of T max by the calibrated constants on the rows that they were fitted to; NaN: not stated
   double fit_uncertainty = not_a_number;
   /// K, of T max by what is not known of the launch, for the study's own scene; NaN: not stated

@@ -2,18 +2,10 @@
 // computed.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::study {
 
@@ -110,6 +102,9 @@ class Surrogate {
   /// The largest error of a point that is covered.
   double largest_error() const;
 
+  /// By how much the fit is off each launch that was not fitted and has a number.
+  const std::vector<double>& misses() const { return misses_; }
+
   // What others need to predict the same.
   const std::variant<math::FittedChaos, math::FittedProcess>& fit() const { return fit_; }
   double error_without_leverage() const { return error_; }
@@ -119,6 +114,7 @@ class Surrogate {
   math::FitValue fitted_at(const std::vector<double>& point) const;
 
   std::variant<math::FittedChaos, math::FittedProcess> fit_;
+  std::vector<double> misses_;
   double error_ = 0;             ///< at a leverage of 0
   double largest_leverage_ = 0;  ///< of the launches that were not fitted
 };

@@ -2,7 +2,6 @@
 // What an input says is found once a case and never stored: a verdict that is read rests on what it says now.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/model_form.hpp"
 
@@ -16,24 +15,11 @@ inline constexpr double fewest_calibres = 10.0;
 /// K, by which friction heats the bottom of a charge that was launched, at the least.
 inline constexpr double least_friction_rise = 1.0;
 
-/// Why a case that does not ignite is not safe for that, whatever it accepts.
-struct Optimistic {
-  enum class Why {
-    nothing,
-    film,          ///< air as a film that conserves energy is a bound on that side
-    cooling,       ///< `cooling` only averages or removes heat beside the calibrated model
-    short_travel,  ///< the launch ends after `number` calibres of travel
-    unheated       ///< friction heats the bottom by `number` K: it was not launched
-  };
-  Why why = Why::nothing;
-  std::vector<std::string> cooling = {};
-  double number = 0;
-  explicit operator bool() const { return why != Why::nothing; }
-};
-
 struct CaseStatements {
   std::vector<std::string> uncovered_load;  ///< of run::uncovered_load
-  Optimistic optimistic;                    ///< by the input alone; a study without verdicts knows films only
+  /// Why no ignition shows nothing, whatever the case accepts, by the input alone; a study without verdicts
+  /// knows films only. Empty: it may show something.
+  std::string optimistic;
   std::string ring;  ///< that a measured curve rings, for people; empty for none; in detail with
                      ///< a mode of the shell (run::ring_text)
 
@@ -62,9 +48,9 @@ struct CaseStatements {
 
 CaseStatements statements_of(const Study& study, const StudyCase& input);
 
-/// Of what its run shows: a bottom that friction hardly heats (`friction_rise`, of T max without a gap, K)
-/// was not launched.
-Optimistic optimistic_by_run(double friction_rise);
+/// The same of what its run shows: a bottom that friction hardly heats (`friction_rise`, of T max without a
+/// gap, K) was not launched.
+std::string optimistic_by_run(double friction_rise);
 
 enum class Verdict { safe, unsafe, indeterminate };
 std::string to_string(Verdict verdict);
@@ -104,6 +90,9 @@ struct CaseEvidence {
   CaseStatements input = {};
 };
 
+/// Why a case has no critical gap, whatever a search finds, for people; empty where it may have one.
+std::string why_no_critical_gap(const CaseEvidence& of_case);
+
 /// What gaps that close say of one gap (closing_gaps.hpp).
 struct ClosingEvidence {
   bool known = false;    ///< every bound that was computed has a temperature
@@ -124,8 +113,8 @@ struct Evidence {
   double maximum_temperature = 0;                    ///< K, over the stations
   double margin = 0;                                 ///< K, ignition temperature minus maximum temperature
   double uncertainty = 0;                            ///< K
-  double numerical =
-      0;  ///< K, of that what mesh, step and scaling have, which are not those of a gap that closes
+  /// K, of that what mesh, step and scaling have, which are not those of a gap that closes.
+  double numerical = 0;
   /// K, margin with the constants of the surface as calibrated; infinite where they are.
   double calibrated_margin = math::infinity;
   double noise = 0;  ///< K, what noise and smoothing of a measured curve count
@@ -171,7 +160,7 @@ struct Judgement {
   Verdict verdict = Verdict::indeterminate;
   ReasonCode code = ReasonCode::not_judged;
   double at_least = math::not_a_number;  ///< m, CriticalGap::bounds
-  GapReason critical_gap = {};           ///< why there is none, where that is the reason
+  std::string critical_gap = {};         ///< why there is none, where that is the reason
 };
 
 /// The contract of a verdict, for a sound run: one that completed with finite temperatures and without
@@ -200,9 +189,6 @@ std::string validity_warnings_text(const Evidence& evidence);
 std::string unaccepted_text(const CaseStatements& input);
 /// What is not plausible, or foreign, and why it is meant.
 std::string accepted_text(const CaseStatements& input);
-/// Why no ignition shows nothing.
-std::string to_string(const Optimistic& optimistic);
-/// Limiters that acted.
 std::string limiters_text(const Evidence& evidence);
 /// What the noise of a measured curve counts.
 std::string noise_text(const Evidence& evidence);
