@@ -1,7 +1,7 @@
 // launchsafe ask: what the fit of a study predicts of a launch that nobody computed.
+#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
@@ -14,7 +14,7 @@ namespace launchsafe::app {
 namespace {
 
 struct AskArguments {
-  std::filesystem::path study;        ///< folder of a finished study, or its surrogate.json
+  path study;                         ///< folder of a finished study, or its surrogate.json
   std::vector<std::string> settings;  ///< "KEY=VALUE", or a list of values
   std::optional<double> gap;          ///< m; none: the study's
   bool csv = false;                   ///< a row a launch, for programs
@@ -26,9 +26,9 @@ using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 constexpr const char* record_name = "surrogate.json";
 constexpr std::size_t largest_record = 20'000'000;  // bytes
 
-Expected<SurrogateRecord> read_record(const std::filesystem::path& place) {
+Expected<SurrogateRecord> read_record(const path& place) {
   const bool is_folder = std::filesystem::is_directory(place);
-  const std::filesystem::path file = is_folder ? place / record_name : place;
+  const path file = is_folder ? place / record_name : place;
   auto text = scene::read_text_file(file, largest_record);
   if (text) return study::parse_surrogate(*text, file.string());
   if (!text.error().file_missing) return text.error();
@@ -43,8 +43,6 @@ struct AskedInput {
   scene::KeyDescription key;
   std::vector<double> values;  ///< SI
   bool is_set = false;         ///< on the command line; else as in the study's scene
-
-  double value() const { return values.front(); }
 };
 
 /// The inputs with their values in the study's scene.
@@ -75,19 +73,18 @@ InputError fault_of_set(const std::string& given, const std::string& found, cons
 }
 
 /// "KEY=VALUE", or a list of values, with a key of the study's inputs by its short or full name.
-std::optional<InputError> set_input(const std::string& given, std::vector<AskedInput>& inputs) {
+std::optional<InputError> set_input(const std::string& given, const SurrogateRecord& record,
+                                    std::vector<AskedInput>& inputs) {
   const std::size_t equals = given.find('=');
   if (equals == std::string::npos)
     return fault_of_set(given, "no =", "KEY=VALUE, such as load.peak=\"510 MPa\"");
   const std::string name = given.substr(0, equals);
-  std::vector<std::string> names;
-  for (const AskedInput& each : inputs) names.push_back(each.key.name);
   const auto found = std::ranges::find_if(inputs, [&](const AskedInput& each) {
     return each.key.name == name || study::name_of_axis(each.key.name) == name;
   });
   if (found == inputs.end())
     return fault_of_set(given, fmt::format("\"{}\", which the study does not vary", name),
-                        scene::quoted_list(names), scene::nearest_of(name, names));
+                        scene::quoted_list(record.keys), scene::nearest_of(name, record.keys));
   if (found->is_set) return fault_of_set(given, name + " a second time", "each key once");
   const auto values = scene::parse_list(given.substr(equals + 1), found->key.dimension);
   if (!values)
@@ -97,10 +94,13 @@ std::optional<InputError> set_input(const std::string& given, std::vector<AskedI
   return std::nullopt;
 }
 
-/// A value beyond what was computed; round-off apart.
-std::optional<InputError> check_ranges(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
+/// A value beyond what was computed, round-off apart; more launches than a table should have.
+std::optional<InputError> fault_in(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
   const std::vector<math::Interval> ranges = study::ranges_of(record);
+  constexpr double most_launches = 1e6;
+  double count = 1;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
+    count *= static_cast<double>(inputs[i].values.size());
     const math::Interval range = ranges[i];
     const double slack = 1e-9 * (range.upper - range.lower);
     const scene::Dimension dimension = inputs[i].key.dimension;
@@ -111,13 +111,6 @@ std::optional<InputError> check_ranges(const SurrogateRecord& record, const std:
                                            scene::format_quantity(range.lower, dimension),
                                            scene::format_quantity(range.upper, dimension)));
   }
-  return std::nullopt;
-}
-
-std::optional<InputError> check_count(const std::vector<AskedInput>& inputs) {
-  constexpr double most_launches = 1e6;
-  double count = 1;
-  for (const AskedInput& each : inputs) count *= static_cast<double>(each.values.size());
   if (!(count > most_launches)) return std::nullopt;
   return fault_of_set("...", fmt::format("{:.0f} combinations", count), "up to a million");
 }
@@ -144,9 +137,17 @@ std::vector<AskedLaunch> launches_of(const std::vector<AskedInput>& inputs) {
   return launches;
 }
 
+/// The outputs of which something is predicted.
+std::vector<const SurrogateOutput*> predicted_outputs(const SurrogateRecord& record) {
+  std::vector<const SurrogateOutput*> outputs;
+  for (const SurrogateOutput& output : record.outputs)
+    if (output.reason.empty()) outputs.push_back(&output);
+  return outputs;
+}
+
 /// Columns of what is set, and of every output with its error.
-report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>& inputs,
-                                                  const std::vector<report::Column>& outputs) {
+report::Quantities<AskedLaunch> launch_quantities(const SurrogateRecord& record,
+                                                  const std::vector<AskedInput>& inputs) {
   report::Quantities<AskedLaunch> quantities;
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (inputs[i].is_set)
@@ -154,30 +155,18 @@ report::Quantities<AskedLaunch> launch_quantities(const std::vector<AskedInput>&
           report::shown(
               study::Axis{study::name_of_axis(inputs[i].key.name), {}, inputs[i].key, inputs[i].values}),
           [i](const AskedLaunch& launch) { return launch.values[i]; });
+  const std::vector<const SurrogateOutput*> outputs = predicted_outputs(record);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const auto of = [i](double study::Prediction::*part) {
-      return [i, part](const AskedLaunch& launch) -> std::optional<double> {
-        const auto& prediction = launch.predictions[i];
-        return prediction ? std::optional((*prediction).*part) : std::nullopt;
-      };
-    };
-    report::Column error = outputs[i];
+    const auto prediction = [i](const AskedLaunch& launch) { return launch.predictions[i]; };
+    report::Column value = kinds::shown(*outputs[i]), error = value;
     error.name += "_error";
     error.heading = "±";
     error.form.notation = keys::Notation::significant;
     error.form.digits = 2;
-    quantities.emplace_back(outputs[i], of(&study::Prediction::value));
-    quantities.emplace_back(std::move(error), of(&study::Prediction::error));
+    quantities.emplace_back(std::move(value), prediction, &study::Prediction::value);
+    quantities.emplace_back(std::move(error), prediction, &study::Prediction::error);
   }
   return quantities;
-}
-
-/// The outputs of which something is predicted.
-std::vector<const SurrogateOutput*> predicted_outputs(const SurrogateRecord& record) {
-  std::vector<const SurrogateOutput*> outputs;
-  for (const SurrogateOutput& output : record.outputs)
-    if (output.reason.empty()) outputs.push_back(&output);
-  return outputs;
 }
 
 void predict(const SurrogateRecord& record, std::vector<AskedLaunch>& launches) {
@@ -190,37 +179,20 @@ void predict(const SurrogateRecord& record, std::vector<AskedLaunch>& launches) 
   }
 }
 
-report::Table table_of(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
-                       const std::vector<AskedLaunch>& launches) {
-  std::vector<report::Column> outputs;
-  for (const SurrogateOutput* output : predicted_outputs(record)) outputs.push_back(kinds::shown(*output));
-  report::Table table = report::table_of("Predicted", launch_quantities(inputs, outputs), launches);
-  std::vector<std::string> unset;
+/// What stands under the table.
+std::string notes_on(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
+  Json facts{{"fitted", record.fitted()}, {"held_out", record.held_out.size()}};
   for (const AskedInput& each : inputs)
     if (!each.is_set)
-      unset.push_back(each.key.name + " = " + scene::format_quantity(each.value(), each.key.dimension));
-  if (!unset.empty())
-    table.notes.push_back(fmt::format("As in the study's scene: {}.", fmt::join(unset, ", ")));
+      facts["unset"].push_back(each.key.name + " = " +
+                               scene::format_quantity(each.values.front(), each.key.dimension));
   for (const SurrogateOutput& output : record.outputs)
     if (!output.reason.empty())
-      table.notes.push_back(
-          fmt::format("{}: not predicted, {}.", kinds::shown(output).heading, output.reason));
-  table.notes.push_back(
-      fmt::format("A fit to {} launches, held against {} others: 1 of 100 is beyond the error (±) on each "
-                  "side. Nothing is said of a launch that is farther out than these. How far computed ones "
-                  "are off comes on top, and only a launch that was computed can be SAFE: launchsafe study.",
-                  record.fitted(), record.held_out.size()));
-  return table;
+      facts["open"].push_back({{"heading", kinds::shown(output).heading}, {"reason", output.reason}});
+  return told("ask.txt", facts);
 }
 
 // --- a gap ---
-
-/// "predicted: no ignition" of a gap that lies below the predicted critical gap by more than its error.
-std::string word_on(double gap, const study::Prediction& critical_gap) {
-  if (gap < critical_gap.value - critical_gap.error) return "predicted: no ignition";
-  if (gap > critical_gap.value + critical_gap.error) return "predicted: ignition";
-  return "not predicted: nearer to the critical gap than the error of the fit";
-}
 
 /// What is held in every draw: what is set, and with one of them all that vary together.
 std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& record,
@@ -264,8 +236,11 @@ void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inp
   const auto outputs = predicted_outputs(record);
   const auto found = std::ranges::find(outputs, report::quantity::critical_gap.name, &SurrogateOutput::name);
   if (found == outputs.end()) return;
-  const std::string word =
-      word_on(gap, *launch.predictions[static_cast<std::size_t>(found - outputs.begin())]);
+  const study::Prediction& critical = *launch.predictions[static_cast<std::size_t>(found - outputs.begin())];
+  const char* word = gap < critical.value - critical.error   ? "predicted: no ignition"
+                     : gap > critical.value + critical.error ? "predicted: ignition"
+                                                             : "not predicted: nearer to the critical gap "
+                                                               "than the error of the fit";
   console.print_text(fmt::format("\n{}: {}\n", scene::format_quantity(gap, scene::Dimension::length), word));
   Json facts{{"gap_cm", report::shown_gap(gap)}, {"gap", word}};
   if (record.drawn) facts.update(print_ignitions(record, inputs, launch, gap, console));
@@ -276,9 +251,8 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   const SurrogateRecord record = console.value_of(read_record(arguments.study));
   std::vector<AskedInput> inputs = console.value_of(inputs_in_scene(record));
   for (const std::string& given : arguments.settings)
-    if (const auto fault = set_input(given, inputs)) return console.refuse(*fault);
-  if (const auto fault = check_ranges(record, inputs)) return console.refuse(*fault);
-  if (const auto fault = check_count(inputs)) return console.refuse(*fault);
+    if (const auto fault = set_input(given, record, inputs)) return console.refuse(*fault);
+  if (const auto fault = fault_in(record, inputs)) return console.refuse(*fault);
   std::vector<AskedLaunch> launches = launches_of(inputs);
   predict(record, launches);
   const bool is_one = launches.size() == 1;
@@ -287,8 +261,9 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
     return console.refuse(
         fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
                      "values nearer to the middle of their ranges, or a study of the launch itself"));
-  const report::Table table = table_of(record, inputs, launches);
-  console.print_text(arguments.csv ? report::to_csv(table) : report::to_text(table, width_of_output()));
+  const report::Table table = report::table_of("Predicted", launch_quantities(record, inputs), launches);
+  console.print_text(arguments.csv ? report::to_csv(table)
+                                   : report::to_text(table, width_of_output()) + notes_on(record, inputs));
   if (console.json()) console.print_json({{"launches", report::json_rows(table)}});
   if (is_one && !arguments.csv)
     print_gap(record, inputs, launches.front(), arguments.gap.value_or(record.gap), console);
@@ -298,22 +273,15 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
 }  // namespace
 
 void add_ask(CLI::App& app, CommandLine& line) {
-  auto [command, ask] = add_command<AskArguments>(
-      app, line, "ask", "Ask the fit of a study about a launch that nobody computed");
-  add_required(command, "study", ask.study, "STUDY_DIR",
-               "Folder of a finished study of kind sensitivity with method = \"polynomial-chaos\"");
-  add_optional(command, "--set", ask.settings, "KEY=VALUE",
-               "An input of the launch, or a list of values, of which all combinations are launches; those "
-               "that are not set are as in the study's scene")
-      ->allow_extra_args(false);
+  auto [command, ask] = add_command<AskArguments>(app, line, "ask");
+  add_required(command, "study", ask.study);
+  add(command, "--set", ask.settings)->allow_extra_args(false);
   const auto read_gap = [](std::string_view text) {
     const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
     return gap && *gap >= 0.0 ? gap : std::nullopt;
   };
-  add_amount(command, "--gap", ask.gap, read_gap, "a length such as \"0.3 mm\"", "LENGTH",
-             "Gap to be told of; the study's unless given");
-  CLI::Option* csv = command.add_flag("--csv", ask.csv, "A row a launch, as CSV, in place of text");
-  csv->excludes(command.get_option("--gap"));
+  CLI::Option* gap = add_amount(command, "--gap", ask.gap, read_gap);
+  add(command, "--csv", ask.csv)->excludes(gap);
 }
 
 }  // namespace launchsafe::app

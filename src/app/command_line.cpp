@@ -95,8 +95,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
                           add_explain, add_plot, add_init, add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
-    command->add_flag("--json", line.json, "Print one JSON object on stdout instead of text");
-    command->add_flag("-q,--quiet", line.quiet, "No progress and no remarks on stderr; errors remain");
+    add(*command, "--json", line.json);
+    add(*command, "-q,--quiet", line.quiet);
   }
 }
 

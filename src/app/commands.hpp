@@ -4,8 +4,6 @@
 
 #include "console.hpp"
 
-#include <functional>
-
 namespace CLI {
 class App;
 }

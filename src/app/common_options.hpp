@@ -1,4 +1,5 @@
-// Options that several commands have, and those whose text is an amount with a unit.
+// Options of commands. Their types, their meaning and what is allowed are words of
+// templates/help/options.txt.
 #pragma once
 
 #include "commands.hpp"
@@ -24,16 +25,31 @@ std::optional<double> parse_positive(std::string_view text) {
   return value && *value > 0.0 ? value : std::nullopt;
 }
 
+/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9 B". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
+/// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
+std::optional<double> parse_size(std::string_view text);
+/// Seconds: "90s", "10min", "2h", "1.5 d"; kelvins: "2K", "0.5". Nothing for any other text, and for what is
+/// not more than zero.
+std::optional<double> parse_duration(std::string_view text);
+std::optional<double> parse_temperature_difference(std::string_view text);
+
 /// What the help of a command says below its options.
 std::string footer_of(const std::string& command);
 
+/// What the help says of a command, or of an option: one of its own, or one that several commands have.
+struct OptionWords {
+  std::string type, meaning;
+  std::string allowed;  ///< of one whose text is read, as the error says it
+};
+const OptionWords& words_of(const std::string& command, const std::string& option);
+
 /// A subcommand and what its options write to while CLI11 parses, with which it is performed.
 template <class Arguments>
-std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, const char* name,
-                                             const char* meaning) {
-  CLI::App& command = *app.add_subcommand(name, meaning);
+std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, const char* name) {
+  CLI::App& command = *app.add_subcommand(name, words_of({}, name).meaning);
   command.footer(footer_of(name));
   const auto arguments = std::make_shared<Arguments>();
+  if constexpr (requires { arguments->command; }) arguments->command = line.text;
   command.callback([&line, arguments, name] {
     line.perform = [arguments](Console& console) { return perform(*arguments, console); };
     line.command = name;
@@ -44,59 +60,38 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, c
 /// Where to read how to write a command line that makes no sense.
 inline constexpr const char* usage_hint = " (launchsafe --help shows the usage)";
 
+/// Refuses `-o --json`, which would name a file or folder that nobody means. `type`: what the help calls it.
+CLI::Validator no_option_name(const std::string& type);
+
+/// An option, or without dashes an argument.
+template <class Value>
+CLI::Option* add(CLI::App& command, const std::string& name, Value& value) {
+  const OptionWords& words = words_of(command.get_name(), name);
+  if constexpr (std::is_same_v<Value, bool>) return command.add_flag(name, value, words.meaning);
+  CLI::Option* option = command.add_option(name, value, words.meaning)->type_name(words.type);
+  constexpr bool is_path = std::is_same_v<Value, path> || std::is_same_v<Value, std::optional<path>>;
+  return is_path && name.starts_with('-') ? option->check(no_option_name(words.type)) : option;
+}
 /// What must be given.
 template <class Value>
-CLI::Option* add_required(CLI::App& command, const char* name, Value& value, const char* type,
-                          const char* meaning) {
-  return command.add_option(name, value, meaning)->required()->type_name(type);
+CLI::Option* add_required(CLI::App& command, const std::string& name, Value& value) {
+  return add(command, name, value)->required();
 }
 
-/// What may be given.
-template <class Value>
-CLI::Option* add_optional(CLI::App& command, const char* name, Value& value, const char* type,
-                          const char* meaning) {
-  return command.add_option(name, value, meaning)->type_name(type);
-}
-
-/// Refuses `-o --json`, which would name a folder or file (`kind`) that nobody means.
-CLI::Validator no_option_name(const char* kind);
-
-/// A place to write to: a `kind`, "folder" or "file", that the help calls `type`.
-template <class Path>
-CLI::Option* add_place(CLI::App& command, const char* name, Path& path, const char* type, const char* kind,
-                       const char* meaning) {
-  return command.add_option(name, path, meaning)->check(no_option_name(kind))->type_name(type);
-}
-
-template <class Path>
-CLI::Option* add_folder(CLI::App& command, Path& path, const char* meaning) {
-  return add_place(command, "-o,--output", path, "DIR", "folder", meaning);
-}
-
-/// An option whose text is read by `read`; one for which that is false is refused with what is `allowed`.
+/// An option whose text is read by `read`; one for which that is false is refused.
 CLI::Option* add_read(CLI::App& command, const std::string& name,
-                      std::function<bool(const std::string&)> read, const char* allowed, const char* type,
-                      const char* meaning);
+                      std::function<bool(const std::string&)> read);
 /// The same of an amount, of which `parse` makes nothing for any other text.
 template <class Amount, class Parse>
-CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amount>& value, Parse parse,
-                        const char* allowed, const char* type, const char* meaning) {
-  const auto read = [&value, parse](const std::string& text) { return (value = parse(text)).has_value(); };
-  return add_read(command, name, read, allowed, type, meaning);
+CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amount>& value, Parse parse) {
+  return add_read(command, name,
+                  [&value, parse](const std::string& text) { return (value = parse(text)).has_value(); });
 }
 
 /// A script for bash that completes commands, options and what these take.
 std::string bash_completion(const CLI::App& app);
 
-/// --longest-run, s.
-void add_longest_run(CLI::App& command, std::optional<double>& longest_run);
 /// --jobs.
-void add_jobs(CLI::App& command, int& jobs, const char* meaning);
-/// --memory, bytes, and --time-limit, s.
-void add_limits(CLI::App& command, std::optional<double>& memory, std::optional<double>& time_limit);
-/// --tolerance, K.
-void add_tolerance(CLI::App& command, std::optional<double>& tolerance);
-/// --update.
-void add_update(CLI::App& command, bool& update);
+void add_jobs(CLI::App& command, int& jobs);
 
 }  // namespace launchsafe::app

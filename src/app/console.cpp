@@ -6,9 +6,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 
@@ -50,25 +47,11 @@ int write_to(int descriptor, std::string_view text, bool wait) {
 /// On stderr; what cannot be written is dropped.
 void say(std::string_view text) { write_to(STDERR_FILENO, text, false); }
 
-/// Errors that a file system only tells of when a descriptor is closed. 0, or the error's number; the
-/// descriptor stays open.
-int late_error_of(int descriptor) {
-  const int copy = ::dup(descriptor);
-  if (copy < 0) return 0;
-  return ::close(copy) == 0 ? 0 : errno;
-}
-
 using namespace std::chrono_literals;
 
 bool can_move_its_cursor() {
   const char* terminal = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
-}
-
-bool is_plain(char letter) {
-  constexpr std::string_view plain = "_-./,:+=@%";
-  const auto code = static_cast<unsigned char>(letter);
-  return (code < 128 && std::isalnum(code) != 0) || plain.find(letter) != std::string_view::npos;
 }
 
 }  // namespace
@@ -136,8 +119,9 @@ ExitCode Console::finish(ExitCode code) {
     owed() = false;
     write_result(text);
   }
-  const int late = late_error_of(STDOUT_FILENO);
-  output_lost_ = output_lost_ || (late != 0 && late != EPIPE);
+  // Of some errors a file system only tells when a descriptor is closed.
+  const int copy = ::dup(STDOUT_FILENO);
+  output_lost_ = output_lost_ || (copy >= 0 && ::close(copy) != 0 && errno != EPIPE);
   if (!output_lost_) return code;
   say("launchsafe: the result could not be written to standard output\n");
   return ExitCode::failed;
@@ -201,6 +185,11 @@ void Progress::show(const std::string& line) {
 }
 
 std::string shell_quoted(std::string_view word) {
+  const auto is_plain = [](char letter) {
+    const auto code = static_cast<unsigned char>(letter);
+    return (code < 128 && std::isalnum(code) != 0) ||
+           std::string_view("_-./,:+=@%").find(letter) != std::string_view::npos;
+  };
   if (!word.empty() && std::ranges::all_of(word, is_plain)) return std::string(word);
   std::string quoted = "'";
   for (const char letter : word) quoted += letter == '\'' ? R"('\'')" : std::string(1, letter);
@@ -208,9 +197,9 @@ std::string shell_quoted(std::string_view word) {
 }
 
 std::string shell_command(const std::vector<std::string>& words) {
-  std::string command;
-  for (const std::string& word : words) command += (command.empty() ? "" : " ") + shell_quoted(word);
-  return command;
+  std::vector<std::string> quoted;
+  for (const std::string& word : words) quoted.push_back(shell_quoted(word));
+  return fmt::format("{}", fmt::join(quoted, " "));
 }
 
 }  // namespace launchsafe::app

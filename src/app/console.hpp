@@ -14,6 +14,7 @@
 namespace launchsafe::app {
 
 using Json = nlohmann::ordered_json;
+using std::filesystem::path;
 
 /// What the program returns to its caller. `failed` is a fault of the machine or of the program itself.
 enum class ExitCode {
@@ -107,8 +108,6 @@ class Progress {
   explicit Progress(bool quiet);
   /// Removes the line from the terminal.
   ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
 
   /// Shows the line unless quiet, or the last one is too fresh: a fifth of a second on a terminal, where the
   /// first is shown at once; ten seconds elsewhere, from the beginning on.

@@ -8,13 +8,9 @@
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 
+#include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <functional>
-#include <initializer_list>
 #include <iterator>
 #include <numeric>
 
@@ -23,15 +19,13 @@ namespace {
 
 struct EmitArguments {
   std::string engine;  ///< what the script is for: "slurm"
-  std::filesystem::path study, output;
+  path study, output;
   int shards = 0;
   int jobs = 0;                      ///< threads of a shard; 0: not given
   std::optional<double> memory;      ///< bytes, of a shard
   std::optional<double> time_limit;  ///< s of wall time, of one case
   std::vector<std::string> sbatch;   ///< further options for every #SBATCH line, such as "--partition=long"
 };
-
-using std::filesystem::path;
 
 constexpr double time_factor = 3.0;
 constexpr long least_minutes = 10;
@@ -87,12 +81,9 @@ std::string slurm_time(long minutes) {
 
 /// The folder of the logs inside quotes as sbatch reads them; in its name no letter is a pattern.
 std::string log_folder(const SlurmStudy& study) {
-  std::string folder;
-  for (const char letter : slurm_folder(study.asked.output).string()) {
-    if (letter == '"') folder += '\\';
-    if (letter == '%') folder += '%';
-    folder += letter;
-  }
+  std::string folder = slurm_folder(study.asked.output).string();
+  boost::algorithm::replace_all(folder, "\"", "\\\"");
+  boost::algorithm::replace_all(folder, "%", "%%");
   return folder;
 }
 
@@ -110,22 +101,19 @@ std::string size_text(double bytes) {
   return amount(bytes, {{1e9, "GB"}, {1e6, "MB"}, {1e3, "kB"}, {1, "B"}});
 }
 
-/// A user's option as sbatch reads it: the blanks of "--comment=my study" belong to the value. Where there
-/// are quotes, or no "=", it is a line as sbatch has it.
-std::string user_option(const std::string& option) {
-  const std::size_t value = option.find('=') + 1;
-  const bool splits = option.find_first_of(" \t#") != std::string::npos;
-  const bool is_quoted = option.find_first_of("\"'\\") != std::string::npos;
-  if (!option.starts_with("--") || value == 0 || !splits || is_quoted) return option;
-  return fmt::format("{}\"{}\"", option.substr(0, value), option.substr(value));
-}
-
-/// The user's options, one to a line. A merge is one task, and has none of those of an array.
+/// The user's options as sbatch reads them, one to a line. A merge is one task, and has none of those of an
+/// array.
 std::string user_options(const SlurmStudy& study, bool of_merge) {
   std::string lines;
-  for (const std::string& option : study.asked.sbatch) {
+  for (std::string option : study.asked.sbatch) {
     if (of_merge && (option.starts_with("--array") || option.starts_with("-a"))) continue;
-    lines += fmt::format("#SBATCH {}\n", user_option(option));
+    // The blanks of "--comment=my study" belong to the value. Where there are quotes, or no "=", it is a line
+    // as sbatch has it.
+    const std::size_t value = option.find('=') + 1;
+    const bool splits = option.find_first_of(" \t#") != std::string::npos;
+    const bool is_quoted = option.find_first_of("\"'\\") != std::string::npos;
+    if (option.starts_with("--") && value > 0 && splits && !is_quoted) option.insert(value, 1, '"') += '"';
+    lines += fmt::format("#SBATCH {}\n", option);
   }
   return lines;
 }
@@ -141,20 +129,19 @@ SlurmRequest request_of(const SlurmStudy& study) {
 
 /// Why no script can be written; nothing when one can.
 std::optional<std::string> fault_of(const SlurmStudy& study) {
-  for (const path& each : {study.program, study.asked.study, study.asked.output}) {
-    if (!has_control_character(each.string())) continue;
-    return "a path has a control character, such as a line's end; allowed for Slurm: paths without";
-  }
+  for (const path& each : {study.program, study.asked.study, study.asked.output})
+    if (has_control_character(each.string()))
+      return "a path has a control character, such as a line's end; allowed for Slurm: paths without";
   if (study.asked.output.string().find('\\') != std::string::npos) {
     return fmt::format(
         "--output: found {}; allowed for Slurm: a folder without a backslash in its path, as Slurm writes no "
         "log there",
         study.asked.output.string());
   }
-  for (const std::string& option : study.asked.sbatch) {
-    if (option.starts_with('-') && !has_control_character(option)) continue;
-    return fmt::format("--sbatch: found \"{}\"; allowed: options of sbatch such as --partition=long", option);
-  }
+  for (const std::string& option : study.asked.sbatch)
+    if (!option.starts_with('-') || has_control_character(option))
+      return fmt::format("--sbatch: found \"{}\"; allowed: options of sbatch such as --partition=long",
+                         option);
   return std::nullopt;
 }
 
@@ -262,48 +249,30 @@ path absolute_path(const path& given) {
   return elsewhere ? absolute : tidy;
 }
 
-/// What the scripts need to know; the predictions come on top.
-SlurmStudy slurm_study(EmitArguments asked, const study::StudyFile& file) {
-  std::error_code failed;
-  asked.study = absolute_path(asked.study);
-  asked.output = absolute_path(asked.output);
-  asked.jobs = std::max(1, asked.jobs);
-  return {std::move(asked), std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size()};
-}
-
-/// Lets everybody start the script that submits the others.
-void make_executable(const path& script) {
-  using std::filesystem::perms;
-  std::error_code failed;  // it can be given to a shell all the same
-  std::filesystem::permissions(script, perms::owner_exec | perms::group_exec | perms::others_exec,
-                               std::filesystem::perm_options::add, failed);
-}
-
 /// With the folder as the user named it.
 void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts& scripts, Console& console) {
   const SlurmRequest request = request_of(study);
-  const std::string command = shell_command({"sh", (folder / submit_name).string()});
-  const std::vector<std::string> files = places_of(folder, scripts);
-  console.print_text(fmt::format(
-      "{}\n\n{}; each asks for {}, {} MiB and {} min; the slowest is predicted to take {}\nto submit: {}\n",
-      fmt::join(files, "\n"), report::counted(study.asked.shards, "shard"),
-      report::counted(study.asked.jobs, "core"), request.mebibytes, request.minutes, predicted_time(study),
-      command));
-  console.print_json({{"files", files},
-                      {"submit", command},
-                      {"shards", study.asked.shards},
-                      {"jobs", study.asked.jobs},
-                      {"memory_MiB", request.mebibytes},
-                      {"merge_memory_MiB", request.merge_mebibytes},
-                      {"time_s", 60 * request.minutes},
-                      {"predicted_time_s", study.needs.time},
-                      {"predicted_memory_bytes", study.needs.memory}});
+  Json facts{{"files", places_of(folder, scripts)},
+             {"submit", shell_command({"sh", (folder / submit_name).string()})},
+             {"shards", study.asked.shards},
+             {"jobs", study.asked.jobs},
+             {"memory_MiB", request.mebibytes},
+             {"merge_memory_MiB", request.merge_mebibytes},
+             {"time_s", 60 * request.minutes},
+             {"predicted_time_s", study.needs.time},
+             {"predicted_memory_bytes", study.needs.memory}};
+  console.print_json(facts);
+  facts.update({{"minutes", request.minutes}, {"time", predicted_time(study)}});
+  console.print_text(told("emit.txt", facts));
 }
 
 ExitCode perform(const EmitArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
   if (const auto error = study::all_out_of_reach(file, {})) return console.refuse(*error);
-  SlurmStudy study = slurm_study(arguments, file);
+  std::error_code failed;
+  SlurmStudy study{arguments, std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size()};
+  for (path* each : {&study.asked.study, &study.asked.output}) *each = absolute_path(*each);
+  study.asked.jobs = std::max(1, study.asked.jobs);
   if (const auto fault = fault_of(study)) return console.refuse(*fault);
   const store::Manifest manifest = study_manifest(file, study.asked.jobs);
   if (const auto obstacle =
@@ -322,7 +291,11 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
         fmt::format("{} is a link, and nothing is written through one; move it away", folder.string()));
   const NamedTexts scripts = slurm_scripts(study);
   write_where_absent(folder, scripts, console);
-  make_executable(folder / submit_name);
+  // Lets everybody start the script that submits the others; it can be given to a shell all the same.
+  using std::filesystem::perms;
+  std::filesystem::permissions(folder / submit_name,
+                               perms::owner_exec | perms::group_exec | perms::others_exec,
+                               std::filesystem::perm_options::add, failed);
   print_scripts(study, folder, scripts, console);
   if (study.needs.idle > 0)
     console.remark(
@@ -333,19 +306,16 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
 }  // namespace
 
 void add_emit(CLI::App& app, CommandLine& line) {
-  auto [command, emit] = add_command<EmitArguments>(
-      app, line, "emit", "Write batch scripts that run a study on a cluster, in shards");
-  add_required(command, "engine", emit.engine, "slurm", "What the scripts are for: slurm")
-      ->check(CLI::IsMember({"slurm"}));
-  add_required(command, "study", emit.study, "STUDY.toml", "Study file");
-  add_folder(command, emit.output, "Folder for cases, tables and report, seen by all nodes")->required();
+  auto [command, emit] = add_command<EmitArguments>(app, line, "emit");
+  add_required(command, "engine", emit.engine)->check(CLI::IsMember({"slurm"}));
+  add_required(command, "study", emit.study);
+  add_required(command, "-o,--output", emit.output);
   constexpr int most_shards = 10000;
-  add_required(command, "--shards", emit.shards, "N", "Number of shards")->check(CLI::Range(1, most_shards));
-  add_jobs(command, emit.jobs, "Cases at a time, and processors, of every shard");
-  add_limits(command, emit.memory, emit.time_limit);
-  add_optional(command, "--sbatch", emit.sbatch, "TEXT",
-               "A further #SBATCH option, such as --sbatch=--partition=long")
-      ->allow_extra_args(false);
+  add_required(command, "--shards", emit.shards)->check(CLI::Range(1, most_shards));
+  add_jobs(command, emit.jobs);
+  add_amount(command, "--memory", emit.memory, parse_size);
+  add_amount(command, "--time-limit", emit.time_limit, parse_duration);
+  add(command, "--sbatch", emit.sbatch)->allow_extra_args(false);
 }
 
 }  // namespace launchsafe::app

@@ -8,12 +8,11 @@
 namespace launchsafe::app {
 
 struct ExplainArguments {
-  std::filesystem::path
-      file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
+  path file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
   bool keys = false, results = false, materials = false;
   bool lists() const { return keys || results || materials; }
-  std::string schema;                            ///< "scene", "study" or "references"; empty: not asked for
-  std::optional<std::filesystem::path> picture;  ///< SVG file for the scene's grid; none: nothing is written
+  std::string schema;           ///< "scene", "study" or "references"; empty: not asked for
+  std::optional<path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 
 std::string scene_text(const scene::Scene& scene, double update_rate);
@@ -33,8 +32,8 @@ Json rings_json(const scene::Load& load, const scene::Scene& shell);
 
 /// Totals, then a row for each of the first mechanical runs. `folder` holds the store that the rate was
 /// learned from, if any. `begin`: when the study begins, whose end is told then.
-std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast,
-                          const std::filesystem::path& folder, std::optional<std::time_t> begin = {});
+std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast, const path& folder,
+                          std::optional<std::time_t> begin = {});
 Json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
 
 /// Particle updates per second that this program does on this machine with this scene, from the first third
@@ -45,7 +44,7 @@ double measured_update_rate(const scene::Scene& scene, Console& console);
 /// Prints keys, materials or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
 /// Prints the materials of a file.
-ExitCode explain_material_file(const std::filesystem::path& file, Console& console);
+ExitCode explain_material_file(const path& file, Console& console);
 
 // JSON schemas (draft 4) of scene and study files, from the keys that read them. Language servers of TOML
 // complete and check files by these.

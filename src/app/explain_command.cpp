@@ -1,4 +1,5 @@
 // launchsafe explain: what would be computed, and at what cost.
+#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
@@ -15,10 +16,10 @@ namespace launchsafe::app {
 namespace {
 
 /// What cannot be read is left to the reader of scenes to complain about.
-scene::InputContent content_of(const std::filesystem::path& path) {
-  const auto text = scene::read_text_file(path);
+scene::InputContent content_of(const path& file) {
+  const auto text = scene::read_text_file(file);
   if (!text) return scene::InputContent::unknown;
-  const auto table = scene::parse_toml(*text, path.string());
+  const auto table = scene::parse_toml(*text, file.string());
   return table ? scene::content_of(*table) : scene::InputContent::unknown;
 }
 
@@ -44,10 +45,11 @@ study::AcceptancesOfStudy acceptances_of(const scene::SceneFile& file) {
   return study::acceptances_of(alone);
 }
 
-/// What is to be accepted, ready to copy; and acceptances that accept nothing.
-std::vector<std::string> acceptance_lines(const study::AcceptancesOfStudy& all,
-                                          const std::vector<scene::Acceptance>& accepted) {
-  std::vector<std::string> lines;
+/// What is not plausible; what is to be accepted, ready to copy; and acceptances that accept nothing.
+std::string checks_text(const std::vector<std::string>& implausible, const study::AcceptancesOfStudy& all,
+                        const std::vector<scene::Acceptance>& accepted) {
+  Json facts{{"plausibility", implausible}, {"acceptances", Json::array()}};
+  Json& lines = facts["acceptances"];
   if (!all.missing.empty())
     lines.push_back("not accepted; a file that does says, with reasons in words:\n" +
                     scene::acceptances_to_write(all.missing));
@@ -58,7 +60,7 @@ std::vector<std::string> acceptance_lines(const study::AcceptancesOfStudy& all,
     if (!std::ranges::any_of(all.accepted, used))
       lines.push_back(fmt::format("accept names {} = {}, which nothing needs", each.key, each.value));
   }
-  return lines;
+  return told("checks.txt", facts);
 }
 
 /// The same for the cases of a study and what it states itself, each with the number of cases. Empty for a
@@ -84,15 +86,8 @@ std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   return lines;
 }
 
-/// Nothing without lines.
-std::string section_of(const char* title, const std::vector<std::string>& lines) {
-  std::string text = lines.empty() ? "" : fmt::format("\n{}\n", title);
-  for (const std::string& line : lines) text += "  " + line + "\n";
-  return text;
-}
-
 /// Writes the half section and the grid.
-void draw_grid(const std::filesystem::path& picture, const scene::Scene& scene, Console& console) {
+void draw_grid(const path& picture, const scene::Scene& scene, Console& console) {
   if (picture.extension() != ".svg")
     throw Ended{console.refuse(fmt::format(
         "--grid: found \"{}\"; allowed: the name of an SVG file, such as grid.svg", picture.string()))};
@@ -106,21 +101,20 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   for (const std::string& note : file.notes) console.remark(note);
   if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
-  console.print_text(scene_text(scene, update_rate) + section_of("Plausibility", plausibility_lines(scene)) +
-                     section_of("Acceptances", acceptance_lines(acceptances_of(file), scene.accepted)));
+  console.print_text(scene_text(scene, update_rate) +
+                     checks_text(plausibility_lines(scene), acceptances_of(file), scene.accepted));
   console.print_json(scene_json(scene, update_rate));
   return ExitCode::done;
 }
 
-ExitCode explain_study(const std::filesystem::path& path, Console& console) {
-  const study::StudyFile file = console.value_of(kinds::read_study(path));
+ExitCode explain_study(const path& place, Console& console) {
+  const study::StudyFile file = console.value_of(kinds::read_study(place));
   for (const std::string& note : file.scene.notes) console.remark(note);
   const study::Forecast forecast =
       study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
   const std::vector<std::string> lines = plausibility_lines(file);
-  console.print_text(
-      forecast_text(file, forecast, {}) + section_of("Plausibility", lines) +
-      section_of("Acceptances", acceptance_lines(study::acceptances_of(file), file.scene.scene.accepted)));
+  console.print_text(forecast_text(file, forecast, {}) +
+                     checks_text(lines, study::acceptances_of(file), file.scene.scene.accepted));
   Json object = forecast_json(file, forecast);
   object["implausible"] = lines;
   console.print_json(object);
@@ -157,34 +151,16 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
 }
 
 void add_explain(CLI::App& app, CommandLine& line) {
-  auto [command, explain] = add_command<ExplainArguments>(
-      app, line, "explain", "Say what a scene or a study will compute, what it leaves out, and the cost");
-  add_optional(
-      command, "file", explain.file, "SCENE.toml|STUDY.toml|MATERIALS.toml",
-      "Scene, study or file of materials; with --keys, --results or --materials the beginning of names, such "
-      "as load");
-  CLI::Option* keys = command.add_flag("--keys", explain.keys,
-                                       "List the keys of scene and study files, or those whose name begins "
-                                       "with the word given in the place of a "
-                                       "file: unit, range, default, standing, meaning");
-  CLI::Option* results = command.add_flag(
-      "--results", explain.results,
-      "List the columns of the tables that studies write, or those whose name begins with the word given in "
-      "the place of a file: name in files with its unit, meaning");
-  CLI::Option* materials =
-      command.add_flag("--materials", explain.materials,
-                       "List the materials that ship, or those whose name begins with the "
-                       "word given in the place of a file: every number and its source");
-  CLI::Option* schema = command
-                            .add_option("--schema", explain.schema,
-                                        "Print the JSON schema of scene or study files, for editors")
-                            ->check(CLI::IsMember({"scene", "study", "references"}))
-                            ->type_name("scene|study|references");
-  for (CLI::Option* option : {keys, results, materials, schema})
-    for (CLI::Option* other : {keys, results, materials, schema})
+  auto [command, explain] = add_command<ExplainArguments>(app, line, "explain");
+  add(command, "file", explain.file);
+  const std::vector<CLI::Option*> of_program{
+      add(command, "--keys", explain.keys), add(command, "--results", explain.results),
+      add(command, "--materials", explain.materials),
+      add(command, "--schema", explain.schema)->check(CLI::IsMember({"scene", "study", "references"}))};
+  for (CLI::Option* option : of_program)
+    for (CLI::Option* other : of_program)
       if (other != option) option->excludes(other);
-  add_place(command, "--grid", explain.picture, "FILE.svg", "file",
-            "File to draw the half section of a scene and its grid to");
+  add(command, "--grid", explain.picture);
 }
 
 }  // namespace launchsafe::app

@@ -16,12 +16,10 @@ namespace {
 
 std::string standings() {
   using enum scene::Standing;
-  std::string text;
-  for (const scene::Standing standing : {paper, literature, derived, assumed, calibrated}) {
-    text += fmt::format("{}[{}] {}", text.empty() ? "" : ", ", scene::letter_of(standing),
-                        scene::meaning_of(standing));
-  }
-  return text;
+  std::vector<std::string> texts;
+  for (const scene::Standing standing : {paper, literature, derived, assumed, calibrated})
+    texts.push_back(fmt::format("[{}] {}", scene::letter_of(standing), scene::meaning_of(standing)));
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 /// Of a list whose every entry ends with an empty line.
@@ -46,16 +44,6 @@ Json listed(const std::vector<scene::DocumentedKey>& keys, const std::string& wo
   return rows;
 }
 
-Json listed_quantities() {
-  Json rows = Json::array();
-  for (const auto& [described, value] : scene::derived_quantities())
-    rows.push_back({{"quantity", described.name},
-                    {"si_unit", scene::si_unit_of(described.dimension)},
-                    {"plausible", scene::plausible_text(described)},
-                    {"sentence", described.sentence}});
-  return rows;
-}
-
 /// For people, who are told what is plausible only where a reason is known.
 std::string text_of_keys(Json rows) {
   for (Json& row : rows)
@@ -67,7 +55,12 @@ std::string text_of_keys(Json rows) {
 /// The keys of scene and study files, from the same descriptions that read them.
 ExitCode explain_keys(const std::string& word, Console& console) {
   Json rows{{"keys", listed(scene::describe_keys(), word)}};
-  if (word.empty()) rows["derived_quantities"] = listed_quantities();
+  if (word.empty())
+    for (const auto& [described, value] : scene::derived_quantities())
+      rows["derived_quantities"].push_back({{"quantity", described.name},
+                                            {"si_unit", scene::si_unit_of(described.dimension)},
+                                            {"plausible", scene::plausible_text(described)},
+                                            {"sentence", described.sentence}});
   rows["study_keys"] = listed(kinds::describe_study_keys(), word);
   Json facts{{"standings", word.empty() ? standings() : ""}};
   for (const auto& [name, list] : rows.items()) facts[name] = text_of_keys(list);
@@ -118,13 +111,6 @@ scene::Scene with_material(scene::Scene scene, const NamedMaterial& material) {
   return scene;
 }
 
-/// How fast an explosive heats itself by its own kinetics; empty for other laws.
-std::string self_heating_text(const NamedMaterial& material) {
-  if (material.law != "charge") return {};
-  const materials::Charge charge = with_material({}, material).charge();
-  return "; " + report::runaway_text(charge.kinetics, charge.specific_heat);
-}
-
 /// The value of a key, which has a name of its own in a material.
 struct Number {
   std::string key, name, value;
@@ -160,9 +146,14 @@ Json json_of(const NamedMaterial& material) {
                                 ? "the constants of the 155 mm shell were calibrated with it"
                                 : "never calibrated: no verdict that rests on it is SAFE until somebody "
                                   "accepts it as it is, or calibrates it";
+  std::string what = fmt::format("law {}; {}", material.law, calibration);
+  if (material.law == "charge") {
+    const materials::Charge charge = with_material({}, material).charge();
+    what += "; " + report::runaway_text(charge.kinetics, charge.specific_heat);
+  }
   return {{"name", material.name},
           {"title", material.title},
-          {"what", fmt::format("law {}; {}{}", material.law, calibration, self_heating_text(material))},
+          {"what", what},
           {"law", material.law},
           {"calibrated", calibrated},
           {"numbers", numbers_json(material.sources, numbers)}};
@@ -214,8 +205,10 @@ std::string text_of(const Json& told) {
   return text;
 }
 
-/// Prints those whose name begins with a word; false where none does.
-bool print_materials(const scene::NamedMaterials& named, const std::string& word, Console& console) {
+/// Prints those whose name begins with a word, every number and where it comes from: all for an empty one.
+/// Where there is none, `fault` is.
+ExitCode explain_materials(const scene::NamedMaterials& named, const std::string& word,
+                           const std::string& fault, Console& console) {
   std::string text;
   const auto list_of = [&](const auto& all) {
     Json list = Json::array();
@@ -228,31 +221,25 @@ bool print_materials(const scene::NamedMaterials& named, const std::string& word
   };
   const auto materials = list_of(named.materials), contacts = list_of(named.contacts),
              decompositions = list_of(named.decompositions);
-  if (text.empty()) return false;
+  if (text.empty()) return console.refuse(fault);
   console.print_text(text);
   console.print_json({{"materials", materials}, {"contacts", contacts}, {"decompositions", decompositions}});
-  return true;
-}
-
-/// Prints the shipped materials whose name begins with a word, every number and where it comes from; all for
-/// an empty one.
-ExitCode explain_materials(const std::string& word, Console& console) {
-  if (print_materials(
-          {scene::shipped_materials(), scene::shipped_contacts(), scene::shipped_decompositions()}, word,
-          console))
-    return ExitCode::done;
-  return console.refuse(
-      fmt::format("explain --materials: found \"{}\", with which no shipped material or contact begins; "
-                  "allowed: the beginning of a name, such as comp-b",
-                  word));
+  return ExitCode::done;
 }
 
 }  // namespace
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
-  if (arguments.keys) return explain_keys(arguments.file.string(), console);
-  if (arguments.results) return explain_results(arguments.file.string(), console);
-  if (arguments.materials) return explain_materials(arguments.file.string(), console);
+  const std::string word = arguments.file.string();
+  if (arguments.keys) return explain_keys(word, console);
+  if (arguments.results) return explain_results(word, console);
+  if (arguments.materials)
+    return explain_materials(
+        {scene::shipped_materials(), scene::shipped_contacts(), scene::shipped_decompositions()}, word,
+        fmt::format("explain --materials: found \"{}\", with which no shipped material or contact begins; "
+                    "allowed: the beginning of a name, such as comp-b",
+                    word),
+        console);
   const Json schema = arguments.schema == "study"   ? study_schema()
                       : arguments.schema == "scene" ? scene_schema()
                                                     : references_schema();
@@ -261,12 +248,12 @@ ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   return ExitCode::done;
 }
 
-ExitCode explain_material_file(const std::filesystem::path& file, Console& console) {
-  const scene::NamedMaterials named = console.value_of(scene::read_material_file(file));
-  if (print_materials(named, {}, console)) return ExitCode::done;
-  return console.refuse(
+ExitCode explain_material_file(const path& file, Console& console) {
+  return explain_materials(
+      console.value_of(scene::read_material_file(file)), {},
       fmt::format("{}: found no material and no contact; allowed: tables [material.NAME] and [contact.NAME]",
-                  file.string()));
+                  file.string()),
+      console);
 }
 
 }  // namespace launchsafe::app

@@ -1,5 +1,5 @@
+#include "built_in_texts.hpp"
 #include "explain.hpp"
-#include "launchsafe/report/table.hpp"
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/chamber.hpp"
@@ -29,32 +29,24 @@ std::string list_of(const std::vector<std::string>& names) {
 }
 
 report::Table interval_table(const scene::Scene& scene) {
-  using scene::GridInterval;
-  const auto length = [](const char* heading, int digits) {
-    return report::Column{heading, heading, keys::significant(digits, keys::millimetre),
-                          "Of the interval or its cells."};
-  };
-  const auto edge = [](const char* name, const char* heading,
-                       std::vector<std::string> GridInterval::*member) {
-    return report::Quantity<GridInterval>({name, heading, keys::text(), "Bodies whose edge is there."},
-                                          member, list_of);
-  };
+  using scene::GridInterval, keys::millimetre, keys::significant;
+  const char* of_edge = "Bodies whose edge is there.";
   const report::Quantities<GridInterval> quantities{
-      {{"along", "along", keys::text(), "Direction."}, &GridInterval::along},
-      {length("from", 7), &GridInterval::from},
-      {length("to", 7), &GridInterval::to},
-      {{"cells", "cells", keys::count(), "Cells of the interval."}, &GridInterval::cells},
-      {length("smallest", 4), &GridInterval::shortest},
-      {length("largest", 4), &GridInterval::longest},
-      edge("edge_before", "edge before, of", &GridInterval::edge_before),
-      edge("edge_behind", "edge behind, of", &GridInterval::edge_behind)};
+      {"along", "along", keys::text(), "Direction.", &GridInterval::along},
+      {"from", "from", significant(7, millimetre), "Where it begins.", &GridInterval::from},
+      {"to", "to", significant(7, millimetre), "Where it ends.", &GridInterval::to},
+      {"cells", "cells", keys::count(), "Cells of the interval.", &GridInterval::cells},
+      {"smallest", "smallest", significant(4, millimetre), "Of its cells.", &GridInterval::shortest},
+      {"largest", "largest", significant(4, millimetre), "Likewise.", &GridInterval::longest},
+      {"edge_before", "edge before, of", keys::text(), of_edge, &GridInterval::edge_before, list_of},
+      {"edge_behind", "edge behind, of", keys::text(), of_edge, &GridInterval::edge_behind, list_of}};
   const auto [x, r] = scene::grid_intervals(scene);
   std::vector<GridInterval> rows = x;
   rows.insert(rows.end(), r.begin(), r.end());
-  report::Table table = report::table_of({}, quantities, rows);
+  std::vector<std::string> notes;
   if (scene.numerics.formulation == scene::Formulation::updated_lagrangian)
-    table.notes = {"The grid is even and need not run through edges of bodies."};
-  return table;
+    notes = {"The grid is even and need not run through edges of bodies."};
+  return report::table_of({}, quantities, rows, notes);
 }
 
 /// A body, or the whole grid, with its cells.
@@ -73,14 +65,12 @@ std::vector<BodyRow> bodies_of(const scene::Scene& scene) {
 
 report::Table body_table(const scene::Scene& scene) {
   const report::Quantities<BodyRow> quantities{
-      {{"body", "body", keys::text(), "The body."}, &BodyRow::name},
-      {{"cells_in_x", "cells in x", keys::count(), "Its cells along x."},
-       &BodyRow::cells,
-       &scene::CellRange::nx},
-      {{"in_r", "in r", keys::count(), "Its cells along r."}, &BodyRow::cells, &scene::CellRange::nr},
-      {{"cells", "cells", keys::count(), "Its cells."},
+      {"body", "body", keys::text(), "The body.", &BodyRow::name},
+      {"cells_in_x", "cells in x", keys::count(), "Along x.", &BodyRow::cells, &scene::CellRange::nx},
+      {"in_r", "in r", keys::count(), "Along r.", &BodyRow::cells, &scene::CellRange::nr},
+      {"cells", "cells", keys::count(), "Its cells.",
        [](const BodyRow& row) { return std::int64_t{row.cells.nx} * row.cells.nr; }},
-      {{"particles", "particles", keys::count(), "Its particles."}, &BodyRow::particles}};
+      {"particles", "particles", keys::count(), "Its particles.", &BodyRow::particles}};
   std::vector<BodyRow> rows = bodies_of(scene);
   rows.push_back({"whole grid", scene::cells_of(scene), scene::particle_count(scene)});
   return report::table_of({}, quantities, rows);
@@ -139,13 +129,6 @@ Json physics_json(const scene::Plan& plan) {
   return json;
 }
 
-Json interfaces_json(const scene::Scene& scene) {
-  Json list = Json::array();
-  for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
-    list.push_back({{"body", each.body}, {"condition", each.condition}, {"assumes", each.assumes}});
-  return list;
-}
-
 /// Before compression.
 Json snapshots_json(const scene::Scene& scene) {
   if (!scene.output.asks_for_snapshots()) return nullptr;
@@ -165,21 +148,16 @@ std::string rings_text(const scene::Load& load, const scene::Scene& shell) {
   if (rings.empty()) return {};
   constexpr std::size_t most_named = 3;
   const std::vector<run::AxialMode> modes = run::axial_modes(shell);
-  std::string text = "\nRings of the record\n  the shell swings along its axis at";
+  Json facts{{"higher", modes.size() > most_named}};
   for (std::size_t i = 0; i < std::min(modes.size(), most_named); ++i)
-    text += fmt::format("{}{}", i > 0 ? ", " : " ", kilohertz(modes[i].frequency));
-  text += modes.size() > most_named ? " and higher\n" : "\n";
+    facts["modes"].push_back(kilohertz(modes[i].frequency));
   for (const scene::Ring& ring : rings) {
     const run::AxialMode* mode = run::mode_near(ring, modes);
-    text += fmt::format(
-        "  a ring at {} with {:.2g} % of the peak is near {}\n", kilohertz(ring.frequency),
-        100.0 * ring.amplitude / scene::PressureHistory(load).stated_peak(),
-        mode == nullptr
-            ? "none of these modes"
-            : fmt::format("the mode at {}: the shell swings along, which heats the charge's bottom",
-                          kilohertz(mode->frequency)));
+    facts["rings"].push_back({{"at", kilohertz(ring.frequency)},
+                              {"share", ring.amplitude / scene::PressureHistory(load).stated_peak()},
+                              {"mode", mode != nullptr ? kilohertz(mode->frequency) : ""}});
   }
-  return text;
+  return told("rings.txt", facts);
 }
 
 Json rings_json(const scene::Load& load, const scene::Scene& shell) {
@@ -254,12 +232,15 @@ Json plausibility_json(const scene::Scene& scene) {
 Json scene_json(const scene::Scene& scene, double update_rate) {
   const scene::Plan plan = scene::make_plan(scene);
   const auto refusal = run::out_of_reach(scene, reach_here());
+  Json interfaces = Json::array();
+  for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
+    interfaces.push_back({{"body", each.body}, {"condition", each.condition}, {"assumes", each.assumes}});
   Json particles = Json::object();
   for (const scene::MaterialParticles& each : plan.by_material) particles[each.material] = each.particles;
   return {{"title", scene.title},
           {"load", load_json(scene)},
           {"rings_of_the_record", rings_json(scene.load, scene)},
-          {"interfaces", interfaces_json(scene)},
+          {"interfaces", interfaces},
           {"physics", physics_json(plan)},
           {"particles", particles},
           {"cells", plan.cells},

@@ -1,6 +1,5 @@
 #include "built_in_texts.hpp"
 #include "explain.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_status.hpp"
 #include "launchsafe/run/cost.hpp"
@@ -8,8 +7,6 @@
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace launchsafe::app {
 namespace {
@@ -31,38 +28,6 @@ report::Table run_table(const std::vector<ForecastRun>& runs) {
   return report::table_of({}, quantities, runs);
 }
 
-/// Few of them: those of a large study fill no terminal.
-std::string run_list(const Forecast& forecast) {
-  constexpr std::size_t most = 20;
-  const std::size_t shown = std::min(most, forecast.runs.size());
-  const auto first = forecast.runs.begin();
-  std::string text =
-      report::to_text(run_table({first, first + static_cast<std::ptrdiff_t>(shown)}), width_of_output());
-  if (shown < forecast.run_count)
-    text += fmt::format("and {} more; --json lists {}\n", forecast.run_count - shown, forecast.runs.size());
-  return text;
-}
-
-/// What the runs of a forecast add up to.
-struct Totals {
-  std::size_t stored = 0, refused = 0, to_run = 0;
-  double updates = 0;  ///< of particles, in the runs that are left
-};
-
-Totals totals_of(const Forecast& forecast) {
-  Totals totals;
-  for (const ForecastRun& run : forecast.runs) {
-    ++(run.refused ? totals.refused : run.stored || run.given_up ? totals.stored : totals.to_run);
-    if (!run.stored && !run.given_up)
-      totals.updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
-  }
-  for (std::size_t* count : {&totals.stored, &totals.refused, &totals.to_run})
-    *count = forecast.of_all(*count);
-  if (!forecast.runs.empty())
-    totals.updates *= static_cast<double>(forecast.run_count) / static_cast<double>(forecast.runs.size());
-  return totals;
-}
-
 /// More than fit into a core's own cache, and few enough to be made in a moment.
 constexpr std::int64_t most_particles = 50'000;
 
@@ -79,28 +44,34 @@ scene::Scene measurable(scene::Scene scene) {
 
 }  // namespace
 
-std::string forecast_text(const study::StudyFile& file, const Forecast& forecast,
-                          const std::filesystem::path& folder, std::optional<std::time_t> begin) {
+std::string forecast_text(const study::StudyFile& file, const Forecast& forecast, const path& folder,
+                          std::optional<std::time_t> begin) {
   const scene::Scene& scene = file.scene.scene;
   const bool closes = scene.surface.model == scene::GapModel::closing;
   const bool from_checkpoints = scene.surface.air_model == scene::AirModel::reservoir && !closes;
-  const Totals totals = totals_of(forecast);
   const auto megabytes = [](double bytes) { return fmt::format("{:.3g}", bytes / 1e6); };
+  // Those of a large study fill no terminal.
+  const auto listed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(20, forecast.runs.size()));
   Json facts = forecast_json(file, forecast);
   facts.update({{"scene", file.study.scene},
                 {"folder", folder.string()},
                 {"judges_gaps", file.study.kind.judges_gaps},
                 {"closes", closes},
                 {"combustion", from_checkpoints ? scene::time_text(scene.combustion.duration) : ""},
-                {"some_left_out", totals.stored + totals.refused > 0},
+                {"some_left_out", facts["stored"] != 0 || facts["refused"] != 0},
                 {"memory_MB", megabytes(forecast.memory)},
                 {"disk_MB", forecast.disk > 0 ? megabytes(forecast.disk) : ""},
                 {"time", report::duration(forecast.time)},
                 {"rate", fmt::format("{:.3g}", forecast.update_rate)},
-                {"list", run_list(forecast)}});
-  facts[totals.refused > 0 && totals.to_run == 0 ? "may_not_run"
-        : totals.stored == forecast.run_count    ? "all_stored"
-                                                 : "takes_time"] = true;
+                {"list", report::to_text(run_table({forecast.runs.begin(), forecast.runs.begin() + listed}),
+                                         width_of_output())}});
+  if (static_cast<std::size_t>(listed) < forecast.run_count)
+    facts["list"].get_ref<std::string&>() +=
+        fmt::format("and {} more; --json lists {}\n", forecast.run_count - static_cast<std::size_t>(listed),
+                    forecast.runs.size());
+  facts[facts["refused"] != 0 && facts["to_run"] == 0 ? "may_not_run"
+        : facts["stored"] == forecast.run_count       ? "all_stored"
+                                                      : "takes_time"] = true;
   if (forecast.confirmation_time > 0.0)
     facts["confirmation_time"] = report::duration(forecast.confirmation_time);
   if (begin && forecast.time > 0)
@@ -111,19 +82,27 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
 }
 
 Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
-  const Totals totals = totals_of(forecast);
+  std::size_t stored = 0, refused = 0, to_run = 0;
+  double updates = 0;  // of particles, in the runs that are left
+  for (const ForecastRun& run : forecast.runs) {
+    ++(run.refused ? refused : run.stored || run.given_up ? stored : to_run);
+    if (!run.stored && !run.given_up)
+      updates += static_cast<double>(run.particles) * static_cast<double>(run.steps);
+  }
+  if (!forecast.runs.empty())
+    updates *= static_cast<double>(forecast.run_count) / static_cast<double>(forecast.runs.size());
   return {{"title", file.study.title},
           {"kind", file.study.kind.name},
           {"cases", forecast.cases},
           {"mechanical_runs", forecast.run_count},
           {"estimated_from_runs", forecast.runs.size()},
-          {"stored", totals.stored},
-          {"to_run", totals.to_run},
-          {"refused", totals.refused},
+          {"stored", forecast.of_all(stored)},
+          {"to_run", forecast.of_all(to_run)},
+          {"refused", forecast.of_all(refused)},
           {"coupled_runs_at_most", forecast.confirmations},
           {"gaps", file.study.gaps.size()},
           {"jobs", forecast.jobs},
-          {"particle_updates", totals.updates},
+          {"particle_updates", updates},
           {"updates_per_second", forecast.update_rate},
           {"rate_learned_from_runs", forecast.learned_from},
           {"memory_bytes", forecast.memory},

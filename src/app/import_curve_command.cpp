@@ -1,7 +1,7 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
+#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/report/plot.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
@@ -14,12 +14,12 @@ namespace launchsafe::app {
 namespace {
 
 struct ImportCurveArguments {
-  std::filesystem::path record;                 ///< CSV file of a gauge
-  std::optional<std::filesystem::path> output;  ///< CSV file for the curve; none: nothing is written
-  std::string pressure;                         ///< name of the column; empty: the only one
-  std::optional<double> offset, trigger;        ///< Pa
-  std::optional<std::filesystem::path> scene;   ///< of a shell whose modes are told beside rings
-  std::string command;                          ///< the whole command, to be repeated in a shell
+  path record;                            ///< CSV file of a gauge
+  std::optional<path> output;             ///< CSV file for the curve; none: nothing is written
+  std::string pressure;                   ///< name of the column; empty: the only one
+  std::optional<double> offset, trigger;  ///< Pa
+  std::optional<path> scene;              ///< of a shell whose modes are told beside rings
+  std::string command;                    ///< the whole command, to be repeated in a shell
 };
 
 using scene::pressure_text, scene::time_text;
@@ -31,27 +31,29 @@ struct Import {
   scene::Load load;  ///< the curve as a load
 };
 
-/// What was done, a line each.
-std::string what_was_done(const ImportCurveArguments& arguments, const Import& import) {
+/// What was done, a line each. `sha256`: of the record.
+std::string what_was_done(const ImportCurveArguments& arguments, const Import& import,
+                          const std::string& sha256) {
   const scene::CleanedRecord& cleaned = import.cleaned;
-  const scene::PressureCurve& record = import.record;
-  const std::string quiet = cleaned.quiet_points == 0
-                                ? std::string("as given; no quiet points to see noise in")
-                                : fmt::format("{} {} points before the rise; noise {} (standard deviation)",
-                                              arguments.offset ? "as given, and that of" : "median of",
-                                              cleaned.quiet_points, pressure_text(cleaned.noise));
-  std::string text = fmt::format(
-      "record   {} points from {} to {}\noffset   {}, {}\ntrigger  {} above it is passed at {}, which is 0 "
-      "now; {} points "
-      "before it are left out\npeak     {} at {}\nend      {} at {}\n",
-      record.time.size(), time_text(record.time.front()), time_text(record.time.back()),
-      pressure_text(cleaned.offset), quiet, pressure_text(cleaned.trigger), time_text(cleaned.start),
-      cleaned.points_before, pressure_text(cleaned.peak), time_text(cleaned.peak_time),
-      pressure_text(cleaned.curve.pressure.back()), time_text(cleaned.curve.time.back()));
-  if (cleaned.points_below_zero > 0)
-    text += fmt::format("below 0  {} points, {} at most, set to 0\n", cleaned.points_below_zero,
-                        pressure_text(-cleaned.lowest));
-  return text;
+  const scene::PressureCurve &record = import.record, &curve = cleaned.curve;
+  return told("import_curve.txt", {{"record", arguments.record.filename().string()},
+                                   {"sha256", sha256},
+                                   {"points", record.time.size()},
+                                   {"from", time_text(record.time.front())},
+                                   {"to", time_text(record.time.back())},
+                                   {"offset", pressure_text(cleaned.offset)},
+                                   {"given", arguments.offset.has_value()},
+                                   {"quiet", cleaned.quiet_points},
+                                   {"noise", pressure_text(cleaned.noise)},
+                                   {"trigger", pressure_text(cleaned.trigger)},
+                                   {"start", time_text(cleaned.start)},
+                                   {"before", cleaned.points_before},
+                                   {"peak", pressure_text(cleaned.peak)},
+                                   {"peak_time", time_text(cleaned.peak_time)},
+                                   {"end", pressure_text(curve.pressure.back())},
+                                   {"end_time", time_text(curve.time.back())},
+                                   {"below", cleaned.points_below_zero},
+                                   {"lowest", pressure_text(-cleaned.lowest)}});
 }
 
 std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
@@ -98,13 +100,13 @@ Json json_of(const Import& import) {
 /// The curve and its picture, beside each other. A curve is whole without its picture.
 void write(const ImportCurveArguments& arguments, const Import& import, const std::string& text,
            Console& console) {
-  const std::filesystem::path& file = *arguments.output;
+  const path& file = *arguments.output;
   if (file.extension() != ".csv")
     throw Ended{console.refuse(fmt::format(
         "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()))};
-  const std::filesystem::path folder = store::folder_of(file);
+  const path folder = store::folder_of(file);
   const std::string csv = scene::csv_of(import.cleaned.curve, text);
-  std::filesystem::path picture = file;
+  path picture = file;
   picture.replace_extension(".svg");
   const auto svg = report::to_svg(plot_of(arguments, import));
   NamedTexts texts{{file.filename(), csv}};
@@ -126,9 +128,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   import.load = scene::load_of_curve(import.cleaned.curve);
   std::optional<scene::SceneFile> shell;
   if (arguments.scene) shell = console.value_of(scene::read_scene(*arguments.scene));
-  const std::string done =
-      fmt::format("{}, SHA-256 {}\n", arguments.record.filename().string(), store::sha256(text)) +
-      what_was_done(arguments, import);
+  const std::string done = what_was_done(arguments, import, store::sha256(text));
   console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
   if (shell) console.print_text(rings_text(import.load, shell->scene));
   Json json = json_of(import);
@@ -144,24 +144,14 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
 }  // namespace
 
 void add_import_curve(CLI::App& app, CommandLine& line) {
-  auto [command, import] = add_command<ImportCurveArguments>(
-      app, line, "import-curve", "Clean the record of a pressure gauge: offset, trigger, units, noise");
-  import.command = line.text;
-  add_required(command, "record", import.record, "RECORD.csv",
-               "Record of a gauge, with a header that names quantities and units");
-  add_place(command, "-o,--output", import.output, "FILE.csv", "file",
-            "File for the curve, with a picture beside it; nothing is written unless given");
-  add_optional(command, "--pressure", import.pressure, "COLUMN",
-               "Name of the pressure's column, where there are several");
-  add_amount(command, "--offset", import.offset, parse_scene_quantity<scene::Dimension::pressure>,
-             "a pressure such as \"0.3 MPa\"", "PRESSURE",
-             "What the gauge shows before the launch; the median of the points before the rise unless given");
-  add_amount(
-      command, "--trigger", import.trigger, parse_positive<scene::Dimension::pressure>,
-      "a pressure such as \"5 MPa\"", "PRESSURE",
-      "Pressure at which the launch begins; 1 % of the peak, or five deviations of noise, unless given");
-  add_optional(command, "--scene", import.scene, "SCENE.toml",
-               "Scene of a shell: says which ring of the record is near a frequency at which it swings");
+  using scene::Dimension;
+  auto [command, import] = add_command<ImportCurveArguments>(app, line, "import-curve");
+  add_required(command, "record", import.record);
+  add(command, "-o,--output", import.output);
+  add(command, "--pressure", import.pressure);
+  add_amount(command, "--offset", import.offset, parse_scene_quantity<Dimension::pressure>);
+  add_amount(command, "--trigger", import.trigger, parse_positive<Dimension::pressure>);
+  add(command, "--scene", import.scene);
 }
 
 }  // namespace launchsafe::app

@@ -10,16 +10,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace launchsafe::app {
 namespace {
 
 struct InitArguments {
-  std::filesystem::path output;                ///< folder for the files
-  double calibre = 0.155;                      ///< m
-  std::optional<std::filesystem::path> curve;  ///< measured pressure; none: the analytic shape
-  std::optional<double> peak;                  ///< Pa, of the analytic shape
+  path output;                 ///< folder for the files
+  double calibre = 0.155;      ///< m
+  std::optional<path> curve;   ///< measured pressure; none: the analytic shape
+  std::optional<double> peak;  ///< Pa, of the analytic shape
 };
 
 constexpr double published_calibre = 0.155;  // m
@@ -75,7 +73,7 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   write_where_absent(arguments.output, files, console);
   const std::vector<std::string> written = places_of(arguments.output, files);
   console.print_text(fmt::format("wrote {}\n", fmt::join(written, "\nwrote ")));
-  const std::filesystem::path study = arguments.output / "critical_gap.toml";
+  const path study = arguments.output / "critical_gap.toml";
   // A fault of the files just written is the program's, and is told before anybody computes with them.
   if (const auto read = kinds::read_study(study); !read)
     return console.fail("internal error: what init wrote cannot be read: " + read.error().message());
@@ -90,23 +88,16 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
 }  // namespace
 
 void add_init(CLI::App& app, CommandLine& line) {
-  auto [command, init] = add_command<InitArguments>(
-      app, line, "init", "Write a scene and a study of a shell of your own to start from");
+  auto [command, init] = add_command<InitArguments>(app, line, "init");
   const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
     constexpr double smallest = 0.02, largest = 0.5;
     calibre = parse_scene_quantity<scene::Dimension::length>(text).value_or(0.0);
     return calibre >= smallest && calibre <= largest;
   };
-  add_read(command, "--calibre", read_calibre, "20 mm to 50 cm, such as \"105 mm\"", "LENGTH",
-           "Calibre, such as \"105 mm\"")
-      ->required();
-  CLI::Option* curve = add_optional(command, "--curve", init.curve, "FILE.csv",
-                                    "Measured pressure that scenes take, such as import-curve writes");
-  add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>,
-             "a pressure such as 380MPa", "PRESSURE",
-             "Peak chamber pressure, where there is no measured curve")
-      ->excludes(curve);
-  add_folder(command, init.output, "Folder for the files")->required();
+  add_read(command, "--calibre", read_calibre)->required();
+  CLI::Option* curve = add(command, "--curve", init.curve);
+  add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>)->excludes(curve);
+  add_required(command, "-o,--output", init.output);
 }
 
 }  // namespace launchsafe::app

@@ -5,9 +5,8 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <cmath>
+#include <regex>
 #include <set>
 
 namespace launchsafe::app {
@@ -18,21 +17,19 @@ using scene::KeyDescription, scene::KeyKind, scene::Dimension;
 /// A decimal number as scenes are written.
 constexpr const char* number_pattern = R"([+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?)";
 
-std::string literal(const std::string& text) {
-  std::string pattern;
-  for (const char letter : text) {
-    if (std::string_view("^$.()/*+?|[]{}\\").find(letter) != std::string_view::npos) pattern += '\\';
-    pattern += letter;
-  }
-  return pattern;
+/// "(cm|mm|m)": any of these words.
+std::string any_of(std::vector<std::string> words) {
+  static const std::regex special(R"([\^$.()/*+?|\[\]{}\\])");
+  for (std::string& word : words) word = std::regex_replace(word, special, R"(\$&)");
+  return fmt::format("({})", fmt::join(words, "|"));
 }
 
-/// "(cm|mm|m)": any unit of a dimension, or nothing where it has none.
-std::string unit_pattern(Dimension dimension) {
-  std::vector<std::string> units = scene::units_of(dimension);
-  if (units.empty()) return {};
-  for (std::string& unit : units) unit = literal(unit);
-  return fmt::format("({})", fmt::join(units, "|"));
+/// A number of several, which may leave the unit to the last one, and the last.
+std::pair<std::string, std::string> number_patterns(Dimension dimension) {
+  const std::string number = fmt::format("{}\\s*", number_pattern);
+  const std::vector<std::string> units = scene::units_of(dimension);
+  if (units.empty()) return {number_pattern, number};
+  return {number + any_of(units) + "?", number + any_of(units)};
 }
 
 Json text_of_pattern(const std::string& pattern) {
@@ -40,8 +37,7 @@ Json text_of_pattern(const std::string& pattern) {
 }
 
 Json number_schema(const KeyDescription& key) {
-  if (const std::string unit = unit_pattern(key.dimension); !unit.empty())
-    return text_of_pattern(fmt::format("{}\\s*{}", number_pattern, unit));
+  if (!scene::units_of(key.dimension).empty()) return text_of_pattern(number_patterns(key.dimension).second);
   Json schema{{"type", key.dimension == Dimension::count ? "integer" : "number"}};
   if (std::isfinite(key.limits.lowest)) {
     schema["minimum"] = key.limits.lowest;
@@ -54,35 +50,19 @@ Json number_schema(const KeyDescription& key) {
   return schema;
 }
 
-Json range_schema(const KeyDescription& key) {
-  const std::string unit = unit_pattern(key.dimension);
-  const std::string first = unit.empty() ? number_pattern : fmt::format("{}\\s*{}?", number_pattern, unit);
-  return text_of_pattern(fmt::format("{}\\s*to\\s*{}\\s*{}", first, number_pattern, unit));
-}
-
 /// "0, 1.5, 2 cm", or an array of numbers each with its unit.
 Json list_schema(const KeyDescription& key) {
-  const std::string unit = unit_pattern(key.dimension);
-  const std::string first = unit.empty() ? number_pattern : fmt::format("{}\\s*{}?", number_pattern, unit);
   Json array{{"type", "array"}, {"items", number_schema(key)}};
   if (!key.may_be_empty) array["minItems"] = 1;
   if (key.list_length > 0) array["minItems"] = array["maxItems"] = key.list_length;
-  const std::string text = fmt::format("({}\\s*,\\s*)*{}\\s*{}", first, number_pattern, unit);
-  return {{"anyOf", Json::array({text_of_pattern(text), array})}};
+  const auto [first, last] = number_patterns(key.dimension);
+  return {{"anyOf", Json::array({text_of_pattern(fmt::format("({}\\s*,\\s*)*{}", first, last)), array})}};
 }
 
 Json word_schema(const KeyDescription& key) {
   Json words = key.words;
   for (const keys::FormerWord& each : key.former_words) words.push_back(each.former);
   return {{"type", "string"}, {"enum", words}};
-}
-
-/// "a, b", each one of the words.
-Json words_schema(const KeyDescription& key) {
-  std::vector<std::string> words = key.words;
-  for (std::string& word : words) word = literal(word);
-  const std::string one = fmt::format("({})", fmt::join(words, "|"));
-  return text_of_pattern(fmt::format("({0}(\\s*,\\s*{0})*)?", one));
 }
 
 Json type_of(const KeyDescription& key) {
@@ -94,13 +74,15 @@ Json type_of(const KeyDescription& key) {
     case KeyKind::word:
       return word_schema(key);
     case KeyKind::words:
-      return words_schema(key);
+      // "a, b", each one of the words.
+      return text_of_pattern(fmt::format("({0}(\\s*,\\s*{0})*)?", any_of(key.words)));
     case KeyKind::text:
       return {{"type", "string"}};
     case KeyKind::list:
       return list_schema(key);
     case KeyKind::range:
-      return range_schema(key);
+      const auto [first, last] = number_patterns(key.dimension);
+      return text_of_pattern(fmt::format("{}\\s*to\\s*{}", first, last));
   }
   return {};
 }

@@ -18,13 +18,6 @@ constexpr const char* unknown_error = "internal error: an exception of an unknow
 
 #if LAUNCHSAFE_CHOOSES_PROGRAM && defined(__x86_64__)
 
-/// bin/launchsafe has its faster forms in lib/launchsafe/ARCHITECTURE/launchsafe.
-std::filesystem::path program_for(std::string_view architecture) {
-  std::error_code unknown;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  return self.parent_path().parent_path() / "lib" / "launchsafe" / architecture / "launchsafe";
-}
-
 /// An installation holds the same program for several kinds of processor. Where one for wider vectors is
 /// installed that this processor runs, that one takes over and this does not return. Which one computes is in
 /// `launchsafe --version` and in every manifest. LAUNCHSAFE_ARCHITECTURE in the environment, one of x86-64,
@@ -33,11 +26,15 @@ void become_faster_program(char** arguments) {
   const char* given = std::getenv("LAUNCHSAFE_ARCHITECTURE");
   const std::string_view most = given ? given : "";
   bool allowed = most.empty();
+  std::error_code unknown;
+  const path self = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  // bin/launchsafe has its faster forms in lib/launchsafe/ARCHITECTURE/launchsafe.
+  const path forms = self.parent_path().parent_path() / "lib" / "launchsafe";
   for (const auto& [name, runs_here] : {std::pair{"x86-64-v4", __builtin_cpu_supports("x86-64-v4") != 0},
                                         std::pair{"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0}}) {
     allowed = allowed || most == name;
     // What is missing, or no program, is passed over: this one does the same, more slowly.
-    if (allowed && runs_here) ::execv(program_for(name).c_str(), arguments);
+    if (allowed && runs_here) ::execv((forms / name / "launchsafe").c_str(), arguments);
   }
 }
 
@@ -59,28 +56,17 @@ void stop_on(int signal) {
   sigaction(signal, &action, nullptr);
 }
 
-/// `nohup` has SIGHUP ignored, and means it.
-bool is_ignored(int signal) {
-  struct sigaction present {};
-  return sigaction(signal, nullptr, &present) == 0 && present.sa_handler == SIG_IGN;
-}
-
 /// From here on the first SIGINT, SIGTERM or SIGHUP sets the flag of `stop_requested`, and a second one ends
 /// the program at once (files are whole or not there, so that is safe). Writing to a closed pipe or past a
 /// file-size limit becomes an error of the write instead of the program's end.
 void catch_signals() {
   stop_on(SIGINT);
   stop_on(SIGTERM);
-  if (!is_ignored(SIGHUP)) stop_on(SIGHUP);
+  // `nohup` has it ignored, and means it.
+  struct sigaction present {};
+  if (sigaction(SIGHUP, nullptr, &present) != 0 || present.sa_handler != SIG_IGN) stop_on(SIGHUP);
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-}
-
-/// "launchsafe run 1": what the JSON object of a command is, and its version, raised when members change
-/// their meaning or go.
-std::string format_of(const CommandLine& line) {
-  constexpr int version = 1;
-  return fmt::format("launchsafe {}{}{}", line.command, line.command.empty() ? "" : " ", version);
 }
 
 /// What needs less: a run is large for its cells, a study for its cases.
@@ -140,7 +126,11 @@ int main(int argument_count, char** arguments) {
   catch_signals();
   const CommandLine line = parse_command_line(argument_count, arguments);
   Console console(line.quiet, line.json);
-  console.print_json({{"format", format_of(line)}});
+  // "launchsafe run 1": what the JSON object of a command is, and its version, raised when members change
+  // their meaning or go.
+  constexpr int version = 1;
+  console.print_json(
+      {{"format", fmt::format("launchsafe {}{}{}", line.command, line.command.empty() ? "" : " ", version)}});
   const ExitCode code = perform_request(line, console);
   return static_cast<int>(console.finish(code));
 }

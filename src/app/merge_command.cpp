@@ -8,19 +8,12 @@
 namespace launchsafe::app {
 namespace {
 
-struct MergeArguments {
-  std::filesystem::path study;
-  std::filesystem::path output;                ///< folder of cases, tables and report
-  std::vector<std::filesystem::path> folders;  ///< of shards, to be copied from
-  std::optional<double> tolerance;             ///< K, as of StudyArguments
-  int jobs = 0;         ///< threads that judge gaps; 0: as many as there are processors
-  bool update = false;  ///< the folder may hold the results of an earlier study
-  std::string command;  ///< the whole command, to be repeated in a shell
+struct MergeArguments : StudyArguments {
+  std::vector<path> folders;  ///< of shards, to be copied from
 };
 
-void import_folders(const std::vector<std::filesystem::path>& folders, StudySession& session,
-                    Console& console) {
-  for (const std::filesystem::path& folder : folders) {
+void import_folders(const std::vector<path>& folders, StudySession& session, Console& console) {
+  for (const path& folder : folders) {
     const auto imported = session.store().import_from(folder);
     session.print_remarks();
     if (!imported) {
@@ -67,15 +60,7 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   options.stop = &stop_requested();
   options.compute = false;
-  StudySession session({arguments.study,
-                        arguments.output,
-                        kinds::kind_of(file.study),
-                        arguments.update,
-                        {},
-                        arguments.command,
-                        study_manifest(file, options.jobs)},
-                       console);
-  session.open();
+  StudySession session(arguments, file, options.jobs, console);
   import_folders(arguments.folders, session, console);
   options.store = &session.store();
   constexpr double any_rate = 1.0;
@@ -83,25 +68,22 @@ ExitCode perform(const MergeArguments& arguments, Console& console) {
   if (const auto missing = missing_runs(forecast); !missing.empty())
     return refuse_without(
         missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
-  const kinds::StudyOutcome result = session.run(file, options);
+  const kinds::StudyOutcome result = session.run(options);
   if (const auto missing = missing_runs(result); !missing.empty())
     return session.end(refuse_without(missing, fmt::format("{} runs", missing.size()), console));
-  return session.conclude(result, options.shard);
+  return session.conclude(result);
 }
 
 }  // namespace
 
 void add_merge(CLI::App& app, CommandLine& line) {
-  auto [command, merge] = add_command<MergeArguments>(
-      app, line, "merge", "Make one report of the shards of a study; runs nothing");
-  merge.command = line.text;
-  add_required(command, "study", merge.study, "STUDY.toml", "Study file");
-  add_folder(command, merge.output, "Folder for cases, tables and report")->required();
-  add_optional(command, "folder", merge.folders, "FOLDER...",
-               "Folders of shards; none where they all used DIR");
-  add_update(command, merge.update);
-  add_tolerance(command, merge.tolerance);
-  add_jobs(command, merge.jobs, "Threads that judge gaps; as many as there are processors unless given");
+  auto [command, merge] = add_command<MergeArguments>(app, line, "merge");
+  add_required(command, "study", merge.study);
+  add_required(command, "-o,--output", merge.output);
+  add(command, "folder", merge.folders);
+  add(command, "--update", merge.update);
+  add_amount(command, "--tolerance", merge.tolerance, parse_temperature_difference);
+  add_jobs(command, merge.jobs);
 }
 
 }  // namespace launchsafe::app

@@ -14,7 +14,7 @@ namespace {
 
 /// Why a file with this content may not be written there: a link, or something with another content. A file
 /// that holds the content already is none.
-std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, std::string_view content) {
+std::optional<std::string> obstacle_to_file(const path& file, std::string_view content) {
   std::error_code unknown;  // a name that is too long, say: reading it tells
   if (std::filesystem::is_symlink(file, unknown))
     return fmt::format("{} is a link, and nothing is written through one; move it away", file.string());
@@ -27,32 +27,6 @@ std::optional<std::string> obstacle_to_file(const std::filesystem::path& file, s
       file.string());
 }
 
-/// The study file's values; empty if the file has gone since it was read.
-std::string values_of(const std::string& path) {
-  const auto text = scene::read_text_file(path);
-  if (!text) return {};
-  const auto table = scene::parse_toml(*text, path);
-  if (!table) return {};
-  std::ostringstream values;
-  values << *table;
-  return values.str();
-}
-
-/// Files that a study rests on: with another one its report is no longer true.
-std::string records_of(const study::StudyFile& file) {
-  if (file.records.empty()) return {};
-  return fmt::format("\n\n# SHA-256 of the files that it rests on\n{}\n", fmt::join(file.records, "\n"));
-}
-
-std::string scenes_of_cases(const study::StudyFile& file) {
-  if (!file.study.kind.own_scenes) return {};
-  std::string text;
-  for (const study::StudyCase& each : file.cases) text += scene::to_toml(each.scene.scene);
-  return "\n\n# SHA-256 of the scenes of all cases\n" + store::sha256(text) + "\n";
-}
-
-using std::filesystem::path;
-
 /// In alphabetical order; none where there is no folder.
 std::vector<std::string> names_in(const path& folder) {
   std::error_code failed;
@@ -61,7 +35,7 @@ std::vector<std::string> names_in(const path& folder) {
 
 }  // namespace
 
-std::optional<std::string> prepare_output_folder(const std::filesystem::path& folder) {
+std::optional<std::string> prepare_output_folder(const path& folder) {
   std::error_code error, unknown;  // a name that is too long, say
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder, unknown)) {
@@ -74,7 +48,7 @@ std::optional<std::string> prepare_output_folder(const std::filesystem::path& fo
   return std::nullopt;
 }
 
-void write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console) {
+void write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
   if (const auto obstacle = prepare_output_folder(folder)) throw Ended{console.refuse(*obstacle)};
   for (const auto& [name, text] : texts)
     if (const auto obstacle = obstacle_to_file(folder / name, text)) throw Ended{console.refuse(*obstacle)};
@@ -85,17 +59,27 @@ void write_where_absent(const std::filesystem::path& folder, const NamedTexts& t
   }
 }
 
-std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts) {
+std::vector<std::string> places_of(const path& folder, const NamedTexts& texts) {
   std::vector<std::string> places;
   for (const report::TextFile& each : texts) places.push_back((folder / each.name).string());
   return places;
 }
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {
-  return store::make_manifest(
-      fmt::format("# model version {}\n{}\n\n# scene\n{}{}{}", run::model_version, values_of(file.file),
-                  scene::to_toml(file.scene.scene), records_of(file), scenes_of_cases(file)),
-      jobs);
+  std::ostringstream values;  // of the study file; none if it has gone since it was read
+  if (const auto text = scene::read_text_file(file.file))
+    if (const auto table = scene::parse_toml(*text, file.file)) values << *table;
+  std::string input = fmt::format("# model version {}\n{}\n\n# scene\n{}", run::model_version, values.str(),
+                                  scene::to_toml(file.scene.scene));
+  // With another one its report is no longer true.
+  if (!file.records.empty())
+    input += fmt::format("\n\n# SHA-256 of the files that it rests on\n{}\n", fmt::join(file.records, "\n"));
+  if (file.study.kind.own_scenes) {
+    std::string scenes;
+    for (const study::StudyCase& each : file.cases) scenes += scene::to_toml(each.scene.scene);
+    input += "\n\n# SHA-256 of the scenes of all cases\n" + store::sha256(scenes) + "\n";
+  }
+  return store::make_manifest(input, jobs);
 }
 
 bool same_study(const store::Manifest& one, const store::Manifest& other) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/report/report.hpp"
 #include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/study_file.hpp"
 
@@ -11,16 +10,16 @@ namespace launchsafe::app {
 
 /// Makes the folder where it does not exist. A message when it cannot be made or written to, so that a run
 /// finds out before it computes rather than after.
-std::optional<std::string> prepare_output_folder(const std::filesystem::path& folder);
+std::optional<std::string> prepare_output_folder(const path& folder);
 
 using NamedTexts = std::vector<report::TextFile>;
 
 /// Where files of these names lie in a folder, as the user named it.
-std::vector<std::string> places_of(const std::filesystem::path& folder, const NamedTexts& texts);
+std::vector<std::string> places_of(const path& folder, const NamedTexts& texts);
 
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
 /// written, which ends the command.
-void write_where_absent(const std::filesystem::path& folder, const NamedTexts& texts, Console& console);
+void write_where_absent(const path& folder, const NamedTexts& texts, Console& console);
 
 using store::StudyRecord;
 
@@ -32,21 +31,20 @@ store::Manifest study_manifest(const study::StudyFile& file, int jobs);
 bool same_study(const store::Manifest& one, const store::Manifest& other);
 
 /// Whether the folder holds cases that a study stored.
-bool holds_store(const std::filesystem::path& folder);
+bool holds_store(const path& folder);
 
 /// Why the results of a study may not go into the folder: it holds those of a different study and `update` is
 /// not set, or files of somebody else under names that the report needs. Nothing is changed.
-std::optional<std::string> obstacle_in_folder(const std::filesystem::path& folder, const kinds::Kind& kind,
+std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
                                               const store::Manifest& manifest, bool update);
 
 /// Removes what killed processes left of report files that they were writing; while no other process is at
 /// work in the folder.
-void remove_leftovers(const std::filesystem::path& folder);
+void remove_leftovers(const path& folder);
 
 /// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study to
 /// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
 /// Errors: conflict, write_failed, unreadable.
-store::Result<std::filesystem::path> take_folder(const std::filesystem::path& folder,
-                                                 const StudyRecord& asked);
+store::Result<path> take_folder(const path& folder, const StudyRecord& asked);
 
 }  // namespace launchsafe::app

@@ -6,32 +6,26 @@
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
 
+#include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <sstream>
+#include <set>
 
 namespace launchsafe::app {
 namespace {
 
 struct PlotArguments {
-  std::filesystem::path file;                       ///< of a case
-  std::optional<std::filesystem::path> output;      ///< folder; none: CASE_pictures beside the file
-  std::optional<std::string> what;                  ///< words of kinds of pictures; none: all with data
-  std::optional<std::string> times;                 ///< with units, of fields and profiles
-  std::optional<std::filesystem::path> references;  ///< file of published rows, of histories and profiles
-  bool tables = false;                              ///< CSV files of numbers instead
+  path file;                         ///< of a case
+  std::optional<path> output;        ///< folder; none: CASE_pictures beside the file
+  std::optional<std::string> what;   ///< words of kinds of pictures; none: all with data
+  std::optional<std::string> times;  ///< with units, of fields and profiles
+  std::optional<path> references;    ///< file of published rows, of histories and profiles
+  bool tables = false;               ///< CSV files of numbers instead
 };
 
 using report::CasePicture;
 using report::PictureKind;
-
-/// The words of a list between commas or blanks.
-std::vector<std::string> words_of(std::string list) {
-  std::ranges::replace(list, ',', ' ');
-  std::istringstream words(list);
-  return {std::istream_iterator<std::string>(words), {}};
-}
 
 /// What a command draws, and why it leaves out the rest.
 struct Selection {
@@ -43,28 +37,33 @@ struct Selection {
   }
 };
 
-/// The words of kinds that a user named, each of which must be one.
-scene::Expected<std::vector<std::string>> named_kinds(const std::string& list) {
-  std::vector<std::string> known;
-  for (const PictureKind& kind : report::picture_kinds()) known.emplace_back(kind.word);
-  const auto fault = [&](const std::string& found) {
-    return scene::error_at({}, "--what", fmt::format("\"{}\"", found), scene::quoted_list(known),
-                           scene::nearest_of(found, known));
-  };
-  std::vector<std::string> words = words_of(list);
-  if (words.empty()) return fault(list);
+std::vector<std::string> words_of_kinds() {
+  std::vector<std::string> words;
+  for (const PictureKind& kind : report::picture_kinds()) words.emplace_back(kind.word);
+  return words;
+}
+
+/// The words of kinds that a user named, between commas or blanks; each must be one.
+scene::Expected<std::set<std::string>> named_kinds(const std::string& list) {
+  const std::vector<std::string> known = words_of_kinds();
+  std::set<std::string> words;
+  boost::algorithm::split(words, list, boost::algorithm::is_any_of(", \t\n"),
+                          boost::algorithm::token_compress_on);
+  if (words.size() > 1) words.erase("");
   for (const std::string& word : words)
-    if (std::ranges::find(known, word) == known.end()) return fault(word);
+    if (std::ranges::find(known, word) == known.end())
+      return scene::error_at({}, "--what", fmt::format("\"{}\"", word.empty() ? list : word),
+                             scene::quoted_list(known), scene::nearest_of(word, known));
   return words;
 }
 
 /// Of these kinds, or of all where none is named, what the case has data for. A kind that is named must have
 /// some.
-scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vector<std::string>& named,
+scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::set<std::string>& named,
                                   bool as_tables) {
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
-    if (!named.empty() && std::ranges::find(named, kind.word) == named.end()) continue;
+    if (!named.empty() && !named.contains(kind.word)) continue;
     const bool lacks_tables = as_tables && !kind.tables;
     const std::string why = lacks_tables ? "there are pictures of it alone" : kind.lacks(drawn);
     if (why.empty()) {
@@ -81,80 +80,56 @@ scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::vec
   return selection;
 }
 
-std::optional<scene::InputError> fault_in_time(const report::DrawnCase& drawn, const Selection& selection,
-                                               double time) {
-  const std::string found = scene::time_text(time);
-  if (selection.has("fields")) {
-    const auto snapshots = report::shown_snapshots(drawn);
-    const bool known =
-        std::ranges::any_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); });
-    if (known) return std::nullopt;
-    std::vector<std::string> times;
-    for (const auto& each : snapshots) times.push_back(scene::time_text(each.time()));
-    return scene::error_at({}, "--times", found + ", of which the case has no snapshot",
-                           fmt::format("{}; any time with --what profile", fmt::join(times, ", ")));
-  }
-  const double end = drawn.result.mechanics.end_time;
-  if (time >= 0.0 && time <= end * (1.0 + 1e-9)) return std::nullopt;
-  return scene::error_at({}, "--times", found, "times until the end of the run at " + scene::time_text(end));
-}
-
 /// The times that a user named, each of which must be one that can be drawn.
 scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
                                                   const std::string& text) {
+  const auto fault = [](const std::string& found, const std::string& allowed) {
+    return scene::error_at({}, "--times", found, allowed);
+  };
   const auto times = scene::parse_list(text, scene::Dimension::time);
   if (!times)
     return scene::error_at({}, "--times", times.error().found, times.error().allowed,
                            times.error().suggestion);
-  if (!selection.has("fields") && !selection.has("profile"))
-    return scene::error_at({}, "--times", text, "times where fields or profile are drawn");
-  for (const double time : *times)
-    if (auto fault = fault_in_time(drawn, selection, time)) return *fault;
+  const bool of_fields = selection.has("fields");
+  if (!of_fields && !selection.has("profile")) return fault(text, "times where fields or profile are drawn");
+  const auto snapshots = report::shown_snapshots(drawn);
+  std::vector<std::string> known;
+  for (const auto& each : snapshots) known.push_back(scene::time_text(each.time()));
+  const double end = drawn.result.mechanics.end_time;
+  for (const double time : *times) {
+    const std::string found = scene::time_text(time);
+    if (of_fields &&
+        std::ranges::none_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); }))
+      return fault(found + ", of which the case has no snapshot",
+                   fmt::format("{}; any time with --what profile", fmt::join(known, ", ")));
+    if (!of_fields && !(time >= 0.0 && time <= end * (1.0 + 1e-9)))
+      return fault(found, "times until the end of the run at " + scene::time_text(end));
+  }
   return *times;
 }
 
-/// A picture, or its numbers, as it will be written.
-struct DrawnFile {
-  std::string what;  ///< the word of its kind
-  std::string name, text;
-  std::optional<double> time = {}, gap = {};  ///< s and m, of a picture
-};
-
-std::vector<DrawnFile> tabulate(const report::DrawnCase& drawn, const Selection& selection) {
-  std::vector<DrawnFile> files;
-  for (const PictureKind* kind : selection.kinds)
-    for (const report::CaseTable& each : kind->tables(drawn))
-      files.push_back({kind->word, each.file, report::to_csv(each.table)});
-  return files;
-}
-
-store::Result<std::vector<DrawnFile>> draw(const report::DrawnCase& drawn, const Selection& selection,
-                                           const Console& console) {
+/// Pictures, or their numbers, as they will be written, and what is told of them.
+store::MaybeError draw(const report::DrawnCase& drawn, const Selection& selection, bool tables,
+                       const path& folder, NamedTexts& texts, Json& told, const Console& console) {
   Progress progress(console.quiet());
-  std::vector<DrawnFile> pictures;
+  const auto add = [&](const PictureKind& kind, const std::string& name, std::string text) {
+    texts.push_back({name, std::move(text)});
+    told.push_back({{"what", kind.word}, {"file", (folder / name).string()}});
+  };
   for (const PictureKind* kind : selection.kinds) {
-    for (const CasePicture& picture : kind->pictures(drawn)) {
-      progress.show("drawing " + picture.file);
-      auto svg = report::to_svg(picture.plot, {.stop = &stop_requested()});
-      if (!svg) return svg.error();
-      pictures.push_back({kind->word, picture.file, std::move(*svg), picture.time, picture.gap});
-    }
+    if (tables)
+      for (const report::CaseTable& each : kind->tables(drawn)) add(*kind, each.file, to_csv(each.table));
+    else
+      for (const CasePicture& picture : kind->pictures(drawn)) {
+        progress.show("drawing " + picture.file);
+        auto svg = report::to_svg(picture.plot, {.stop = &stop_requested()});
+        if (!svg) return svg.error();
+        add(*kind, picture.file, std::move(*svg));
+        if (picture.time) told.back()["time_ms"] = 1e3 * *picture.time;
+        if (picture.gap) told.back()["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
+      }
   }
-  return pictures;
-}
-
-Json written_json(const std::vector<DrawnFile>& files, const std::filesystem::path& folder,
-                  const Selection& selection, const char* list) {
-  Json object{{"folder", folder.string()}, {list, Json::array()}, {"left_out", Json::array()}};
-  for (const DrawnFile& each : files) {
-    Json entry{{"what", each.what}, {"file", (folder / each.name).string()}};
-    if (each.time) entry["time_ms"] = 1e3 * *each.time;
-    if (each.gap) entry["gap_cm"] = scene::in_unit(*each.gap, scene::Dimension::length, "cm");
-    object[list].push_back(std::move(entry));
-  }
-  for (const auto& [kind, why] : selection.left_out)
-    object["left_out"].push_back({{"what", kind->word}, {"because", why}});
-  return object;
+  return {};
 }
 
 /// What kept a picture from being drawn.
@@ -177,43 +152,37 @@ ExitCode perform(const PlotArguments& arguments, Console& console) {
   report::DrawnCase drawn{file->scene, file->stored.result};
   if (arguments.references) drawn.published = console.value_of(kinds::read_references(*arguments.references));
   const bool tables = arguments.tables;
-  std::vector<std::string> named;
+  std::set<std::string> named;
   if (arguments.what) named = console.value_of(named_kinds(*arguments.what));
   const Selection selection = console.value_of(select(drawn, named, tables));
   if (arguments.times) drawn.times = console.value_of(wanted_times(drawn, selection, *arguments.times));
-  const auto files = tables ? tabulate(drawn, selection) : draw(drawn, selection, console);
-  if (!files) return end_of_drawing(files.error(), console);
-  const std::filesystem::path folder = arguments.output.value_or(
-      arguments.file.parent_path() / (arguments.file.stem().string() + "_pictures"));
+  const path folder = arguments.output.value_or(arguments.file.parent_path() /
+                                                (arguments.file.stem().string() + "_pictures"));
+  const char* list = tables ? "tables" : "pictures";
+  Json object{{"folder", folder.string()}, {list, Json::array()}, {"left_out", Json::array()}};
   NamedTexts texts;
-  for (const DrawnFile& each : *files) texts.push_back({each.name, each.text});
+  if (const auto error = draw(drawn, selection, tables, folder, texts, object[list], console))
+    return end_of_drawing(*error, console);
   write_where_absent(folder, texts, console);
-  for (const auto& [kind, why] : selection.left_out)
+  for (const auto& [kind, why] : selection.left_out) {
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
+    object["left_out"].push_back({{"what", kind->word}, {"because", why}});
+  }
   if (!texts.empty()) console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
-  console.print_json(written_json(*files, folder, selection, tables ? "tables" : "pictures"));
+  console.print_json(object);
   return ExitCode::done;
 }
 
 }  // namespace
 
 void add_plot(CLI::App& app, CommandLine& line) {
-  auto [command, plot] = add_command<PlotArguments>(
-      app, line, "plot", "Draw a case: histories, profiles, and fields over the section");
-  add_required(command, "case", plot.file, "CASE.h5", "Case file");
-  add_folder(command, plot.output, "Folder for the pictures; CASE_pictures beside the file unless given");
-  std::vector<const char*> kinds;
-  for (const report::PictureKind& kind : report::picture_kinds()) kinds.push_back(kind.word);
-  command
-      .add_option("--what", plot.what,
-                  "One or several, with commas between; all that the case has data for unless given")
-      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
-  add_optional(command, "--times", plot.times, "LIST",
-               "Times of fields, which must be snapshots, and of profiles, such as \"8, 10 ms\"");
-  add_optional(command, "--references", plot.references, "FILE",
-               "What was published of this launch, [[reference]], beside histories and profiles");
-  command.add_flag("--csv", plot.tables,
-                   "Their numbers instead of pictures: pressure, fields and histories, as CSV files");
+  auto [command, plot] = add_command<PlotArguments>(app, line, "plot");
+  add_required(command, "case", plot.file);
+  add(command, "-o,--output", plot.output);
+  add(command, "--what", plot.what)->type_name(fmt::format("{}", fmt::join(words_of_kinds(), "|")));
+  add(command, "--times", plot.times);
+  add(command, "--references", plot.references);
+  add(command, "--csv", plot.tables);
 }
 
 }  // namespace launchsafe::app

@@ -12,9 +12,9 @@ namespace launchsafe::app {
 namespace {
 
 struct ReportArguments {
-  std::vector<std::filesystem::path> studies;      ///< folders
-  std::filesystem::path output;                    ///< folder of the report; empty with `index`
-  std::optional<std::filesystem::path> templates;  ///< folder; none: those built in
+  std::vector<path> studies;      ///< folders
+  path output;                    ///< folder of the report; empty with `index`
+  std::optional<path> templates;  ///< folder; none: those built in
   std::optional<std::string> criterion, criterion_source;
   report::DocumentHead document;
   bool pdf = false;    ///< also as PDF, by a browser
@@ -33,8 +33,8 @@ store::StudyRecord record_of(const report::SafetyEvidence& evidence, const Repor
 }
 
 /// Prints the page; why not, where no browser does.
-std::string print_page(const std::filesystem::path& folder) {
-  const std::filesystem::path place = std::filesystem::absolute(folder);
+std::string print_page(const path& folder) {
+  const path place = std::filesystem::absolute(folder);
   std::vector<std::string> words{"--headless", "--disable-gpu", "--no-pdf-header-footer",
                                  "--print-to-pdf=" + (place / "report.pdf").string()};
   // Which browsers want of root; the page is our own, without scripts, and fetches nothing.
@@ -49,21 +49,15 @@ std::string print_page(const std::filesystem::path& folder) {
   return "no report.pdf: " + why;
 }
 
-/// Whether a study has its report there.
-bool holds_study(const std::filesystem::path& folder) {
-  const auto record = store::read_study_record(folder);
-  return record && (!record->study.empty() || std::filesystem::exists(folder / "study.json"));
-}
-
 /// Puts the page in the place of an earlier one; any other index.html is somebody's.
-ExitCode write_index(const std::filesystem::path& folder, Console& console) {
+ExitCode write_index(const path& folder, Console& console) {
   const std::string page = report::index_page(folder);
   if (page.empty())
     return console.refuse(
         fmt::format("report: {} holds no folder of a report; allowed: one that does, such "
                     "as reports",
                     folder.string()));
-  const std::filesystem::path file = folder / "index.html";
+  const path file = folder / "index.html";
   const auto present = store::read_file(file);
   const bool absent = !present && present.error().kind == store::Error::Kind::missing;
   if (!absent && !(present && present->starts_with(report::index_begin)))
@@ -96,7 +90,8 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
     criterion = console.value_of(
         report::parse_criterion(*arguments.criterion, arguments.criterion_source.value_or("")));
   // Its report.md would take the place of the study's.
-  if (holds_study(arguments.output))
+  if (const auto there = store::read_study_record(arguments.output);
+      there && (!there->study.empty() || std::filesystem::exists(arguments.output / "study.json")))
     return console.refuse(
         fmt::format("report: --output names {}, which holds a study; allowed: another folder",
                     arguments.output.string()));
@@ -129,25 +124,18 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
 }  // namespace
 
 void add_report(CLI::App& app, CommandLine& line) {
-  auto [command, report] =
-      add_command<ReportArguments>(app, line, "report", "Make the safety report of studies that were run");
-  add_required(command, "study", report.studies, "STUDY_DIR...",
-               "Folders of studies, at most one of each kind");
-  add_folder(command, report.output, "Folder for report.html, report.md, report.json and the figures");
-  add_optional(command, "--criterion", report.criterion, "TEXT",
-               "What a gap must meet to be recommended, besides SAFE: \"margin >= 2 uncertainty\"");
-  add_optional(command, "--criterion-source", report.criterion_source, "TEXT",
-               "Who asks for that, as the report is to say");
-  add_optional(command, "--document", report.document.number, "TEXT", "Number of the document, for its head");
-  add_optional(command, "--author", report.document.author, "TEXT", "Who made it");
-  add_optional(command, "--date", report.document.date, "TEXT", "Its date, as it is to be printed");
-  add_optional(command, "--approvals", report.document.approvals, "NAME...",
-               "Who approves it: a line each for name, date and signature");
-  command.add_flag("--pdf", report.pdf, "Also report.pdf, by Chromium or Chrome where one is there");
-  add_place(command, "--templates", report.templates, "DIR", "folder",
-            "Folder of templates in place of those built in: letterhead, language");
-  CLI::Option* index = command.add_flag(
-      "--index", report.index, "Instead: STUDY_DIR/index.html, which leads to all reports in folders there");
+  auto [command, report] = add_command<ReportArguments>(app, line, "report");
+  add_required(command, "study", report.studies);
+  add(command, "-o,--output", report.output);
+  add(command, "--criterion", report.criterion);
+  add(command, "--criterion-source", report.criterion_source);
+  add(command, "--document", report.document.number);
+  add(command, "--author", report.document.author);
+  add(command, "--date", report.document.date);
+  add(command, "--approvals", report.document.approvals);
+  add(command, "--pdf", report.pdf);
+  add(command, "--templates", report.templates);
+  CLI::Option* index = add(command, "--index", report.index);
   for (const char* other : {"--output", "--criterion", "--pdf", "--templates"})
     index->excludes(command.get_option(other));
 }

@@ -3,7 +3,6 @@
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/run/cost.hpp"
@@ -23,40 +22,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
-#include <chrono>
-#include <cmath>
-
 namespace launchsafe::app {
 namespace {
 
 struct RunArguments {
-  std::filesystem::path scene;
-  std::optional<std::filesystem::path> output;  ///< folder of the case file; none: nothing is written
-  std::optional<double> longest_run;            ///< s, predicted; a longer one is refused
+  path scene;
+  std::optional<path> output;         ///< folder of the case file; none: nothing is written
+  std::optional<double> longest_run;  ///< s, predicted; a longer one is refused
 };
-
-bool has_observation_points(const trace::BottomTrace& trace) {
-  return std::ranges::any_of(trace.stations,
-                             [](const trace::Station& station) { return station.observation; });
-}
-
-std::string place_of(const trace::BottomTrace& trace, std::size_t index) {
-  if (index >= trace.stations.size()) return "";
-  return trace.stations[index].name;
-}
-
-std::string ignition_text(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
-  if (!ignition) return "none";
-  const bool by_trigger = ignition->cause == surface::IgnitionCause::trigger;
-  return fmt::format("{} at {}, {}", by_trigger ? "T1 reached" : "Arrhenius runaway",
-                     report::in_words(ignition->time, keys::fixed(3, keys::millisecond)),
-                     place_of(trace, ignition->station));
-}
-
-std::string kilojoules(double joules) {
-  return report::in_words(joules, keys::significant(6, keys::kilojoule));
-}
 
 report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
   std::vector<report::AuditedGap> gaps;
@@ -64,67 +37,73 @@ report::Table air_table(const scene::Scene& scene, const run::CaseResult& result
   return report::air_energy_table(scene.surface.air_model, gaps);
 }
 
-/// A maximum, and the trace that knows its place; nothing of one that does not exist.
-struct MaximumRow {
-  const surface::Maximum* maximum;
-  const trace::BottomTrace* trace;
-};
-
-/// `heading`: what temperature, place and instant are called.
-report::Quantities<MaximumRow> maximum_quantities(const std::array<const char*, 3>& heading) {
-  using namespace report::quantity;
-  const auto place = [](const MaximumRow& row) {
-    return row.maximum != nullptr ? report::Cell(place_of(*row.trace, row.maximum->station)) : report::Cell();
-  };
-  return {{headed(heading[0], temperature_max), &MaximumRow::maximum, &surface::Maximum::temperature},
-          {headed(heading[1], temperature_max_place), place},
-          {headed(heading[2], temperature_max_time), &MaximumRow::maximum, &surface::Maximum::time}};
-}
-
-/// One gap of a run.
+/// One gap of a run, with the names of places.
 struct GapRow {
   const run::GapResult* gap;
-  const trace::BottomTrace* trace;
-
-  MaximumRow at_stations() const { return {trace->stations.empty() ? nullptr : &gap->at_stations, trace}; }
-  MaximumRow at_points() const { return {&gap->at_points, trace}; }
+  std::optional<study::Peak> at_stations = {}, at_points = {};  ///< nothing where there are none
+  std::optional<study::NamedIgnition> ignition = {};
 };
 
+std::vector<GapRow> rows_of(const run::CaseResult& result) {
+  const std::vector<trace::Station>& stations = result.mechanics.trace.stations;
+  const auto name_of = [&](std::size_t station) {
+    return station < stations.size() ? stations[station].name : "";
+  };
+  const auto peak_of = [&](const surface::Maximum& maximum) {
+    return study::Peak{maximum.temperature, maximum.time, name_of(maximum.station)};
+  };
+  std::vector<GapRow> rows;
+  for (const run::GapResult& gap : result.gaps) {
+    GapRow& row = rows.emplace_back(GapRow{&gap});
+    if (!stations.empty()) row.at_stations = peak_of(gap.at_stations);
+    if (std::ranges::any_of(stations, &trace::Station::observation)) row.at_points = peak_of(gap.at_points);
+    if (const auto& ignition = gap.skin.ignition)
+      row.ignition = {ignition->cause, ignition->time, name_of(ignition->station), ignition->chemical_share};
+  }
+  return rows;
+}
+
+/// What temperature, place and instant are called.
+report::Quantities<study::Peak> peak_quantities(const char* temperature = "T max", const char* place = "at",
+                                                const char* time = "time") {
+  using namespace report::quantity;
+  return {{headed(temperature, temperature_max), &study::Peak::temperature},
+          {headed(place, temperature_max_place), &study::Peak::point},
+          {headed(time, temperature_max_time), &study::Peak::time}};
+}
+
 report::Quantities<GapRow> gap_quantities(bool points) {
-  report::Quantities<GapRow> quantities = keys::joined<GapRow>(
+  return keys::joined<GapRow>(
       {{{report::quantity::gap, &GapRow::gap, &run::GapResult::gap}},
-       report::of_part<GapRow>(maximum_quantities({"T max", "at", "time"}), &GapRow::at_stations)});
-  if (points)
-    quantities = keys::joined<GapRow>(
-        {quantities, report::of_part<GapRow>(maximum_quantities({"T max at points", "where", "when"}),
-                                             &GapRow::at_points)});
-  quantities.emplace_back(
-      report::Column{"ignition", "ignition", keys::text(), "Cause, instant and station of ignition."},
-      [](const GapRow& row) { return ignition_text(row.gap->skin.ignition, *row.trace); });
-  return quantities;
+       report::of_part<GapRow>(peak_quantities(), &GapRow::at_stations),
+       points
+           ? report::of_part<GapRow>(peak_quantities("T max at points", "where", "when"), &GapRow::at_points)
+           : report::Quantities<GapRow>{},
+       {{report::Column{"ignition", "ignition", keys::text(), "Cause, instant and station of ignition."},
+         [](const GapRow& row) -> std::string {
+           if (!row.ignition) return "none";
+           const bool by_trigger = row.ignition->cause == surface::IgnitionCause::trigger;
+           return fmt::format("{} at {}, {}", by_trigger ? "T1 reached" : "Arrhenius runaway",
+                              report::in_words(row.ignition->time, keys::fixed(3, keys::millisecond)),
+                              row.ignition->point);
+         }}}});
 }
 
-Json maximum_json(const surface::Maximum& maximum, const trace::BottomTrace& trace) {
-  return report::json_of(maximum_quantities({"T max", "at", "time"}), MaximumRow{&maximum, &trace});
-}
-
-Json ignition_json(const std::optional<surface::Ignition>& ignition, const trace::BottomTrace& trace) {
-  if (!ignition) return nullptr;
-  return {{"ignition_cause", study::to_string(ignition->cause)},
-          {report::quantity::ignition_time.key(),
-           report::shown_value(ignition->time, report::quantity::ignition_time.form)},
-          {"ignition_place", place_of(trace, ignition->station)},
-          {"ignition_chemical_share", ignition->chemical_share}};
-}
-
-Json gap_json(const run::GapResult& gap, const run::MechanicsResult& mechanics) {
-  const trace::BottomTrace& trace = mechanics.trace;
-  const bool observed = has_observation_points(trace);
-  Json object{{"gap_cm", report::shown_gap(gap.gap)}};
-  object["maximum"] = maximum_json(gap.at_stations, trace);
-  object["at_observation_points"] = observed ? maximum_json(gap.at_points, trace) : Json(nullptr);
-  object["ignition"] = ignition_json(gap.skin.ignition, trace);
-  object["sampling_error_K"] = gap.sampling_error;
+Json gap_json(const GapRow& row) {
+  const auto json = [](const std::optional<study::Peak>& peak) {
+    return peak ? report::json_of(peak_quantities(), *peak) : Json(nullptr);
+  };
+  Json object{{"gap_cm", report::shown_gap(row.gap->gap)},
+              {"maximum", json(row.at_stations)},
+              {"at_observation_points", json(row.at_points)},
+              {"ignition", nullptr},
+              {"sampling_error_K", row.gap->sampling_error}};
+  if (const auto& ignition = row.ignition)
+    object["ignition"] = {{"ignition_cause", study::to_string(ignition->cause)},
+                          {report::quantity::ignition_time.key(),
+                           report::shown_value(ignition->time, report::quantity::ignition_time.form)},
+                          {"ignition_place", ignition->point},
+                          {"ignition_chemical_share", ignition->chemical_share}};
   return object;
 }
 
@@ -138,10 +117,9 @@ Json energy_json(const run::EnergyBalance& energy) {
 
 /// A row a gap: highest temperatures, where and when, ignition.
 report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result) {
-  const trace::BottomTrace& trace = result.mechanics.trace;
-  std::vector<GapRow> rows;
-  for (const run::GapResult& gap : result.gaps) rows.push_back({&gap, &trace});
-  report::Table table = report::table_of(scene.title, gap_quantities(has_observation_points(trace)), rows);
+  const std::vector<GapRow> rows = rows_of(result);
+  const bool points = std::ranges::any_of(rows, [](const GapRow& row) { return row.at_points.has_value(); });
+  report::Table table = report::table_of(scene.title, gap_quantities(points), rows);
   if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
     table.notes.push_back("The charge lies off the grid lines (" + edges +
                           "): calibrated constants do not carry over from a grid that fits.");
@@ -160,7 +138,7 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
               {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
               {"load", load_json(scene)},
               {"gaps", Json::array()}};
-  for (const run::GapResult& gap : result.gaps) object["gaps"].push_back(gap_json(gap, mechanics));
+  for (const GapRow& row : rows_of(result)) object["gaps"].push_back(gap_json(row));
   object["combustion"] = report::json_rows(report::combustion_table(scene, result));
   object["air_energy"] = report::json_rows(air_table(scene, result));
   object["closing"] = report::json_rows(report::closing_table(result));
@@ -218,18 +196,14 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
     facts["tables"].push_back(report::to_text(table, width_of_output()));
   if (mechanics.monitor.empty()) return told("run.txt", facts);
   const run::EnergyBalance& energy = mechanics.monitor.back().energy;
+  const auto kilojoules = [](double joules) {
+    return report::in_words(joules, keys::significant(6, keys::kilojoule));
+  };
   for (auto& [key, value] : facts["energy"].items()) value = kilojoules(value.get<double>());
   if (energy.contact == 0.0) facts["energy"].erase("contact_J");
   facts["energy"]["drift"] = report::in_words(energy.drift(), keys::significant(3, keys::percent));
   facts["energy"]["scale"] = kilojoules(energy.scale());
   return told("run.txt", facts);
-}
-
-/// "12 s left" when a share 0..1 took `elapsed` seconds; "" while it is too early to say.
-std::string time_left(double share, double elapsed) {
-  constexpr double too_early = 0.005;
-  if (!(share > too_early) || share > 1.0) return {};
-  return fmt::format("{} left", report::duration(elapsed * (1.0 - share) / share));
 }
 
 run::CaseResult run_with_progress(const scene::Scene& scene, const Console& console) {
@@ -240,9 +214,13 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   options.threads = study::threads_for_one_run(scene::particle_count(scene));
   const double end = scene::end_time(scene.load);
   options.progress = [&, end](double share) {
+    constexpr double too_early = 0.005;  // to say what is left
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const std::string left = share > too_early && share <= 1.0
+                                 ? report::duration(elapsed.count() * (1.0 - share) / share) + " left"
+                                 : "";
     progress.show(fmt::format("{} of {}, {:.0f} %  {}", scene::time_text(share * end), scene::time_text(end),
-                              100.0 * share, time_left(share, elapsed.count())));
+                              100.0 * share, left));
   };
   return run::run_case(scene, options);
 }
@@ -262,14 +240,6 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
   return ExitCode::interrupted;
 }
 
-/// The words of the events that a snapshot was asked of and that did not happen.
-std::vector<std::string> missing_events(const scene::Scene& scene, const run::CaseResult& result) {
-  std::vector<std::string> words;
-  for (const scene::Event event : run::events_without_snapshot(scene, result))
-    words.push_back(scene::word_of(event));
-  return words;
-}
-
 ExitCode perform(const RunArguments& arguments, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
   for (const std::string& note : file.notes) console.remark(note);
@@ -278,7 +248,7 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
   if (const auto error = run::out_of_reach(file, reach)) return console.refuse(*error);
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
-  std::filesystem::path target;
+  path target;
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
     // Found out before anything is computed.
@@ -304,7 +274,9 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
       return console.end_with(*error);
     console.remark(fmt::format("wrote {}", target.string()));
   }
-  const std::vector<std::string> missing = missing_events(scene, result);
+  std::vector<std::string> missing;
+  for (const scene::Event event : run::events_without_snapshot(scene, result))
+    missing.push_back(scene::word_of(event));
   if (!missing.empty())
     console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
   Json object = case_json(scene, result);
@@ -329,11 +301,10 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
 }  // namespace
 
 void add_run(CLI::App& app, CommandLine& line) {
-  auto [command, run] = add_command<RunArguments>(
-      app, line, "run", "Run one case: a scene in, temperatures of the charge bottom out");
-  add_required(command, "scene", run.scene, "SCENE.toml", "Scene file");
-  add_folder(command, run.output, "Folder to write the HDF5 case file to");
-  add_longest_run(command, run.longest_run);
+  auto [command, run] = add_command<RunArguments>(app, line, "run");
+  add_required(command, "scene", run.scene);
+  add(command, "-o,--output", run.output);
+  add_amount(command, "--longest-run", run.longest_run, parse_duration);
 }
 
 }  // namespace launchsafe::app

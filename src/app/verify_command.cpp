@@ -10,15 +10,12 @@
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/mpm/conduction.hpp"
 #include "launchsafe/mpm/simulation.hpp"
-#include "launchsafe/report/table.hpp"
+#include "launchsafe/report/quantities.hpp"
 #include "launchsafe/surface/skin.hpp"
 
 #include <boost/algorithm/string.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <set>
 
 namespace launchsafe::app {
@@ -236,38 +233,20 @@ std::vector<Check> all_checks() {
   };
 }
 
-report::Table check_table(const std::vector<Check>& checks, std::size_t failed) {
-  using keys::text, keys::significant;
-  const report::Quantities<Check> quantities{
-      {{"check", "check", text(), "What is checked."}, &Check::title},
-      {{"computed", "computed", significant(9), "What the program computed."}, &Check::computed},
-      {{"expected", "expected", significant(9), "What it must compute."}, &Check::expected},
-      {{"error", "error", significant(3), "Their difference."}, &Check::error},
-      {{"tolerance", "tolerance", significant(3), "The largest allowed."}, &Check::tolerance},
-      {{"unit", "unit", text(), "Unit of the numbers."}, &Check::unit},
-      {{"result", "result", text(), "pass or FAIL."},
-       [](const Check& check) { return check.pass() ? "pass" : "FAIL"; }}};
-  report::Table table = report::table_of({}, quantities, checks);
-  table.notes = {fmt::format("{} of {} checks pass.", checks.size() - failed, checks.size())};
-  return table;
-}
-
-Json json_of(const std::vector<Check>& checks, std::size_t failed) {
-  Json object{{"checks", Json::array()}};
-  for (const Check& check : checks)
-    object["checks"].push_back({{"group", check.group},
-                                {"name", check.name},
-                                {"computed", check.computed},
-                                {"expected", check.expected},
-                                {"unit", check.unit},
-                                {"error", check.error()},
-                                {"tolerance", check.tolerance},
-                                {"source", check.source},
-                                {"pass", check.pass()}});
-  object["passed"] = checks.size() - failed;
-  object["failed"] = failed;
-  return object;
-}
+const report::Quantities<Check> check_quantities{
+    {for_people(report::Column{"check", "check", keys::text(), "What is checked."}), &Check::title},
+    {for_programs(report::Column{"group", "group", keys::text(), "Part of the program."}), &Check::group},
+    {for_programs(report::Column{"name", "name", keys::text(), "What is checked of it."}), &Check::name},
+    {"computed", "computed", keys::significant(9), "What the program computed.", &Check::computed},
+    {"expected", "expected", keys::significant(9), "What it must compute.", &Check::expected},
+    {for_programs(report::quantity::unit), &Check::unit},
+    {"error", "error", keys::significant(3), "Their difference.", &Check::error},
+    {"tolerance", "tolerance", keys::significant(3), "The largest allowed.", &Check::tolerance},
+    {for_people(report::quantity::unit), &Check::unit},
+    {for_programs(report::Column{"source", "source", keys::text(), "Where the expected number comes from."}),
+     &Check::source},
+    {for_people(report::Column{"result", "result", keys::text(), "pass or FAIL."}),
+     [](const Check& check) { return check.pass() ? "pass" : "FAIL"; }}};
 
 ExitCode perform(const VerifyArguments& arguments, Console& console) {
   std::vector<Check> checks;
@@ -286,19 +265,21 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
     return console.refuse(
         fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
                     arguments.filter, fmt::join(groups, ", ")));
-  const auto failed = static_cast<std::size_t>(std::ranges::count(checks, false, &Check::pass));
-  console.print_text(report::to_text(check_table(checks, failed), width_of_output()));
-  console.print_json(json_of(checks, failed));
-  return failed == 0 ? ExitCode::done : ExitCode::cases_failed;
+  const auto passed = static_cast<std::size_t>(std::ranges::count(checks, true, &Check::pass));
+  const report::Table table = report::table_of({}, check_quantities, checks,
+                                               {fmt::format("{} of {} checks pass.", passed, checks.size())});
+  console.print_text(report::to_text(table, width_of_output()));
+  Json rows = report::json_rows(table);
+  for (std::size_t i = 0; i < checks.size(); ++i) rows[i]["pass"] = checks[i].pass();
+  console.print_json({{"checks", rows}, {"passed", passed}, {"failed", checks.size() - passed}});
+  return passed == checks.size() ? ExitCode::done : ExitCode::cases_failed;
 }
 
 }  // namespace
 
 void add_verify(CLI::App& app, CommandLine& line) {
-  auto [command, verify] =
-      add_command<VerifyArguments>(app, line, "verify", "Test an installed program against known numbers");
-  add_optional(command, "--filter", verify.filter, "TEXT",
-               "Only checks with this in their name, case ignored");
+  auto [command, verify] = add_command<VerifyArguments>(app, line, "verify");
+  add(command, "--filter", verify.filter);
 }
 
 }  // namespace launchsafe::app

@@ -3,9 +3,6 @@
 
 #include "launchsafe/report/page_texts.hpp"
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// Of a safety report.

@@ -1,21 +1,17 @@
 #include "launchsafe/report/case_pictures.hpp"
 
 #include "case_pictures_parts.hpp"
-#include "launchsafe/report/number.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <numeric>
+#include <ranges>
 
 namespace launchsafe::report {
 namespace detail {
 namespace {
 
-struct EnergyTerm {
-  const char* name;
-  double run::EnergyBalance::*value;
-};
+using EnergyTerm = std::pair<const char*, double run::EnergyBalance::*>;
 
 /// The magnitudes of terms against time.
 Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<EnergyTerm>& terms) {
@@ -23,18 +19,15 @@ Plot energy_plot(const DrawnCase& drawn, const char* what, const std::vector<Ene
   Plot plot = time_plot(
       drawn, what, whole ? "energy, magnitude [J]" : "energy per metre of the half model, magnitude [J]");
   plot.y.scale = Scale::logarithmic;
-  for (const EnergyTerm& term : terms) {
-    Series& series = plot.series.emplace_back(Series{.label = term.name});
+  for (const auto& [name, value] : terms) {
+    Series& series = plot.series.emplace_back(Series{.label = name});
     for (const run::MonitorSample& sample : drawn.result.mechanics.monitor)
-      series.add(shown_value(sample.time, drawn_time().form), std::abs(sample.energy.*term.value));
+      series.add(shown_value(sample.time, drawn_time().form), std::abs(sample.energy.*value));
   }
   // What is smaller is round-off beside the largest term.
   constexpr double smallest = 1e-8;
-  const auto highest = [](const Series& series) {
-    return series.y.empty() ? 0.0 : *std::ranges::max_element(series.y);
-  };
-  double largest = 0.0;
-  for (const Series& series : plot.series) largest = std::max(largest, highest(series));
+  const auto highest = [](const Series& series) { return std::ranges::max(series.y); };
+  const double largest = std::ranges::max(plot.series | std::views::transform(highest));
   std::erase_if(plot.series, [&](const Series& series) { return !(highest(series) > smallest * largest); });
   // Every other one is dashed, so that terms which balance each other are both seen.
   for (std::size_t i = 0; i < plot.series.size(); ++i)
@@ -60,17 +53,47 @@ void add_shown(const DrawnCase& drawn, const std::vector<run::Snapshot>& snapsho
   }
 }
 
-/// A sample of the trace.
-struct PressureRow {
-  double time, chamber, bottom;  ///< s, Pa
-};
+std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  const auto highest = [](const std::vector<double>& pressure) {
+    return in_words(std::ranges::max(pressure), significant(3, megapascal));
+  };
+  Plot plot = load_plot(drawn);
+  plot.title = fmt::format("The chamber reaches {}, the charge's bottom {}", highest(trace.chamber_pressure),
+                           highest(trace.bottom_pressure));
+  return {{"pressure.svg", std::move(plot)}};
+}
 
-const Quantities<PressureRow> pressure_quantities{
-    {drawn_time(), &PressureRow::time},
-    {"chamber", "chamber", keys::significant(6, megapascal), "Mean pressure of the chamber on the base.",
-     &PressureRow::chamber},
-    {"bottom", "bottom", keys::significant(6, megapascal), "Mean pressure of the charge's bottom.",
-     &PressureRow::bottom}};
+std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
+  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
+  return {{"pressure.csv",
+           sample_table({{drawn_time(), at_sample(trace.time)},
+                         {"chamber", "chamber", keys::significant(6, megapascal),
+                          "Mean pressure of the chamber on the base.", at_sample(trace.chamber_pressure)},
+                         {"bottom", "bottom", keys::significant(6, megapascal),
+                          "Mean pressure of the charge's bottom.", at_sample(trace.bottom_pressure)}},
+                        trace.samples())}};
+}
+
+std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
+  using run::EnergyBalance;
+  std::vector<CasePicture> pictures;
+  pictures.push_back(
+      {"energy.svg", energy_plot(drawn, "Terms of the energy balance",
+                                 {{"work of the chamber pressure", &EnergyBalance::external},
+                                  {"internal", &EnergyBalance::internal},
+                                  {"work of the frame's body force", &EnergyBalance::body_force},
+                                  {"kinetic, relative to the frame", &EnergyBalance::kinetic},
+                                  {"taken out by damping", &EnergyBalance::damping},
+                                  {"taken out by contact", &EnergyBalance::contact}})});
+  Plot losses = energy_plot(drawn, "Dissipated and stored parts of the internal energy",
+                            {{"plastic, in steel", &EnergyBalance::plastic},
+                             {"viscous, in the charge", &EnergyBalance::viscous},
+                             {"crack growth, in the charge", &EnergyBalance::crack},
+                             {"stored against hourglassing", &EnergyBalance::hourglass}});
+  if (!losses.series.empty()) pictures.push_back({"energy_dissipated.svg", std::move(losses)});
+  return pictures;
+}
 
 }  // namespace
 
@@ -122,68 +145,36 @@ Series time_series(const char* label, const std::vector<double>& time, const std
           .style = Style::line};
 }
 
-std::string lacks_pressure(const DrawnCase& drawn) {
-  return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
-}
-
-std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
-  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  const auto highest = [](const std::vector<double>& pressure) {
-    return in_words(std::ranges::max(pressure), significant(3, megapascal));
-  };
-  Plot plot = load_plot(drawn);
-  plot.title = fmt::format("The chamber reaches {}, the charge's bottom {}", highest(trace.chamber_pressure),
-                           highest(trace.bottom_pressure));
-  return {{"pressure.svg", std::move(plot)}};
-}
-
-std::vector<CaseTable> pressure_tables(const DrawnCase& drawn) {
-  const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  std::vector<PressureRow> rows;
-  for (std::size_t i = 0; i < trace.samples(); ++i)
-    rows.push_back({trace.time[i], trace.chamber_pressure[i], trace.bottom_pressure[i]});
-  return {{"pressure.csv", table_of({}, pressure_quantities, rows)}};
-}
-
-std::string lacks_energy(const DrawnCase& drawn) {
-  const auto& monitor = drawn.result.mechanics.monitor;
-  const bool moves = std::ranges::any_of(monitor, [](const run::MonitorSample& sample) {
-    return sample.energy.external != 0.0 || sample.energy.kinetic != 0.0;
-  });
-  return moves ? "" : "its monitor recorded no energies";
-}
-
-std::vector<CasePicture> energy_pictures(const DrawnCase& drawn) {
-  using run::EnergyBalance;
-  std::vector<CasePicture> pictures;
-  pictures.push_back(
-      {"energy.svg", energy_plot(drawn, "Terms of the energy balance",
-                                 {{"work of the chamber pressure", &EnergyBalance::external},
-                                  {"internal", &EnergyBalance::internal},
-                                  {"work of the frame's body force", &EnergyBalance::body_force},
-                                  {"kinetic, relative to the frame", &EnergyBalance::kinetic},
-                                  {"taken out by damping", &EnergyBalance::damping},
-                                  {"taken out by contact", &EnergyBalance::contact}})});
-  Plot losses = energy_plot(drawn, "Dissipated and stored parts of the internal energy",
-                            {{"plastic, in steel", &EnergyBalance::plastic},
-                             {"viscous, in the charge", &EnergyBalance::viscous},
-                             {"crack growth, in the charge", &EnergyBalance::crack},
-                             {"stored against hourglassing", &EnergyBalance::hourglass}});
-  if (!losses.series.empty()) pictures.push_back({"energy_dissipated.svg", std::move(losses)});
-  return pictures;
+Table sample_table(const Quantities<std::size_t>& quantities, std::size_t samples) {
+  std::vector<std::size_t> rows(samples);
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return table_of({}, quantities, rows);
 }
 
 }  // namespace detail
 
 const std::vector<PictureKind>& picture_kinds() {
   static const std::vector<PictureKind> kinds{
-      {"pressure", "chamber and bottom pressure against time", detail::lacks_pressure,
+      {"pressure", "chamber and bottom pressure against time",
+       [](const DrawnCase& drawn) -> std::string {
+         return drawn.result.mechanics.trace.samples() > 1 ? "" : "its trace has no samples";
+       },
        detail::pressure_pictures, detail::pressure_tables},
       detail::fields_kind,
       detail::histories_kind,
       detail::profile_kind,
       detail::air_kind,
-      {"energy", "terms of the energy balance against time", detail::lacks_energy, detail::energy_pictures},
+      {"energy", "terms of the energy balance against time",
+       [](const DrawnCase& drawn) -> std::string {
+         const auto moves = [](const run::EnergyBalance& energy) {
+           return energy.external != 0.0 || energy.kinetic != 0.0;
+         };
+         const auto& monitor = drawn.result.mechanics.monitor;
+         return std::ranges::any_of(monitor, moves, &run::MonitorSample::energy)
+                    ? ""
+                    : "its monitor recorded no energies";
+       },
+       detail::energy_pictures},
       detail::combustion_kind,
   };
   return kinds;

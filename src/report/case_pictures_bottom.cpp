@@ -1,13 +1,8 @@
 // Skin temperatures along the charge's bottom, the gap's air, and what burns.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/study/gap_verdict.hpp"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
 
 namespace launchsafe::report::detail {
 namespace {
@@ -21,18 +16,18 @@ std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
                                   skin.time.begin());
 }
 
-/// A value for every station that tiles the bottom, against `x`: the first, the middle and the last station
-/// and the one of index `marked` by name, all others thin and grey.
+/// Values of all stations sample after sample, of those that tile the bottom against `x`: the first, the
+/// middle and the last station and the one of index `marked` by name, all others thin and grey.
 std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
-                                   const std::function<double(std::size_t, std::size_t)>& value,
-                                   std::size_t marked) {
+                                   const std::vector<double>& values, std::size_t marked) {
   constexpr int grey = 7;
   const std::vector<std::size_t> rings = rings_of(trace);
   std::vector<Series> background, named;
   for (const std::size_t ring : rings) {
     const trace::Station& station = trace.stations[ring];
     Series series{.x = x, .style = Style::line, .colour = grey};
-    for (std::size_t sample = 0; sample < x.size(); ++sample) series.y.push_back(value(sample, ring));
+    for (std::size_t sample = 0; sample < x.size(); ++sample)
+      series.y.push_back(values[sample * trace.stations.size() + ring]);
     const bool is_named =
         ring == rings.front() || ring == rings.back() || ring == rings[rings.size() / 2] || ring == marked;
     if (!is_named) {
@@ -49,22 +44,17 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
   return background;
 }
 
-/// A temperature of a gap as it was published, and where.
-struct Published {
-  double time, temperature;  ///< s, K
-  std::string point;
-};
-
-std::vector<Published> published_of(const DrawnCase& drawn, const run::GapResult& gap) {
-  std::vector<Published> all;
+/// The temperatures of a gap as they were published.
+std::vector<study::Peak> published_of(const DrawnCase& drawn, const run::GapResult& gap) {
+  std::vector<study::Peak> all;
   for (const study::Reference& row : drawn.published) {
     if (!(std::abs(row.gap - gap.gap) <= 1e-9)) continue;
-    all.push_back({drawn.early_time, row.early_temperature, row.early_point});
+    all.push_back({row.early_temperature, drawn.early_time, row.early_point});
     // That of one that ignited is the burning skin's.
     if (!row.ignited())
-      all.push_back({scene::read_time(drawn.scene.load), row.maximum_temperature, row.point});
+      all.push_back({row.maximum_temperature, scene::read_time(drawn.scene.load), row.point});
   }
-  std::erase_if(all, [](const Published& each) { return std::isnan(each.temperature); });
+  std::erase_if(all, [](const study::Peak& each) { return std::isnan(each.temperature); });
   return all;
 }
 
@@ -87,14 +77,6 @@ std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, cons
   return gaps;
 }
 
-std::vector<Line> ignition_line(const DrawnCase& drawn, const run::GapResult& gap) {
-  if (!gap.skin.ignition) return {};
-  const surface::Ignition& ignition = *gap.skin.ignition;
-  return {{shown_value(ignition.time, drawn_time().form),
-           fmt::format("ignition at {}, {}", trace_of(drawn).stations[ignition.station].name,
-                       in_words(ignition.time, quantity::ignition_time.form))}};
-}
-
 std::string gap_title(const char* what, const run::GapResult& gap) {
   return fmt::format("{}, gap {}", what, centimetres(gap.gap));
 }
@@ -103,7 +85,11 @@ std::string gap_title(const char* what, const run::GapResult& gap) {
 Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what,
               const std::string& quantity) {
   Plot plot = time_plot(drawn, gap_title(what, gap), quantity);
-  plot.vertical_lines = ignition_line(drawn, gap);
+  if (const auto& ignition = gap.skin.ignition)
+    plot.vertical_lines = {
+        {shown_value(ignition->time, drawn_time().form),
+         fmt::format("ignition at {}, {}", trace_of(drawn).stations[ignition->station].name,
+                     in_words(ignition->time, quantity::ignition_time.form))}};
   return plot;
 }
 
@@ -116,14 +102,6 @@ CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plo
 
 const Column distance_from_axis{"r", "distance from the axis, r", keys::significant(4, millimetre),
                                 "Distance from the axis."};
-
-std::vector<double> temperatures_of(const surface::SkinHistory& skin, std::size_t station,
-                                    std::size_t stations) {
-  std::vector<double> values;
-  for (std::size_t sample = 0; sample < skin.time.size(); ++sample)
-    values.push_back(skin.temperature[sample * stations + station]);
-  return values;
-}
 
 /// The bottom of every gap at one instant, or as it is last without ignition.
 Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
@@ -143,9 +121,8 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
       series.label += ", igniting at " + in_words(skin.ignition->time, quantity::time_in_titles);
     for (const std::size_t ring : rings_of(trace))
       series.add(shown_value(trace.stations[ring].r, distance_from_axis.form),
-                 trace::interpolate(skin.time, temperatures_of(skin, ring, trace.stations.size()),
-                                    std::min(time.value_or(last), last)));
-    for (const Published& each : published_of(drawn, *gap)) {
+                 surface::temperature_at_time(skin, trace, ring, std::min(time.value_or(last), last)));
+    for (const study::Peak& each : published_of(drawn, *gap)) {
       const auto point = std::ranges::find(trace.stations, each.point, &trace::Station::name);
       if (point != trace.stations.end() && std::abs(each.time - time.value_or(last)) < 1e-6)
         published.add(shown_value(point->r, distance_from_axis.form), each.temperature);
@@ -207,39 +184,36 @@ Plot air_plot(const DrawnCase& drawn) {
 
 // --- combustion ---
 
-void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
-  const run::CombustionHistory& history = *gap.combustion;
-  const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
-  const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass);
-  const auto until_end =
-      in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond));
-  Plot mass = gap_plot(drawn, gap, "", burnt.label());
-  mass.title = fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
-                           in_words(history.burnt_mass.back(), keys::significant(2, gram)), until_end);
-  mass.series = {time_series("", history.time, history.burnt_mass, burnt)};
-  Plot pressure = gap_plot(drawn, gap, "", quantity::pressure.label());
-  pressure.title =
-      fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
-                  in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal)));
-  pressure.series = {time_series("", history.time, history.pressure, quantity::pressure)};
-  Plot degree =
-      gap_plot(drawn, gap, "The skin burns from station to station", "reaction degree of the skin [1]");
-  const std::size_t stations = trace_of(drawn).stations.size();
-  const auto value = [&](std::size_t sample, std::size_t station) {
-    return history.reaction_degree[sample * stations + station];
-  };
-  degree.series = station_series(trace_of(drawn), shown_values(history.time, drawn_time()), value,
-                                 gap.skin.ignition ? gap.skin.ignition->station : stations);
-  for (Plot* plot : {&mass, &pressure, &degree}) plot->named_in_place = true;
-  pictures.push_back(picture_of_gap("combustion_mass", gap, std::move(mass)));
-  pictures.push_back(picture_of_gap("combustion_pressure", gap, std::move(pressure)));
-  pictures.push_back(picture_of_gap("combustion_reaction", gap, std::move(degree)));
-}
-
 bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
   return gap.combustion && gap.combustion->samples() > 1 && !rings_of(trace_of(drawn)).empty() &&
          gap.combustion->reaction_degree.size() ==
              gap.combustion->samples() * trace_of(drawn).stations.size();
+}
+
+void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
+  const run::CombustionHistory& history = *gap.combustion;
+  const auto add = [&](const char* name, std::string title, const std::string& axis,
+                       std::vector<Series> series) {
+    Plot plot = gap_plot(drawn, gap, "", axis);
+    plot.title = std::move(title);
+    plot.series = std::move(series);
+    plot.named_in_place = true;
+    pictures.push_back(picture_of_gap(name, gap, std::move(plot)));
+  };
+  const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
+  const Column burnt = headed(whole ? "burnt mass" : "burnt mass per metre", quantity::burnt_mass);
+  add("combustion_mass",
+      fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
+                  in_words(history.burnt_mass.back(), keys::significant(2, gram)),
+                  in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond))),
+      burnt.label(), {time_series("", history.time, history.burnt_mass, burnt)});
+  add("combustion_pressure",
+      fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
+                  in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal))),
+      quantity::pressure.label(), {time_series("", history.time, history.pressure, quantity::pressure)});
+  add("combustion_reaction", "The skin burns from station to station", "reaction degree of the skin [1]",
+      station_series(trace_of(drawn), shown_values(history.time, drawn_time()), history.reaction_degree,
+                     gap.skin.ignition ? gap.skin.ignition->station : trace_of(drawn).stations.size()));
 }
 
 std::string history_title(const DrawnCase& drawn, const run::GapResult& gap) {
@@ -260,7 +234,6 @@ std::string lacks_skins(const DrawnCase& drawn) {
 
 std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
-  const std::size_t stations = trace_of(drawn).stations.size();
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     // What burns is far hotter than all before: it would set the axis.
@@ -268,14 +241,9 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
     times.resize(samples_before_ignition(skin));
     Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature.label());
     for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
-    skins.series = station_series(
-        trace_of(drawn), times,
-        [&](std::size_t sample, std::size_t station) {
-          return skin.temperature[sample * stations + station];
-        },
-        gap->at_stations.station);
+    skins.series = station_series(trace_of(drawn), times, skin.temperature, gap->at_stations.station);
     Series published;
-    for (const Published& each : published_of(drawn, *gap))
+    for (const study::Peak& each : published_of(drawn, *gap))
       published.add(shown_value(each.time, drawn_time().form), each.temperature);
     add_published(std::move(published), skins);
     const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
@@ -301,18 +269,15 @@ std::vector<CaseTable> history_tables(const DrawnCase& drawn) {
   std::vector<CaseTable> tables;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
-    Quantities<std::size_t> quantities{
-        {drawn_time(), [&skin](std::size_t sample) { return skin.time[sample]; }}};
+    Quantities<std::size_t> quantities{{drawn_time(), at_sample(skin.time)}};
     for (std::size_t i = 0; i < stations.size(); ++i)
       quantities.emplace_back(
           named(stations[i].name, headed(stations[i].name, always(quantity::skin_temperature))),
           [&skin, i, count = stations.size()](std::size_t sample) {
             return skin.temperature[sample * count + i];
           });
-    std::vector<std::size_t> samples(skin.time.size());
-    std::iota(samples.begin(), samples.end(), std::size_t{0});
     tables.push_back(
-        {fmt::format("histories_{}.csv", gap_in_name(gap->gap)), table_of({}, quantities, samples)});
+        {fmt::format("histories_{}.csv", gap_in_name(gap->gap)), sample_table(quantities, skin.time.size())});
   }
   return tables;
 }
@@ -363,17 +328,6 @@ std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
   return {{"air.svg", air_plot(drawn)}};
 }
 
-std::string lacks_combustion(const DrawnCase& drawn) {
-  return gaps_with(has_combustion, drawn).empty() ? "no gap of it ignited in a run with two-way coupling"
-                                                  : "";
-}
-
-std::vector<CasePicture> combustion_pictures(const DrawnCase& drawn) {
-  std::vector<CasePicture> pictures;
-  for (const run::GapResult* gap : gaps_with(has_combustion, drawn)) add_combustion(drawn, *gap, pictures);
-  return pictures;
-}
-
 }  // namespace
 
 bool has_skin(const DrawnCase& drawn, const run::GapResult& gap) {
@@ -402,6 +356,16 @@ const PictureKind profile_kind{"profile",
 const PictureKind air_kind{"air", "air temperature against time; opening and pressure too where a gap closes",
                            lacks_air, air_pictures};
 const PictureKind combustion_kind{"combustion", "burnt mass, pressure and reaction degree after ignition",
-                                  lacks_combustion, combustion_pictures};
+                                  [](const DrawnCase& drawn) -> std::string {
+                                    return gaps_with(has_combustion, drawn).empty()
+                                               ? "no gap of it ignited in a run with two-way coupling"
+                                               : "";
+                                  },
+                                  [](const DrawnCase& drawn) {
+                                    std::vector<CasePicture> pictures;
+                                    for (const run::GapResult* gap : gaps_with(has_combustion, drawn))
+                                      add_combustion(drawn, *gap, pictures);
+                                    return pictures;
+                                  }};
 
 }  // namespace launchsafe::report::detail

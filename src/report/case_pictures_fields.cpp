@@ -1,17 +1,10 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <tuple>
-#include <utility>
 
 namespace launchsafe::report::detail {
 namespace {
@@ -23,8 +16,6 @@ using Field = run::SnapshotField;
 bool is_charge(const DrawnCase& drawn, int body) {
   return scene::is_charge(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(body)]);
 }
-
-bool is_temperature(const Field& field) { return field.values == &run::Snapshot::temperature; }
 
 /// Six digits of a field, in the unit in which people read it.
 keys::Form form_of(const Field& field) { return keys::significant(6, field.shown); }
@@ -71,20 +62,17 @@ std::pair<double, double> common_range(std::vector<double> values) {
 
 /// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
 /// either compare: what burns may press harder by far than any launch.
-ColourScale scale_of(const DrawnCase& drawn, const Field& field, const ScaleGroup& group, bool burning) {
-  ColourScale scale{fmt::format("{}: {} [{}]", group.name, field.meaning,
-                                field.shown.name.empty() ? "1" : field.shown.name)};
-  std::vector<double> values;
-  for (const ShownSnapshot& each : shown_snapshots(drawn))
-    if (each.gap.has_value() == burning) add_values(drawn, field, *each.snapshot, group, values);
-  std::tie(scale.minimum, scale.maximum) = common_range(std::move(values));
-  return scale;
-}
-
 std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, bool burning) {
   std::vector<ColourScale> scales;
-  for (const ScaleGroup& group : scale_groups(drawn, field))
-    scales.push_back(scale_of(drawn, field, group, burning));
+  for (const ScaleGroup& group : scale_groups(drawn, field)) {
+    std::vector<double> values;
+    for (const ShownSnapshot& each : shown_snapshots(drawn))
+      if (each.gap.has_value() == burning) add_values(drawn, field, *each.snapshot, group, values);
+    const auto [minimum, maximum] = common_range(std::move(values));
+    scales.push_back({fmt::format("{}: {} [{}]", group.name, field.meaning,
+                                  field.shown.name.empty() ? "1" : field.shown.name),
+                      minimum, maximum});
+  }
   return scales;
 }
 
@@ -92,45 +80,39 @@ std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, b
 
 /// The particles of one body in a snapshot: rows along x, from the axis outward.
 struct BodyCells {
-  const run::Snapshot& shot;
-  std::size_t first;
-  std::size_t columns, rows;
-
-  Place corner(std::size_t i, std::size_t j, double towards_base, double outward) const {
-    const std::size_t k = first + j * columns + i;
-    return {millimetres * (shot.x[k] + towards_base * shot.half_length_x[k]),
-            millimetres * (shot.r[k] + outward * shot.half_length_r[k])};
-  }
+  const scene::Body* body;
+  std::size_t first, columns, rows;
+  std::size_t end() const { return first + columns * rows; }
 };
 
-/// Along the row next to the axis, the end at the base, the outermost row, and the end at the nose.
-std::vector<Place> edge_of(const BodyCells& cells, bool open_at_axis) {
-  std::vector<Place> path;
-  const std::size_t last = cells.columns - 1, top = cells.rows - 1;
-  if (!open_at_axis)
-    for (std::size_t i = 0; i <= last; ++i)
-      for (const double side : {-1.0, 1.0}) path.push_back(cells.corner(i, 0, side, -1.0));
-  for (std::size_t j = 0; j <= top; ++j)
-    for (const double side : {-1.0, 1.0}) path.push_back(cells.corner(last, j, 1.0, side));
-  for (std::size_t i = last + 1; i-- > 0;)
-    for (const double side : {1.0, -1.0}) path.push_back(cells.corner(i, top, side, 1.0));
-  for (std::size_t j = top + 1; j-- > 0;)
-    for (const double side : {1.0, -1.0}) path.push_back(cells.corner(0, j, -1.0, side));
-  return path;
+std::vector<BodyCells> bodies_of(const scene::Scene& scene) {
+  std::vector<BodyCells> bodies;
+  for (const scene::Body& body : scene.bodies) {
+    const scene::ParticleCount count = scene::particles_of(scene, body);
+    bodies.push_back({&body, bodies.empty() ? 0 : bodies.back().end(), static_cast<std::size_t>(count.nx),
+                      static_cast<std::size_t>(count.nr)});
+  }
+  return bodies;
 }
 
-std::vector<Outline> outlines_of(const DrawnCase& drawn, const run::Snapshot& shot) {
-  std::vector<Outline> outlines;
-  std::size_t first = 0;
-  for (const scene::Body& body : drawn.scene.bodies) {
-    const scene::ParticleCount count = scene::particles_of(drawn.scene, body);
-    const BodyCells cells{shot, first, static_cast<std::size_t>(count.nx),
-                          static_cast<std::size_t>(count.nr)};
-    const bool open_at_axis = body.r_begin <= scene::length_tolerance(drawn.scene);
-    outlines.push_back({edge_of(cells, open_at_axis), open_at_axis});
-    first += cells.columns * cells.rows;
-  }
-  return outlines;
+/// Along the row next to the axis, the end at the base, the outermost row, and the end at the nose.
+std::vector<Place> edge_of(const run::Snapshot& shot, const BodyCells& cells, bool open_at_axis) {
+  std::vector<Place> path;
+  const auto add = [&](std::size_t i, std::size_t j, double towards_base, double outward) {
+    const std::size_t k = cells.first + j * cells.columns + i;
+    path.push_back({millimetres * (shot.x[k] + towards_base * shot.half_length_x[k]),
+                    millimetres * (shot.r[k] + outward * shot.half_length_r[k])});
+  };
+  const std::size_t last = cells.columns - 1, top = cells.rows - 1;
+  for (std::size_t i = 0; !open_at_axis && i <= last; ++i)
+    for (const double side : {-1.0, 1.0}) add(i, 0, side, -1.0);
+  for (std::size_t j = 0; j <= top; ++j)
+    for (const double side : {-1.0, 1.0}) add(last, j, 1.0, side);
+  for (std::size_t i = last + 1; i-- > 0;)
+    for (const double side : {1.0, -1.0}) add(i, top, side, 1.0);
+  for (std::size_t j = top + 1; j-- > 0;)
+    for (const double side : {1.0, -1.0}) add(0, j, -1.0, side);
+  return path;
 }
 
 // --- pictures ---
@@ -162,12 +144,9 @@ std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, cons
                      charges_first && !is_charge(drawn, shot.body[i]) ? std::size_t{1} : 0});
   // Half lengths are those of a cell between its neighbours: beside one that has burnt there would be a slit.
   // Neighbours in a row share an edge half way between their own.
-  std::size_t first = 0;
-  for (const scene::Body& body : drawn.scene.bodies) {
-    const scene::ParticleCount count = scene::particles_of(drawn.scene, body);
-    const std::size_t end = first + static_cast<std::size_t>(count.total());
-    for (std::size_t i = first + 1; i < end; ++i) {
-      if ((i - first) % static_cast<std::size_t>(count.nx) == 0) continue;
+  for (const BodyCells& body : bodies_of(drawn.scene))
+    for (std::size_t i = body.first + 1; i < body.end(); ++i) {
+      if ((i - body.first) % body.columns == 0) continue;
       const double begin = cells[i].x - cells[i].half_x, behind = cells[i].x + cells[i].half_x;
       const double before = cells[i - 1].x - cells[i - 1].half_x;
       const double edge = 0.5 * (cells[i - 1].x + cells[i - 1].half_x + begin);
@@ -176,8 +155,6 @@ std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, cons
       cells[i].x = 0.5 * (edge + behind);
       cells[i].half_x = 0.5 * (behind - edge);
     }
-    first = end;
-  }
   return cells;
 }
 
@@ -198,9 +175,12 @@ std::string name_of(const ShownSnapshot& shown) {
   return name;
 }
 
-/// The largest gap whose skin is known at a time and does not burn yet.
-const run::GapResult* shown_skin(const DrawnCase& drawn, double time) {
+/// In a picture of temperatures before anything burns, the largest gap whose skin is known then and does not
+/// burn yet.
+const run::GapResult* skin_in(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
+  const double time = shown.snapshot->time;
   const run::GapResult* largest = nullptr;
+  if (field.values != &run::Snapshot::temperature || shown.gap) return largest;
   for (const run::GapResult& gap : drawn.result.gaps)
     if (has_skin(drawn, gap) && !(gap.skin.ignition && gap.skin.ignition->time <= time) &&
         (largest == nullptr || gap.gap > largest->gap))
@@ -264,13 +244,15 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
   plot.cells = cells_of(drawn, field, shot);
-  plot.outlines = outlines_of(drawn, shot);
+  for (const BodyCells& cells : bodies_of(drawn.scene)) {
+    const bool open_at_axis = cells.body->r_begin <= scene::length_tolerance(drawn.scene);
+    plot.outlines.push_back({edge_of(shot, cells, open_at_axis), open_at_axis});
+  }
   plot.enlargement = enlargement_of(drawn, shot);
   const bool grey =
       std::ranges::any_of(plot.cells, [](const FieldCell& cell) { return std::isnan(cell.value); });
   const auto groups = scale_groups(drawn, field);
-  const run::GapResult* skin = is_temperature(field) && !shown.gap ? shown_skin(drawn, shot.time) : nullptr;
-  if (skin != nullptr) add_skin(drawn, shot, *skin, plot);
+  if (const run::GapResult* skin = skin_in(drawn, field, shown)) add_skin(drawn, shot, *skin, plot);
   if (grey) plot.without_value = groups.size() == 1 && groups[0].charges ? "not a charge" : "without it";
   return plot;
 }
@@ -295,15 +277,12 @@ std::vector<ShownSnapshot> chosen_snapshots(const DrawnCase& drawn) {
 
 /// Whether the particles of a snapshot are those that the scene's grid makes, body after body.
 bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
-  std::size_t first = 0;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const auto count = static_cast<std::size_t>(scene::particles_of(scene, scene.bodies[b]).total());
-    if (first + count > shot.body.size()) return false;
-    for (std::size_t i = first; i < first + count; ++i)
-      if (shot.body[i] != static_cast<int>(b)) return false;
-    first += count;
+  std::vector<int> bodies;
+  for (const BodyCells& each : bodies_of(scene)) {
+    if (each.end() > shot.body.size()) return false;
+    bodies.resize(each.end(), static_cast<int>(each.body - scene.bodies.data()));
   }
-  return first == shot.body.size();
+  return bodies == shot.body;
 }
 
 bool is_recorded(const DrawnCase& drawn, const Field& field, bool burning) {
@@ -322,9 +301,9 @@ std::string lacks_fields(const DrawnCase& drawn) {
     if (shot.half_length_x.size() != shot.x.size() || shot.half_length_r.size() != shot.x.size())
       return "its snapshots are those of an older program, without the cells of the particles";
     if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
+    const auto is_length = [](double length) { return length > 0.0; };
     for (const auto* lengths : {&shot.half_length_x, &shot.half_length_r})
-      for (const double length : *lengths)
-        if (!(length > 0.0)) return "a cell in its snapshots is inverted";
+      if (!std::ranges::all_of(*lengths, is_length)) return "a cell in its snapshots is inverted";
   }
   return {};
 }
@@ -336,8 +315,7 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
       if (!field.drawn || !is_recorded(drawn, field, burning)) continue;
       const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
       for (const ShownSnapshot& each : chosen_snapshots(drawn))
-        if (each.gap.has_value() == burning &&
-            (varies(scales) || (is_temperature(field) && !burning && shown_skin(drawn, each.snapshot->time))))
+        if (each.gap.has_value() == burning && (varies(scales) || skin_in(drawn, field, each) != nullptr))
           pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
                               field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }

@@ -4,9 +4,6 @@
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::report::detail {
 
 extern const PictureKind fields_kind, histories_kind, profile_kind, air_kind, combustion_kind;
@@ -31,7 +28,14 @@ std::vector<double> shown_values(const std::vector<double>& values, const Column
 /// The axis of time.
 Column drawn_time();
 
-/// Whether the skin of a gap was computed at all of them.
+/// A row for every sample of a history.
+Table sample_table(const Quantities<std::size_t>& quantities, std::size_t samples);
+/// Values by sample.
+inline auto at_sample(const std::vector<double>& values) {
+  return [&values](std::size_t sample) { return values[sample]; };
+}
+
+/// Whether the skin of a gap was computed at all stations that tile the charge's bottom.
 bool has_skin(const DrawnCase& drawn, const run::GapResult& gap);
 /// Indices of these stations, from the axis to the wall.
 std::vector<std::size_t> rings_of(const trace::BottomTrace& trace);

@@ -1,16 +1,12 @@
 #include "launchsafe/report/case_tables.hpp"
 
 #include "built_in_templates.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/named_material.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numeric>
 
 namespace launchsafe::report {
@@ -63,8 +59,6 @@ double largest_degree(const BurningRow& row) {
 
 // --- the energy of the air ---
 
-std::string kilojoules_per_area(double energy) { return in_words(energy, quantity::skin_took.form); }
-
 using run::MechanicsResult;
 const Quantities<NamedRun> run_quantities{
     {quantity::case_name, &NamedRun::name},
@@ -106,12 +100,13 @@ Quantities<FaceRow> face_quantities() {
            }}};
 }
 
-using BurntGap = const run::GapResult*;
+/// A gap that burnt, or closed.
+using OneGap = const run::GapResult*;
 
 using run::CombustionHistory;
-const Quantities<BurntGap> combustion_quantities = keys::joined<BurntGap>(
+const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
     {{{quantity::gap, &run::GapResult::gap}},
-     of_part<BurntGap>(
+     of_part<OneGap>(
          Quantities<CombustionHistory>{
              {"skin_flame_speed", "flame in the skin", keys::significant(3, metre_per_second),
               "Speed of the flame through the skin.", &CombustionHistory::skin_flame_speed},
@@ -136,47 +131,39 @@ const Quantities<BurntGap> combustion_quantities = keys::joined<BurntGap>(
              {quantity::wall_time, &CombustionHistory::wall_time}},
          &run::GapResult::combustion)});
 
-Quantities<const run::GapResult*> closing_quantities() {
-  using keys::significant, run::ClosingHistory, surface::FilmEnergy;
-  const auto heat = [](const char* name, const char* label, const char* meaning, double FilmEnergy::*part) {
-    return keys::Quantity<ClosingHistory>(
-        {name, label, significant(4, kilojoule_per_area), meaning},
-        [part](const ClosingHistory& closing) { return closing.energy.*part; });
-  };
-  return keys::joined<const run::GapResult*>(
-      {{{quantity::gap, &run::GapResult::gap}},
-       of_part<const run::GapResult*>(
-           Quantities<ClosingHistory>{
-               {"contact_time", "contact", significant(4, millisecond), "When the faces first met.",
-                &ClosingHistory::contact_time},
-               {"approach_speed", "approach", significant(3, metre_per_second),
-                "Largest speed at which the faces came together until then.",
-                &ClosingHistory::approach_speed},
-               {"contacts", "contacts", significant(6), "How often the faces met.",
-                &ClosingHistory::contacts},
-               {"smallest_opening", "smallest opening", significant(3, micrometre), "Anywhere.",
-                &ClosingHistory::smallest_opening},
-               {"air_pressure_max", "p air", significant(4, megapascal),
-                "Highest pressure of the air at the opening that a step ends with; floors under 1 um make "
-                "it a "
-                "matter of the step.",
-                &ClosingHistory::largest_gas_pressure},
-               {"air_temperature_max", "T air", significant(4, kelvin),
-                "Highest temperature of the air, mean over its mass at one place.",
-                &ClosingHistory::largest_gas_temperature},
-               {"work_on_air", "work on air", significant(4, kilojoule_per_area),
-                "Work of the faces on the air beyond the surrounding pressure, mean over the bottom.",
-                &ClosingHistory::work_on_gas},
-               heat("heat_to_base", "to base", "Heat that the base gained, mean over the bottom.",
-                    &FilmEnergy::base),
-               heat("friction_heat", "friction", "Heat of friction in the charge, as deep as it is resolved.",
-                    &FilmEnergy::friction),
-               heat("heat_to_charge", "in charge", "Heat that the charge gained, with that of friction.",
-                    &FilmEnergy::charge)},
-           &run::GapResult::closing)});
-}
+using run::ClosingHistory, surface::FilmEnergy;
+const Quantities<OneGap> closing_quantities = keys::joined<OneGap>(
+    {{{quantity::gap, &run::GapResult::gap}},
+     of_part<OneGap>(
+         Quantities<ClosingHistory>{
+             {"contact_time", "contact", keys::significant(4, millisecond), "When the faces first met.",
+              &ClosingHistory::contact_time},
+             {"approach_speed", "approach", keys::significant(3, metre_per_second),
+              "Largest speed at which the faces came together until then.", &ClosingHistory::approach_speed},
+             {"contacts", "contacts", keys::significant(6), "How often the faces met.",
+              &ClosingHistory::contacts},
+             {"smallest_opening", "smallest opening", keys::significant(3, micrometre), "Anywhere.",
+              &ClosingHistory::smallest_opening},
+             {"air_pressure_max", "p air", keys::significant(4, megapascal),
+              "Highest pressure of the air at the opening that a step ends with; floors under 1 um make it a "
+              "matter of the step.",
+              &ClosingHistory::largest_gas_pressure},
+             {"air_temperature_max", "T air", keys::significant(4, kelvin),
+              "Highest temperature of the air, mean over its mass at one place.",
+              &ClosingHistory::largest_gas_temperature},
+             {"work_on_air", "work on air", keys::significant(4, kilojoule_per_area),
+              "Work of the faces on the air beyond the surrounding pressure, mean over the bottom.",
+              &ClosingHistory::work_on_gas},
+             {"heat_to_base", "to base", keys::significant(4, kilojoule_per_area),
+              "Heat that the base gained, mean over the bottom.", &ClosingHistory::energy, &FilmEnergy::base},
+             {"friction_heat", "friction", keys::significant(4, kilojoule_per_area),
+              "Heat of friction in the charge, as deep as it is resolved.", &ClosingHistory::energy,
+              &FilmEnergy::friction},
+             {"heat_to_charge", "in charge", keys::significant(4, kilojoule_per_area),
+              "Heat that the charge gained, with that of friction.", &ClosingHistory::energy,
+              &FilmEnergy::charge}},
+         &run::GapResult::closing)});
 
-using run::CombustionHistory;
 const Quantities<BurningRow> burning_quantities{
     {quantity::time(3), at_sample(&CombustionHistory::time)},
     {"reaction_degree_max", "largest reaction degree", fixed(3), "Of any station.", largest_degree},
@@ -206,11 +193,6 @@ Quantities<AuditedGap> air_quantities(bool labelled) {
          &surface::AirEnergy::isothermal}}});
 }
 
-std::string numbers_text(const materials::KineticsParameters& kinetics) {
-  return fmt::format("E/R {:.6g} K, {:.4g} 1/s, {:.5g} MJ/kg", kinetics.activation_temperature,
-                     kinetics.frequency, 1e-6 * kinetics.heat_of_reaction);
-}
-
 }  // namespace
 
 Quantities<run::CombustionHistory> burnt_state_quantities() {
@@ -237,22 +219,20 @@ Table interface_table(const run::MechanicsResult& mechanics) {
 }
 
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
-  std::vector<BurntGap> burnt;
+  std::vector<OneGap> burnt;
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion) burnt.push_back(&gap);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities, burnt);
-  if (table.rows.empty()) return table;
-  table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
+  if (!burnt.empty()) table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
 }
 
 Table closing_table(const run::CaseResult& result) {
-  std::vector<const run::GapResult*> closed;
+  std::vector<OneGap> closed;
   for (const run::GapResult& gap : result.gaps)
     if (gap.closing) closed.push_back(&gap);
-  Table table = table_of("How the gap closed", closing_quantities(), closed);
-  if (!table.rows.empty()) table.notes = noted("closing", {});
-  return table;
+  return table_of("How the gap closed", closing_quantities, closed,
+                  closed.empty() ? std::vector<std::string>{} : noted("closing"));
 }
 
 Table combustion_history_table(const run::CombustionHistory& c, double gap, std::size_t rows) {
@@ -274,8 +254,8 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
     const std::string place = "a gap of " + centimetres(gap.gap);
     facts["worst"] = {{"place", gap.label.empty() ? place : fmt::format("{} ({})", place, gap.label)},
                       {"ratio", ratio},
-                      {"taken", kilojoules_per_area(gap.air.taken)},
-                      {"supplied", kilojoules_per_area(gap.air.supplied)}};
+                      {"taken", in_words(gap.air.taken, quantity::skin_took.form)},
+                      {"supplied", in_words(gap.air.supplied, quantity::skin_took.form)}};
   }
   return noted("air", facts).front();
 }
@@ -297,16 +277,15 @@ std::string runaway_text(const materials::KineticsParameters& kinetics, double s
 }
 
 std::string flame_kinetics_note(const scene::Scene& scene) {
-  const materials::Charge& charge = scene.charge();
-  const std::string own = fmt::format("({}), which {}", numbers_text(charge.kinetics),
-                                      runaway_text(charge.kinetics, charge.specific_heat));
-  if (scene.combustion.kinetics == scene::effective_kinetics)
-    return fmt::format("The flame lives on the charge's own, effective kinetics {}, as ignition does.", own);
-  const materials::KineticsParameters flame = scene::flame_kinetics(scene);
-  return fmt::format(
-      "The flame lives on the decomposition \"{}\" ({}), which {}; ignition is decided by the charge's own, "
-      "effective kinetics {}.",
-      scene.combustion.kinetics, numbers_text(flame), runaway_text(flame, charge.specific_heat), own);
+  const auto told = [&scene](const materials::KineticsParameters& kinetics) {
+    return fmt::format("(E/R {:.6g} K, {:.4g} 1/s, {:.5g} MJ/kg), which {}", kinetics.activation_temperature,
+                       kinetics.frequency, 1e-6 * kinetics.heat_of_reaction,
+                       runaway_text(kinetics, scene.charge().specific_heat));
+  };
+  Row facts{{"own", told(scene.charge().kinetics)}};
+  if (scene.combustion.kinetics != scene::effective_kinetics)
+    facts["flame"] = {{"name", scene.combustion.kinetics}, {"told", told(scene::flame_kinetics(scene))}};
+  return noted("flame_kinetics", facts).front();
 }
 
 }  // namespace launchsafe::report

@@ -1,6 +1,5 @@
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/plot.hpp"
 
 #include <fmt/format.h>
 
@@ -82,16 +81,18 @@ std::string cell_line(const FieldCell& cell, double side, const CellPanel& panel
                      exact(left), exact(right), exact(low), exact(high), value);
 }
 
-/// Of the cells that `is_wanted`, mirrored where the panel shows both sides of the axis.
+/// Adds the cells that `is_wanted`, where there are any, mirrored where the panel shows both sides of the
+/// axis.
 template <class IsWanted>
-std::string cell_lines(const CellPlot& plot, const CellPanel& panel, IsWanted is_wanted) {
+void add_cells(const CellPlot& plot, const CellPanel& panel, const std::string& name, IsWanted is_wanted,
+               const std::string& how, Commands& commands) {
   std::string lines;
   for (const FieldCell& cell : plot.cells) {
     if (!is_wanted(cell)) continue;
     lines += cell_line(cell, 1.0, panel);
     if (panel.r_begin < 0.0) lines += cell_line(cell, -1.0, panel);
   }
-  return lines;
+  if (!lines.empty()) commands.add(name, lines, how);
 }
 
 std::string path_lines(const std::vector<Place>& path, double side) {
@@ -161,29 +162,23 @@ std::string scale_commands(const ColourScale& scale, std::size_t index, const Ce
 /// The cells of one scale, without axes.
 std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel& panel,
                         const std::string& name) {
-  const std::string lines = cell_lines(plot, panel, [scale](const FieldCell& cell) {
-    return cell.scale == scale && std::isfinite(cell.value);
-  });
-  if (lines.empty()) return {};
   Commands commands;
-  commands.add(fmt::format("{}_cells{}", name, scale), lines,
-               fmt::format("1:2:3:4:5:6:7 {} palette notitle", filled_boxes));
+  add_cells(
+      plot, panel, fmt::format("{}_cells{}", name, scale),
+      [scale](const FieldCell& cell) { return cell.scale == scale && std::isfinite(cell.value); },
+      fmt::format("1:2:3:4:5:6:7 {} palette notitle", filled_boxes), commands);
   return commands.text();
 }
 
 /// Cells without a value, and the edges of bodies over all cells.
 std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const std::string& name) {
   Commands commands;
-  const auto add_cells = [&](const char* kind, auto is_wanted, const std::string& how) {
-    const std::string lines = cell_lines(plot, panel, is_wanted);
-    if (!lines.empty()) commands.add(name + kind, lines, how);
-  };
   add_cells(
-      "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
-      fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes));
+      plot, panel, name + "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
+      fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes), commands);
   add_cells(
-      "_beyond", [&plot](const FieldCell& cell) { return is_beyond(plot, cell); },
-      "1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle");
+      plot, panel, name + "_beyond", [&plot](const FieldCell& cell) { return is_beyond(plot, cell); },
+      "1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle", commands);
   for (std::size_t i = 0; i < plot.outlines.size(); ++i)
     commands.add(fmt::format("{}_outline{}", name, i), outline_lines(plot.outlines[i], panel.r_begin < 0.0),
                  "1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle");

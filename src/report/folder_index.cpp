@@ -5,9 +5,7 @@
 
 #include <kainjow/mustache.hpp>
 
-#include <algorithm>
 #include <sstream>
-#include <utility>
 
 namespace launchsafe::report {
 namespace {

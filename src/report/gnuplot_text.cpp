@@ -7,7 +7,6 @@
 
 #include <cctype>
 #include <cmath>
-#include <string_view>
 #include <tuple>
 
 namespace launchsafe::report {
@@ -41,7 +40,7 @@ void Commands::add(const std::string& name, const std::string& lines, const std:
 }
 
 std::string Commands::text() const {
-  return settings + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
+  return plots.empty() ? settings : settings + fmt::format("plot {}\n", fmt::join(plots, ", \\\n     "));
 }
 
 std::string page_commands(double width, double height) {

@@ -3,9 +3,6 @@
 
 #include "launchsafe/report/plot.hpp"
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// A gnuplot string. All ASCII but letters, digits and a few harmless signs goes in as octal escapes, so that

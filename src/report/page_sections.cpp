@@ -5,7 +5,6 @@
 #include <kainjow/mustache.hpp>
 #include <openssl/evp.h>
 
-#include <algorithm>
 #include <set>
 
 namespace launchsafe::report {
@@ -63,9 +62,6 @@ struct Sections {
   std::string words(const std::string& id, const Row& facts = {}) const {
     const auto found = texts.find(id);
     return found == texts.end() ? std::string{} : fill(found->second, facts);
-  }
-  std::string made_of() const {
-    return words("made_of", {{"studies", fmt::format("{}", fmt::join(studies, ", "))}});
   }
 
   std::string fill(const std::string& text, const Row& facts) const {
@@ -193,15 +189,16 @@ store::Result<RenderedReport> render_page(const std::vector<PageText>& order, co
                                           const DrawingLimits& limits) {
   Sections made{all, templates.texts, limits};
   made.add_all(order);
-  Row page{{"format", head["format"]},
-           {"language", made.words("language")},
-           {"report", made.words("report")},
-           {"title", head["title"]},
-           {"subject", head["subject"]},
-           {"made_of", made.made_of()},
-           {"answer", head["answer"]},
-           {"document", head["document"]},
-           {"sections", std::move(made.sections)}};
+  Row page{
+      {"format", head["format"]},
+      {"language", made.words("language")},
+      {"report", made.words("report")},
+      {"title", head["title"]},
+      {"subject", head["subject"]},
+      {"made_of", made.words("made_of", {{"studies", fmt::format("{}", fmt::join(made.studies, ", "))}})},
+      {"answer", head["answer"]},
+      {"document", head["document"]},
+      {"sections", std::move(made.sections)}};
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);

@@ -3,18 +3,15 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 
+#include <boost/algorithm/string/finder.hpp>
+#include <boost/algorithm/string/iter_find.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <kainjow/mustache.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <deque>
-#include <map>
 #include <sstream>
-#include <string_view>
-#include <utility>
 
 namespace launchsafe::report {
 namespace {
@@ -24,13 +21,9 @@ using Fields = mustache::data;
 
 store::Error no_template(std::string message) { return {store::Error::Kind::corrupt, std::move(message)}; }
 
-std::vector<std::string> split_at(std::string_view line, std::string_view separator) {
+std::vector<std::string> split_at(const std::string& line, const char* separator) {
   std::vector<std::string> parts;
-  for (std::size_t end = 0; end != std::string_view::npos; line.remove_prefix(end + separator.size())) {
-    end = line.find(separator);
-    parts.emplace_back(line.substr(0, end));
-    if (end == std::string_view::npos) break;
-  }
+  boost::algorithm::iter_split(parts, line, boost::algorithm::first_finder(separator));
   return parts;
 }
 

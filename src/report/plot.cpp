@@ -4,11 +4,11 @@
 #include "launchsafe/report/number.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
 
 namespace launchsafe::report {
 namespace {
@@ -16,18 +16,13 @@ namespace {
 // --- series ---
 
 bool has_bars(const Series& series) {
-  return series.style == Style::vertical_bars || series.style == Style::horizontal_bars ||
-         series.style == Style::filled_bars;
-}
-
-bool is_line(const Series& series) {
-  return series.style == Style::line || series.style == Style::dashed_line ||
-         series.style == Style::line_and_points;
+  return series.style >= Style::vertical_bars && series.style <= Style::filled_bars;
 }
 
 /// Whether it is named where it is, not in the legend.
 bool named_at_end(const Plot& plot, const Series& series) {
-  return plot.named_in_place && is_line(series) && !series.label.empty();
+  const bool is_line = series.style <= Style::line_and_points && series.style != Style::points;
+  return plot.named_in_place && is_line && !series.label.empty();
 }
 
 /// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place.
@@ -72,28 +67,18 @@ std::string_view colour_of(const Series& series, std::size_t index) {
 }
 
 std::string style_of(const Series& series, std::size_t index) {
-  const std::size_t look = look_of(series, index);
-  const std::string colour = fmt::format("linecolor rgb '{}'", colour_of(series, index));
-  const std::string points = points_of(series.mark.value_or(static_cast<Mark>(look % 8)));
-  switch (series.style) {
-    case Style::line:
-      return "with lines linewidth 2 " + colour;
-    case Style::dashed_line:
-      return "with lines linewidth 2 dashtype 2 " + colour;
-    case Style::points:
-      return fmt::format("with points linewidth 1.5 {} {}", points, colour);
-    case Style::vertical_bars:
-      return fmt::format("with yerrorbars linewidth 1.5 {} {}", points, colour);
-    case Style::horizontal_bars:
-      return fmt::format("with xerrorbars linewidth 1.5 {} {}", points, colour);
-    case Style::filled_bars:
-      return "with boxxyerror fillstyle solid 0.8 noborder " + colour;
-    case Style::steps:
-      return "with steps linewidth 2 " + colour;
-    case Style::line_and_points:
-      break;
-  }
-  return fmt::format("with linespoints linewidth 2 {} {}", points, colour);
+  // In the order of Style: {0} is the sign of points, {1} the colour.
+  constexpr std::array<const char*, 8> styles{"with lines linewidth 2 {1}",
+                                              "with lines linewidth 2 dashtype 2 {1}",
+                                              "with points linewidth 1.5 {0} {1}",
+                                              "with linespoints linewidth 2 {0} {1}",
+                                              "with yerrorbars linewidth 1.5 {0} {1}",
+                                              "with xerrorbars linewidth 1.5 {0} {1}",
+                                              "with boxxyerror fillstyle solid 0.8 noborder {1}",
+                                              "with steps linewidth 2 {1}"};
+  const auto sign = series.mark.value_or(static_cast<Mark>(look_of(series, index) % 8));
+  return fmt::format(fmt::runtime(styles.at(static_cast<std::size_t>(series.style))), points_of(sign),
+                     fmt::format("linecolor rgb '{}'", colour_of(series, index)));
 }
 
 // --- commands ---
@@ -145,20 +130,17 @@ void add_lines(const Plot& plot, Commands& commands) {
 
 // --- names ---
 
-constexpr double letter = 8.4;  // pixels, as gnuplot reckons
-
 /// Entries of the legend in so many columns that the longest has room, below the label of the x axis.
 struct Legend {
   std::size_t columns = 1, rows = 0;
 };
 
 Legend legend_of(const Plot& plot) {
-  constexpr double sample = 60;  // pixels
+  constexpr double sample = 60, letter = 8.4;  // pixels, as gnuplot reckons
   std::size_t longest = 0, entries = 0;
   const auto add = [&](const std::string& label) {
-    if (label.empty()) return;
     longest = std::max(longest, display_width(label));
-    ++entries;
+    entries += label.empty() ? 0 : 1;
   };
   for (const Series& series : plot.series)
     if (!named_at_end(plot, series) && !series.x.empty()) add(series.label);
@@ -174,12 +156,6 @@ Legend legend_of(const Plot& plot) {
   return {columns, (entries + columns - 1) / columns};
 }
 
-std::string legend_command(const Plot& plot) {
-  return fmt::format(
-      "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing 1.25\n",
-      legend_of(plot).columns);
-}
-
 /// Pixels of a plot with its legend.
 int whole_height(const Plot& plot) {
   constexpr int row = 20;
@@ -191,11 +167,6 @@ struct Places {
   const PlotAxis& axis;
   double least = HUGE_VAL, most = -HUGE_VAL;
 
-  void add(double value) {
-    if (!drawable(value, axis.scale)) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
   double of(double value) const { return (scaled(value) - low()) / span(); }
   double at(double place) const {
     const double value = low() + place * span();
@@ -213,9 +184,13 @@ struct Places {
 Places places_along(const Plot& plot, const PlotAxis& axis, std::vector<double> Series::*values,
                     const std::vector<Line>& lines) {
   Places places{axis};
-  for (const Series& series : plot.series)
-    for (const double value : series.*values) places.add(value);
-  for (const Line& line : lines) places.add(line.at);
+  const auto add = [&](double value) {
+    if (!drawable(value, axis.scale)) return;
+    places.least = std::min(places.least, value);
+    places.most = std::max(places.most, value);
+  };
+  for (const Series& series : plot.series) std::ranges::for_each(series.*values, add);
+  for (const Line& line : lines) add(line.at);
   return places;
 }
 
@@ -266,31 +241,24 @@ std::string names_in_place(const Plot& plot, std::size_t width) {
   const Places along_x = places_along(plot, plot.x, &Series::x, plot.vertical_lines),
                along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
   std::string text;
-  for (const EndName& name : names_at_ends(plot, along_y))
-    text += fmt::format("set label {} at graph 1, first {} left offset 1, 0 front textcolor rgb '{}'\n",
-                        quoted(name.text), exact(along_y.at(name.place)), name.colour);
-  for (const Line& line : plot.horizontal_lines)
+  const auto add = [&text](const std::string& label, const std::string& x, const std::string& y,
+                           const char* how, std::string_view colour = "#444444") {
     text +=
-        fmt::format("set label {} at graph 0.01, first {} left offset 0, 0.6 front textcolor rgb '#444444'\n",
-                    quoted(line.label), exact(line.at));
+        fmt::format("set label {} at {}, {} {} front textcolor rgb '{}'\n", quoted(label), x, y, how, colour);
+  };
+  const auto first = [](double value) { return "first " + exact(value); };
+  for (const EndName& name : names_at_ends(plot, along_y))
+    add(name.text, "graph 1", first(along_y.at(name.place)), "left offset 1, 0", name.colour);
+  for (const Line& line : plot.horizontal_lines)
+    add(line.label, "graph 0.01", first(line.at), "left offset 0, 0.6");
   for (const Line& line : plot.vertical_lines)
-    text += fmt::format("set label {} at first {}, graph 0.97 {} front textcolor rgb '#444444'\n",
-                        quoted(line.label), exact(line.at),
-                        along_x.of(line.at) < 0.5 ? "left offset 0.8, 0" : "right offset -0.8, 0");
+    add(line.label, first(line.at), "graph 0.97",
+        along_x.of(line.at) < 0.5 ? "left offset 0.8, 0" : "right offset -0.8, 0");
   for (const Band& band : plot.vertical_bands)
     if (band.hatched)
-      text += fmt::format("set label {} at first {}, graph 0.97 center front textcolor rgb '#444444'\n",
-                          quoted(band.label),
-                          exact(along_x.at(0.5 * (along_x.of(band.from) + along_x.of(band.to)))));
+      add(band.label, first(along_x.at(0.5 * (along_x.of(band.from) + along_x.of(band.to)))), "graph 0.97",
+          "center");
   return text + fmt::format("set rmargin {}\n", right_margin(width));
-}
-
-std::string subtitle_command(const Plot& plot, double aside) {
-  if (plot.subtitle.empty()) return {};
-  return fmt::format(
-      "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',12' textcolor "
-      "rgb '#444444'\n",
-      quoted(plot.subtitle), aside);
 }
 
 /// `width`: letters of the names at the right.
@@ -302,15 +270,25 @@ std::string frame_commands(const Plot& plot, std::size_t width) {
   for (const Tic& tic : plot.y.tics) longest_tic = std::max(longest_tic, display_width(tic.label));
   const double left = std::max<double>(10.0, 4.0 + 0.85 * static_cast<double>(longest_tic));
   const double aside = 0.5 * (static_cast<double>(right_margin(width)) - left);
-  return fmt::format(
-             "set border 3 linewidth 1 linecolor rgb '#444444'\n"
-             "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
-             "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
-             "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
-             "set x2range [0:1]\nset y2range [0:1]\n"
-             "set title {} font ',{:.0f}' offset {:.1f}, {}\n",
-             quoted(plot.title), size, aside, plot.subtitle.empty() ? 0.0 : 0.4) +
-         subtitle_command(plot, aside) + legend_command(plot);
+  std::string text = fmt::format(
+      "set border 3 linewidth 1 linecolor rgb '#444444'\n"
+      "set tics nomirror out scale 0.6 textcolor rgb '#222222'\n"
+      "set grid linewidth 0.7 dashtype 1 linecolor rgb '#dddddd'\n"
+      "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
+      "set x2range [0:1]\nset y2range [0:1]\n"
+      "set title {} font ',{:.0f}' offset {:.1f}, {}\n",
+      quoted(plot.title), size, aside, plot.subtitle.empty() ? 0.0 : 0.4);
+  if (!plot.subtitle.empty())
+    text += fmt::format(
+        "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',12' "
+        "textcolor "
+        "rgb '#444444'\n",
+        quoted(plot.subtitle), aside);
+  return text +
+         fmt::format(
+             "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing "
+             "1.25\n",
+             legend_of(plot).columns);
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -319,24 +297,21 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   if (axis.minimum) text += fmt::format("set {}range [{}:]\n", name, exact(*axis.minimum));
   if (axis.maximum) text += fmt::format("set {}range [:{}]\n", name, exact(*axis.maximum));
   if (axis.scale == Scale::logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%g'\n", name);
-  std::string tics;
-  for (const Tic& tic : axis.tics) {
-    if (!drawable(tic.at, axis.scale)) continue;
-    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", quoted(tic.label), exact(tic.at));
-  }
-  return tics.empty() ? text : text + fmt::format("unset m{0}tics\nset {0}tics ({1})\n", name, tics);
+  std::vector<std::string> tics;
+  for (const Tic& tic : axis.tics)
+    if (drawable(tic.at, axis.scale)) tics.push_back(quoted(tic.label) + " " + exact(tic.at));
+  if (tics.empty()) return text;
+  return text + fmt::format("unset m{0}tics\nset {0}tics ({1})\n", name, fmt::join(tics, ", "));
 }
 
 /// `width`: letters beside the plot, for names at the ends of lines.
 std::string drawing_commands(const Plot& plot, std::size_t width) {
-  std::string text = frame_commands(plot, width);
   Commands commands;
-  text += axis_commands("x", plot.x) + axis_commands("y", plot.y);
   add_bands(plot, commands);
   add_series(plot, commands);
   add_lines(plot, commands);
-  text += names_in_place(plot, width);
-  return text + commands.text();
+  return frame_commands(plot, width) + axis_commands("x", plot.x) + axis_commands("y", plot.y) +
+         names_in_place(plot, width) + commands.text();
 }
 
 /// Row by row, each in a place as wide as the widest of them and as high as the highest of its row.

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <type_traits>
-
 namespace launchsafe::report {
 namespace {
 
@@ -24,40 +21,19 @@ std::vector<const Item*> items_of(const Report& report) {
   return items;
 }
 
-/// The first rows of a table; what was cut off is in `file`, and a note says so.
-Table first_rows(Table table, std::size_t most, const std::string& file) {
-  if (table.rows.size() <= most) return table;
-  table.notes.insert(table.notes.begin(),
-                     fmt::format("The first {} of {} rows; all are in {}.", most, table.rows.size(), file));
-  table.rows.resize(most);
+/// Whether a table stands on the page, or on the terminal.
+bool stands_on(Shown place, const ReportTable& item) {
+  return !item.table.rows.empty() && (item.shown == place || item.shown == Shown::page_and_terminal);
+}
+
+/// The first rows of a table; what was cut off is in a file, and a note says so.
+Table first_rows(const ReportTable& item) {
+  Table table = item.table;
+  if (table.rows.size() <= item.most_rows) return table;
+  table.notes.insert(table.notes.begin(), fmt::format("The first {} of {} rows; all are in {}.",
+                                                      item.most_rows, table.rows.size(), item.csv));
+  table.rows.resize(item.most_rows);
   return table;
-}
-
-/// A part of the page that ends with a line break; empty for what is not there.
-std::string block_of(const Statement& statement, const std::vector<std::string>&) {
-  return statement.markdown;
-}
-
-std::string block_of(const ReportTable& item, const std::vector<std::string>&) {
-  const bool on_page = item.shown == Shown::page_and_terminal || item.shown == Shown::page;
-  if (!on_page || item.table.rows.empty()) return {};
-  return to_markdown(first_rows(item.table, item.most_rows, item.csv));
-}
-
-std::string block_of(const Picture& picture, const std::vector<std::string>& missing) {
-  if (std::ranges::find(missing, picture.file) != missing.end()) return {};
-  return fmt::format("![{}]({})\n", picture.alternative, picture.file);
-}
-
-std::string printed(const ReportTable& item, const std::filesystem::path& folder, std::size_t width) {
-  const bool on_terminal = item.shown == Shown::page_and_terminal || item.shown == Shown::terminal;
-  if (!on_terminal || item.table.rows.empty()) return {};
-  const std::size_t rows = item.table.rows.size();
-  if (rows <= most_printed_rows) return to_text(item.table, width) + "\n";
-  Table beginning = item.table;
-  beginning.rows.resize(most_printed_rows);
-  return to_text(beginning, width) + fmt::format("\nThese are {} of {} rows; all are in {}\n\n",
-                                                 most_printed_rows, rows, (folder / item.csv).string());
 }
 
 /// Draws the pictures, until gnuplot is missing, fails or takes too long at one, which is a remark. The names
@@ -104,21 +80,9 @@ nlohmann::ordered_json assumed_json(const study::Study& study) {
   return assumed;
 }
 
-/// What verdicts rest on that were calibrated on firings.
-nlohmann::ordered_json firings_json(const study::FiringEvidence& evidence) {
-  int rounds[2] = {0, 0};
-  for (const study::Firing& each : evidence.firings) rounds[each.ignited ? 1 : 0] += each.rounds;
-  return {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
-}
-
 store::SqlValue sql_value(const Cell& cell) {
-  return std::visit(
-      [](const auto& value) -> store::SqlValue {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, double>)
-          return store::to_sql(value);
-        return value;
-      },
-      cell);
+  if (const double* number = std::get_if<double>(&cell)) return store::to_sql(*number);
+  return std::visit([](const auto& value) { return store::SqlValue(value); }, cell);
 }
 
 /// Adds the rows of a table, and its columns where the table before has others.
@@ -143,21 +107,35 @@ std::string to_markdown(const Report& report, const std::vector<std::string>& mi
   const std::string launch = report.launch.empty() ? "" : report.launch + "\n\n";
   std::string page =
       fmt::format("# {}\n\n{}{}\n\n    {}\n", report.title, launch, report.answer, report.command);
-  const auto add = [&page](const std::string& block) {
-    if (!block.empty()) page += "\n" + block;
-  };
-  for (const auto& item : report.items)
-    add(std::visit([&missing](const auto& each) { return block_of(each, missing); }, item));
-  for (const std::string& remark : report.remarks) add(remark + "\n");
+  for (const auto& item : report.items) {
+    const auto* statement = std::get_if<Statement>(&item);
+    const auto* table = std::get_if<ReportTable>(&item);
+    const auto* picture = std::get_if<Picture>(&item);
+    if (statement != nullptr && !statement->markdown.empty()) page += "\n" + statement->markdown;
+    if (table != nullptr && stands_on(Shown::page, *table)) page += "\n" + to_markdown(first_rows(*table));
+    if (picture != nullptr && std::ranges::find(missing, picture->file) == missing.end())
+      page += fmt::format("\n![{}]({})\n", picture->alternative, picture->file);
+  }
+  for (const std::string& remark : report.remarks) page += "\n" + remark + "\n";
   if (!missing.empty())
-    add("Not all pictures are here: gnuplot was not found, failed or took too long when this page was "
-        "made.\n");
+    page +=
+        "\nNot all pictures are here: gnuplot was not found, failed or took too long when this page was "
+        "made.\n";
   return page;
 }
 
 std::string to_text(const Report& report, const std::filesystem::path& folder, std::size_t width) {
   std::string text = report.launch.empty() ? "" : report.launch + "\n\n";
-  for (const ReportTable* table : items_of<ReportTable>(report)) text += printed(*table, folder, width);
+  for (const ReportTable* item : items_of<ReportTable>(report)) {
+    if (!stands_on(Shown::terminal, *item)) continue;
+    Table table = item->table;
+    const std::size_t rows = table.rows.size();
+    table.rows.resize(std::min(rows, most_printed_rows));
+    text += to_text(table, width) + "\n";
+    if (rows > most_printed_rows)
+      text += fmt::format("These are {} of {} rows; all are in {}\n\n", most_printed_rows, rows,
+                          (folder / item->csv).string());
+  }
   return text + report.answer + "\n";
 }
 
@@ -170,8 +148,11 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"answer", report.answer}};
   if (study.study.demonstration) head["demonstration"] = true;
   head.update(members);
-  if (study.study.calibration.firings && study.study.kind.gives_verdicts)
-    head["firings"] = firings_json(*study.study.calibration.firings);
+  if (const auto& evidence = study.study.calibration.firings; evidence && study.study.kind.gives_verdicts) {
+    int rounds[2] = {0, 0};
+    for (const study::Firing& each : evidence->firings) rounds[each.ignited ? 1 : 0] += each.rounds;
+    head["firings"] = {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
+  }
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
   if (study.study.kind.gives_verdicts) {
@@ -180,7 +161,8 @@ std::string study_json(const study::StudyFile& study, const Report& report,
   }
   for (const Picture* picture : items_of<Picture>(report))
     head["pictures"].push_back({{"file", picture->file}, {"shows", picture->alternative}});
-  std::string text = json_file_text(head);
+  // What is not UTF-8, such as an odd name of a file, is replaced.
+  std::string text = head.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   text.resize(text.rfind("\n}"));  // open the object again
   std::vector<const ReportTable*> tables = items_of<ReportTable>(report);
   std::erase_if(tables, [](const ReportTable* table) { return table->member.empty(); });

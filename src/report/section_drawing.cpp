@@ -6,12 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-#include <string_view>
-
 namespace launchsafe::report {
 namespace {
 
@@ -81,29 +75,25 @@ std::string_view colour_of(bool charge, std::size_t index) {
 
 struct DrawnBody {
   const scene::Body* body;
+  bool is_charge;
   std::string_view colour;
 };
-
-std::vector<DrawnBody> drawn_bodies(const scene::Scene& scene) {
-  std::vector<DrawnBody> bodies;
-  std::size_t charges = 0, others = 0;
-  for (const scene::Body& body : scene.bodies) {
-    const bool charge = scene::is_charge(scene, body);
-    bodies.push_back({&body, colour_of(charge, charge ? charges++ : others++)});
-  }
-  return bodies;
-}
 
 /// All that is drawn, whole or in part.
 struct Section {
   const scene::Scene& scene;
-  std::vector<DrawnBody> bodies;
   scene::GridLines lines;
+  std::vector<DrawnBody> bodies = {};
   double x_begin = 0, x_end = 0, r_end = 0;
 };
 
 Section section_of(const scene::Scene& scene) {
-  Section section{scene, drawn_bodies(scene), scene::lines_at_rest(scene)};
+  Section section{scene, scene::lines_at_rest(scene)};
+  std::size_t counts[2] = {0, 0};
+  for (const scene::Body& body : scene.bodies) {
+    const bool charge = scene::is_charge(scene, body);
+    section.bodies.push_back({&body, charge, colour_of(charge, counts[charge ? 1 : 0]++)});
+  }
   const scene::Extent extent = scene::extent_of(scene);
   section.x_begin = std::min(extent.x_begin, section.lines.x.front());
   section.x_end = std::max(extent.x_end, section.lines.x.back());
@@ -126,11 +116,6 @@ struct Panel {
   double y(double radius) const { return bottom() - scale * radius; }
   bool shows(double place) const { return place >= x_begin && place <= x_end; }
 };
-
-Panel whole_panel(const Section& section, double top) {
-  const double scale = std::min(panel_width / (section.x_end - section.x_begin), most_height / section.r_end);
-  return {"whole", section.x_begin, section.x_end, section.r_end, scale, top};
-}
 
 /// Around the bottom of the charge, where the whole is so slender that its cells are hard to see.
 std::optional<Panel> enlarged_panel(const Section& section, const Panel& whole, double top) {
@@ -175,37 +160,35 @@ std::string body_elements(const Section& section, const Panel& panel, bool fille
 }
 
 constexpr std::string_view gap_colour = "#d55e00", load_colour = "#0072b2";
-constexpr std::string_view gap_look = "class=\"gap\" stroke=\"#d55e00\" stroke-width=\"4\"";
-constexpr std::string_view load_look = "class=\"load\" stroke=\"#0072b2\" stroke-width=\"2\"";
+constexpr std::string_view gap_look = "class=\"gap\" stroke=\"#d55e00\" stroke-width=\"4\"",
+                           load_look = "class=\"load\" stroke=\"#0072b2\" stroke-width=\"2\"";
 
 /// The gap, which has no thickness in the grid: along the charge's bottom, and by name.
 std::string gap_elements(const Section& section, const Panel& panel) {
   std::string text;
-  for (const DrawnBody& each : section.bodies)
-    if (const scene::Body& body = *each.body;
-        scene::is_charge(section.scene, body) && !section.scene.surface.gaps.empty())
-      text += svg_line(panel.x(body.x_end), panel.y(body.r_begin), panel.x(body.x_end), panel.y(body.r_end),
-                       gap_look) +
-              svg_text(panel.x(body.x_end), panel.top - 9, 14, "middle", gap_colour, "gap");
+  if (section.scene.surface.gaps.empty()) return text;
+  for (const auto& [body, is_charge, colour] : section.bodies)
+    if (is_charge)
+      text += svg_line(panel.x(body->x_end), panel.y(body->r_begin), panel.x(body->x_end),
+                       panel.y(body->r_end), gap_look) +
+              svg_text(panel.x(body->x_end), panel.top - 9, 14, "middle", gap_colour, "gap");
   return text;
 }
 
-std::string arrow(double tip, double y) {
-  constexpr double length = 30, head = 5;
-  return svg_line(tip, y, tip + length, y, load_look) + svg_line(tip, y, tip + head, y - head, load_look) +
-         svg_line(tip, y, tip + head, y + head, load_look);
-}
-
-/// The chamber's pressure, on the base from behind.
+/// The chamber's pressure, as arrows on the base from behind.
 std::string load_elements(const Section& section, const Panel& panel) {
   constexpr int arrows = 4;
+  constexpr double length = 30, head = 5;
   const scene::Extent bodies = scene::extent_of(section.scene);
   std::string text;
   if (!panel.shows(bodies.x_end)) return text;
-  for (int i = 0; i < arrows; ++i)
-    text += arrow(panel.x(bodies.x_end) + 6, panel.y((i + 0.5) / arrows * bodies.r_end));
-  return text +
-         svg_text(panel.x(bodies.x_end) + 36, panel.top - 26, 14, "end", load_colour, "chamber pressure");
+  const double tip = panel.x(bodies.x_end) + 6;
+  for (int i = 0; i < arrows; ++i) {
+    const double y = panel.y((i + 0.5) / arrows * bodies.r_end);
+    text += svg_line(tip, y, tip + length, y, load_look);
+    for (const double side : {-head, head}) text += svg_line(tip, y, tip + head, y + side, load_look);
+  }
+  return text + svg_text(tip + length, panel.top - 26, 14, "end", load_colour, "chamber pressure");
 }
 
 /// On white, so that the edges of bodies do not fill its gaps.
@@ -252,11 +235,6 @@ struct Label {
 
 constexpr double label_size = 12, label_height = 13, label_distance = 16;
 
-bool overlap(const Label& a, const Label& b) {
-  return a.left < b.left + b.width && b.left < a.left + a.width &&
-         std::abs(a.middle - b.middle) < label_height - 1e-6;
-}
-
 /// Those for which there is room, from the axis outward.
 std::vector<Label> placed_labels(const Panel& panel, std::vector<const scene::ObservationPoint*> points) {
   std::ranges::stable_sort(points, {}, &scene::ObservationPoint::r);
@@ -265,7 +243,10 @@ std::vector<Label> placed_labels(const Panel& panel, std::vector<const scene::Ob
     Label label{point, panel.x(point->x) + label_distance, text_width(point->name, label_size),
                 std::min(panel.y(point->r), panel.bottom() - 0.5 * label_height)};
     const auto in_the_way = [&] {
-      return std::ranges::find_if(placed, [&label](const Label& other) { return overlap(label, other); });
+      return std::ranges::find_if(placed, [&label](const Label& other) {
+        return label.left < other.left + other.width && other.left < label.left + label.width &&
+               std::abs(label.middle - other.middle) < label_height - 1e-6;
+      });
     };
     for (auto other = in_the_way(); other != placed.end(); other = in_the_way())
       label.middle = other->middle - label_height;
@@ -274,28 +255,30 @@ std::vector<Label> placed_labels(const Panel& panel, std::vector<const scene::Ob
   return placed;
 }
 
-struct DrawnPoints {
-  std::string elements;
-  std::size_t unnamed = 0;
-};
-
-DrawnPoints point_elements(const Panel& panel, const std::vector<const scene::ObservationPoint*>& points,
-                           bool named) {
-  DrawnPoints drawn;
-  const std::vector<Label> labels = named ? placed_labels(panel, points) : std::vector<Label>{};
-  drawn.unnamed = points.size() - labels.size();
-  for (const Label& label : labels)
-    drawn.elements += svg_line(panel.x(label.point->x), panel.y(label.point->r), label.left - 2, label.middle,
-                               fmt::format("stroke=\"{}\" stroke-width=\"0.7\"", ink));
-  const double radius = named ? 3.2 : 2.0;
+std::string point_elements(const Panel& panel, const std::vector<const scene::ObservationPoint*>& points,
+                           double radius) {
+  std::string text;
   for (const scene::ObservationPoint* point : points)
-    drawn.elements += svg_circle(panel.x(point->x), panel.y(point->r), radius, ink);
+    text += svg_circle(panel.x(point->x), panel.y(point->r), radius, ink);
+  return text;
+}
+
+/// With their names; `unnamed` counts those for which there is no room.
+std::string named_elements(const Panel& panel, const std::vector<const scene::ObservationPoint*>& points,
+                           std::size_t& unnamed) {
+  const std::vector<Label> labels = placed_labels(panel, points);
+  unnamed += points.size() - labels.size();
+  std::string text;
+  for (const Label& label : labels)
+    text += svg_line(panel.x(label.point->x), panel.y(label.point->r), label.left - 2, label.middle,
+                     fmt::format("stroke=\"{}\" stroke-width=\"0.7\"", ink));
+  text += point_elements(panel, points, 3.2);
   constexpr std::string_view rim =
       "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\"";
   for (const Label& label : labels)
-    drawn.elements += svg_text(label.left, label.middle + 0.35 * label_size, label_size, "start", ink,
-                               label.point->name, rim);
-  return drawn;
+    text += svg_text(label.left, label.middle + 0.35 * label_size, label_size, "start", ink,
+                     label.point->name, rim);
+  return text;
 }
 
 std::vector<const scene::ObservationPoint*> points_in(const scene::Scene& scene, const Panel& panel) {
@@ -362,56 +345,48 @@ std::string legend_elements(const std::vector<LegendEntry>& entries, double& top
   return text;
 }
 
-std::string caption_of(const scene::Scene& scene) {
-  const scene::Plan plan = scene::make_plan(scene);
-  const scene::CellRange cells = scene::cells_of(scene);
-  return fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr,
-                     plan.particles(), scene::format_quantity(plan.time_step, scene::Dimension::time));
-}
-
-/// Around what is enlarged, a little larger than the section so that it covers no edge along it.
-std::string window_frame(const Panel& whole, const Panel& enlarged) {
-  constexpr double above = 7, below = 5;
-  return svg_rectangle(
-      whole.x(enlarged.x_begin), whole.top - above, whole.scale * (enlarged.x_end - enlarged.x_begin),
-      whole.height() + above + below,
-      fmt::format("class=\"window\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"", ink));
-}
-
 /// The panels one below the other; `bottom` moves to below the last.
 std::string panels(const Section& section, double& bottom) {
-  const Panel whole = whole_panel(section, bottom);
+  const double scale = std::min(panel_width / (section.x_end - section.x_begin), most_height / section.r_end);
+  const Panel whole{"whole", section.x_begin, section.x_end, section.r_end, scale, bottom};
   bottom = whole.bottom() + below_panel;
   std::string text = panel_elements(section, whole);
   auto points = points_in(section.scene, whole);
   std::size_t unnamed = 0;
   if (const auto enlarged = enlarged_panel(section, whole, bottom + 64)) {
     const auto inside = points_in(section.scene, *enlarged);
-    const DrawnPoints named = point_elements(*enlarged, inside, true);
-    text += window_frame(whole, *enlarged) + panel_elements(section, *enlarged);
+    // A frame around it, a little larger than the section so that it covers no edge along it.
+    constexpr double above = 7, below = 5;
+    text += svg_rectangle(
+        whole.x(enlarged->x_begin), whole.top - above, scale * (enlarged->x_end - enlarged->x_begin),
+        whole.height() + above + below,
+        fmt::format("class=\"window\" fill=\"none\" stroke=\"{}\" stroke-dasharray=\"4 3\"", ink));
+    text += panel_elements(section, *enlarged);
     text += svg_text(enlarged->left(), enlarged->top - 34, 16, "start", ink,
                      fmt::format("At the bottom of the charge, enlarged {} times",
                                  significant(enlarged->scale / whole.scale, 2)));
-    text += named.elements + point_elements(whole, inside, false).elements;
-    unnamed = named.unnamed;
+    text += named_elements(*enlarged, inside, unnamed) + point_elements(whole, inside, 2.0);
     std::erase_if(points, [&](const auto* point) { return enlarged->shows(point->x); });
     bottom = enlarged->bottom() + below_panel;
   }
-  const DrawnPoints named = point_elements(whole, points, true);
-  unnamed += named.unnamed;
+  const std::string named = named_elements(whole, points, unnamed);
   if (unnamed > 0)
     text += svg_text(page_width - margin, bottom - 8, 13, "end", soft_ink,
                      fmt::format("without a name for want of room: {} observation points", unnamed));
-  return text + named.elements;
+  return text + named;
 }
 
 }  // namespace
 
 std::string section_svg(const scene::Scene& scene) {
   const Section section = section_of(scene);
+  const scene::Plan plan = scene::make_plan(scene);
+  const scene::CellRange cells = scene::cells_of(scene);
   double bottom = 88;
   std::string text = svg_text(margin, 44, 21, "start", ink, scene.title.empty() ? "grid" : scene.title);
-  text += svg_text(margin, 68, 14, "start", soft_ink, caption_of(scene));
+  text += svg_text(margin, 68, 14, "start", soft_ink,
+                   fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr,
+                               plan.particles(), scene::time_text(plan.time_step)));
   text += legend_elements(legend_entries(section), bottom);
   bottom += 46;
   text += panels(section, bottom);

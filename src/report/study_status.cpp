@@ -7,11 +7,6 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 
 namespace launchsafe::report {
@@ -21,12 +16,11 @@ constexpr double longest_silence = 120.0;  ///< s; a writer that lives tells som
 constexpr std::size_t most_gaps = 40;      ///< that are listed
 constexpr int interrupted_code = 75, failed_code = 70;
 
-enum class State { finished, waiting, interrupted, silent, failed, running };
+enum class State : std::size_t { finished, waiting, interrupted, silent, failed, running };
 
 const char* word_for(State state) {
-  // In the order of State.
-  constexpr std::array words{"finished", "waiting", "interrupted", "silent", "failed", "running"};
-  return words.at(static_cast<std::size_t>(state));
+  return std::array{"finished", "waiting", "interrupted", "silent", "failed", "running"}.at(
+      std::size_t(state));
 }
 
 /// Seconds since the epoch of "2026-03-01T09:30:00Z"; 0 for any other text.
@@ -37,28 +31,21 @@ std::time_t time_in(const std::string& text) {
 }
 
 /// A number of a snapshot, 0 where there is none.
-double amount_in(const Row& row, const std::string& key) {
-  const double value = number_of(row, key);
-  return std::isfinite(value) ? value : 0.0;
-}
+double amount_in(const Row& row, const std::string& key) { return known(number_of(row, key)).value_or(0.0); }
 
 /// One writer.
 struct Writer {
-  const store::StoreStatus* snapshot = nullptr;
+  Row row;  ///< of its snapshot, and what follows from it
   State state = State::running;
   int exit_code = 0;
   std::time_t since = 0, time = 0;
-  std::optional<double> left;  ///< s from now on, of one that runs
-
-  double amount(const std::string& key) const { return amount_in(snapshot->members, key); }
+  std::optional<double> left = {};  ///< s from now on, of one that runs
 };
 
 Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
   const Row& members = snapshot.members;
-  Writer writer;
-  writer.snapshot = &snapshot;
-  writer.since = time_in(text_of(members, "since"));
-  writer.time = time_in(text_of(members, "time"));
+  Writer writer{
+      .row = members, .since = time_in(text_of(members, "since")), .time = time_in(text_of(members, "time"))};
   const double code = number_of(members, "exit_code");
   const auto silence = static_cast<double>(now - writer.time);
   if (std::isfinite(code)) {
@@ -75,6 +62,13 @@ Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
   } else if (const double left = number_of(members, "time_left_s"); left >= 0) {
     writer.left = std::max(0.0, left - silence);
   }
+  const std::string& part = snapshot.part;
+  const std::size_t of = part.find("-of-");
+  writer.row.update(
+      {{"shard", of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4)},
+       {"state", word_for(writer.state)},
+       {"silence", duration(silence)},
+       {"left", writer.left ? duration(*writer.left) : ""}});
   return writer;
 }
 
@@ -91,11 +85,19 @@ std::size_t shards_not_seen(const std::vector<store::StoreStatus>& snapshots) {
   return count - std::min(count, seen.size());
 }
 
+/// The rows of a list that every writer tells.
+std::vector<Row> told_by(const std::vector<Writer>& writers, const char* list) {
+  std::vector<Row> rows;
+  for (const Writer& writer : writers)
+    if (const Row& told = found_in(writer.row, list); told.is_array())
+      rows.insert(rows.end(), told.begin(), told.end());
+  return rows;
+}
+
 Row failures_of(const std::vector<Writer>& writers) {
   std::map<std::string, double> cases;
-  for (const Writer& writer : writers)
-    if (const Row& told = found_in(writer.snapshot->members, "failures"); told.is_array())
-      for (const Row& each : told) cases[text_of(each, "reason")] += amount_in(each, "cases");
+  for (const Row& each : told_by(writers, "failures"))
+    cases[text_of(each, "reason")] += amount_in(each, "cases");
   std::vector<std::pair<std::string, double>> sorted(cases.begin(), cases.end());
   std::ranges::stable_sort(sorted, std::greater{}, [](const auto& each) { return each.second; });
   Row rows = Row::array();
@@ -106,32 +108,12 @@ Row failures_of(const std::vector<Writer>& writers) {
 
 /// The smallest critical gaps of all writers, in order.
 Row gaps_of(const std::vector<Writer>& writers) {
-  std::vector<Row> gaps;
-  for (const Writer& writer : writers)
-    if (const Row& told = found_in(writer.snapshot->members, "critical_gaps"); told.is_array())
-      for (const Row& each : told)
-        if (number_of(each, "lower_cm") <= number_of(each, "upper_cm")) gaps.push_back(each);
+  std::vector<Row> gaps = told_by(writers, "critical_gaps");
+  std::erase_if(
+      gaps, [](const Row& each) { return !(number_of(each, "lower_cm") <= number_of(each, "upper_cm")); });
   std::ranges::stable_sort(gaps, {}, [](const Row& row) { return number_of(row, "lower_cm"); });
   if (gaps.size() > most_gaps) gaps.resize(most_gaps);
   return gaps;
-}
-
-Row row_of(const Writer& writer, std::time_t now) {
-  Row row = writer.snapshot->members;
-  const std::string& part = writer.snapshot->part;
-  const std::size_t of = part.find("-of-");
-  row["shard"] = of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4);
-  row["state"] = word_for(writer.state);
-  row["silence"] = duration(static_cast<double>(now - writer.time));
-  row["left"] = writer.left ? duration(*writer.left) : "";
-  return row;
-}
-
-/// Of all writers: what makes up the state of the study.
-State state_of(const std::vector<Writer>& writers, std::size_t not_seen) {
-  State state = not_seen > 0 ? State::waiting : State::finished;
-  for (const Writer& each : writers) state = std::max(state, each.state);
-  return state;
 }
 
 /// When all that runs will have ended; nothing where somebody cannot tell, or has not begun.
@@ -193,16 +175,19 @@ std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t 
 
 Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
                  std::time_t now) {
-  std::vector<Writer> writers;
-  for (const store::StoreStatus& each : snapshots) writers.push_back(writer_of(each, now));
   const std::size_t not_seen = shards_not_seen(snapshots);
-  const State state = state_of(writers, not_seen);
+  std::vector<Writer> writers;
+  State state = not_seen > 0 ? State::waiting : State::finished;
+  for (const store::StoreStatus& each : snapshots) {
+    writers.push_back(writer_of(each, now));
+    state = std::max(state, writers.back().state);
+  }
   Row facts{
       {"folder", folder}, {"state", word_for(state)}, {"is", {{word_for(state), true}}}, {"exit_code", 0}};
   for (const char* key : {"cases", "cases_done", "cases_failed", "runs_running", "runs_done", "runs_total",
                           "runs_stored", "case_files_bytes", "critical_gaps_found"}) {
     double sum = 0;
-    for (const Writer& each : writers) sum += each.amount(key);
+    for (const Writer& each : writers) sum += amount_in(each.row, key);
     facts[key] = static_cast<std::int64_t>(sum);
   }
   facts["cases_left"] =
@@ -212,11 +197,11 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   for (const Writer& each : writers) {
     begin = std::min(begin, each.since);
     end = std::max(end, each.state == State::running ? now : each.time);
-    largest = std::max(largest, each.amount("largest_critical_gap_cm"));
+    largest = std::max(largest, amount_in(each.row, "largest_critical_gap_cm"));
     facts["exit_code"] = std::max(facts["exit_code"].get<int>(), each.exit_code);
-    facts["writers"].push_back(row_of(each, now));
+    facts["writers"].push_back(each.row);
     if (each.state == State::interrupted || each.state == State::silent)
-      facts["command"] = text_of(each.snapshot->members, "command");
+      facts["command"] = text_of(each.row, "command");
   }
   facts["phase"] = text_of(snapshots.front().members, "phase");
   facts["time"] = clock_time(end, now);

@@ -1,6 +1,6 @@
 #include "launchsafe/report/study_text.hpp"
 
-#include "launchsafe/report/number.hpp"
+#include "built_in_templates.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
@@ -8,11 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <string_view>
 
 namespace launchsafe::report {
 namespace {
@@ -23,14 +19,6 @@ std::string unit_of(const std::string& quantity) {
   return blank == std::string::npos ? std::string{} : quantity.substr(blank + 1);
 }
 
-/// Whether a unit is used for one of these quantities, or is a tenth of one that is: 1 mm is also 0.1 cm.
-bool suits(const std::string& unit, const std::vector<std::string>& used, scene::Dimension dimension) {
-  const double size = scene::in_unit(1.0, dimension, unit);  // pieces in one SI unit
-  return std::ranges::any_of(used, [&](const std::string& each) {
-    return each == unit || std::lround(1e3 * size / scene::in_unit(1.0, dimension, each)) == 10'000;
-  });
-}
-
 /// The units to choose from: those that people use for single values, in the order of `units_of`.
 std::vector<std::string> candidate_units(const std::vector<double>& si_values, scene::Dimension dimension) {
   std::vector<std::string> used, all_used, candidates;
@@ -39,7 +27,12 @@ std::vector<std::string> candidate_units(const std::vector<double>& si_values, s
     all_used.push_back(unit_of(scene::format_quantity(std::pow(10.0, power), dimension)));
   for (const std::string& unit : scene::units_of(dimension)) {
     const bool common = std::ranges::find(all_used, unit) != all_used.end();
-    if (common && suits(unit, used, dimension)) candidates.push_back(unit);
+    const double size = scene::in_unit(1.0, dimension, unit);  // pieces in one SI unit
+    // Used for one of these quantities, or a tenth of one that is: 1 mm is also 0.1 cm.
+    const auto suits = [&](const std::string& each) {
+      return each == unit || std::lround(1e3 * size / scene::in_unit(1.0, dimension, each)) == 10'000;
+    };
+    if (common && std::ranges::any_of(used, suits)) candidates.push_back(unit);
   }
   return candidates;
 }
@@ -54,17 +47,12 @@ std::size_t clutter(double value) {
   return text.size() - whole + leading_zero + (whole > 3 ? 3 * (whole - 3) : 0);
 }
 
-bool is_log_normal(const math::Distribution& distribution) {
-  return distribution.kind == math::Distribution::Kind::log_normal;
-}
-
 std::vector<double> marks_of(const math::Distribution& distribution) {
-  if (is_log_normal(distribution)) return {distribution.centre};
-  std::vector<double> values;
-  for (const double value : {distribution.lower, distribution.upper}) {
-    if (std::isfinite(value)) values.push_back(value);
-  }
-  if (distribution.kind == math::Distribution::Kind::normal) values.push_back(distribution.centre);
+  using enum math::Distribution::Kind;
+  if (distribution.kind == log_normal) return {distribution.centre};
+  std::vector<double> values{distribution.lower, distribution.upper};
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (distribution.kind == normal) values.push_back(distribution.centre);
   return values;
 }
 
@@ -122,37 +110,32 @@ std::string plain_words(std::string name) {
 
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values) {
   constexpr std::size_t most = 12;
-  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
+  Row facts{{"unit", key.form.unit}};
+  for (const double value : si_values) facts["values"].push_back(digits_of(value, key.form));
   if (si_values.size() > most) {
-    const auto [low, high] = std::minmax_element(si_values.begin(), si_values.end());
-    return fmt::format("{} values from {} to {}{}", si_values.size(), digits_of(*low, key.form),
-                       digits_of(*high, key.form), unit);
+    const auto [low, high] = std::ranges::minmax(si_values);
+    facts["ends"] = {{"low", digits_of(low, key.form)}, {"high", digits_of(high, key.form)}};
   }
-  std::string text;
-  for (const double value : si_values) text += (text.empty() ? "" : ", ") + digits_of(value, key.form);
-  return text + unit;
+  return fmt::format("{}", fmt::join(noted("values", facts), ""));
 }
 
 std::string distribution_text(const ShownKey& key, const math::Distribution& distribution) {
-  const auto number = [&key](double value_si) { return digits_of(value_si, key.form); };
-  const std::string unit = key.form.unit.empty() ? "" : " " + key.form.unit;
-  if (is_log_normal(distribution))
-    return fmt::format("log-normal, {}{} ± {}", number(distribution.centre), unit,
-                       in_words(distribution.deviation, keys::significant(3, percent)));
-  if (distribution.kind != math::Distribution::Kind::normal) {
-    const bool uniform = distribution.kind == math::Distribution::Kind::uniform;
-    return fmt::format("{} from {} to {}{}", uniform ? "uniform" : "log-uniform", number(distribution.lower),
-                       number(distribution.upper), unit);
-  }
-  std::string text =
-      fmt::format("normal, {} ± {}{}", number(distribution.centre), number(distribution.deviation), unit);
-  const bool below = std::isfinite(distribution.lower), above = std::isfinite(distribution.upper);
-  if (below && above)
-    return text + fmt::format(", cut off at {} and {}{}", number(distribution.lower),
-                              number(distribution.upper), unit);
-  if (below) text += fmt::format(", cut off below {}{}", number(distribution.lower), unit);
-  if (above) text += fmt::format(", cut off above {}{}", number(distribution.upper), unit);
-  return text;
+  using enum math::Distribution::Kind;
+  const auto number = [&key](double value_si) {
+    return std::isfinite(value_si) ? digits_of(value_si, key.form) : "";
+  };
+  const char* kind = distribution.kind == uniform       ? "uniform"
+                     : distribution.kind == log_uniform ? "log-uniform"
+                     : distribution.kind == normal      ? "normal"
+                                                        : "log-normal";
+  return noted("distribution", {{"kind", kind},
+                                {"unit", key.form.unit},
+                                {"centre", number(distribution.centre)},
+                                {"deviation", number(distribution.deviation)},
+                                {"lower", number(distribution.lower)},
+                                {"upper", number(distribution.upper)},
+                                {"share", in_words(distribution.deviation, keys::significant(3, percent))}})
+      .front();
 }
 
 std::string place_text(const std::vector<ShownKey>& keys, const std::vector<double>& coordinates) {
@@ -179,43 +162,38 @@ std::string remaking_command(const study::StudyFile& study) {
 }
 
 std::string setup_text(const study::StudyFile& study) {
-  std::string text = fmt::format("- Study `{}`, scene `{}`", study_file_name(study), study.study.scene);
-  for (const auto& [key, value] : study.overrides) text += fmt::format(", with `{}` = {}", key, value);
-  text += "\n";
-  if (!study.chosen_setting.empty())
-    text += fmt::format("- Setting picked from `{}`: {}\n", study.study.accuracy, study.chosen_setting);
+  Row facts{{"study", study_file_name(study)},
+            {"scene", study.study.scene},
+            {"accuracy", study.study.accuracy},
+            {"setting", study.chosen_setting},
+            {"measured", scene::measured_load_text(study.scene.scene.load)}};
+  for (const auto& [key, value] : study.overrides)
+    facts["overrides"].push_back({{"key", key}, {"value", value}});
   for (const study::Axis& axis : study.study.axes)
-    text += fmt::format("- `{}` is varied: {}\n", axis.key.name,
-                        axis.distribution ? distribution_text(shown(axis), *axis.distribution)
-                                          : values_text(shown(axis), axis.values));
+    facts["axes"].push_back({{"key", axis.key.name},
+                             {"values", axis.distribution ? distribution_text(shown(axis), *axis.distribution)
+                                                          : values_text(shown(axis), axis.values)}});
   // What tells one launch from another; the manifest has all inputs.
   constexpr std::string_view told[] = {"load.peak", "charge.crack_radius", "charge.flaw_size",
                                        "numerics.cell_size"};
-  std::vector<std::string> launch;
   for (const scene::ListedKey& key : scene::list_keys(study.scene))
     if (std::ranges::find(told, key.name) != std::end(told) && !varies(study.study, key.name))
-      launch.push_back(fmt::format("`{}` = {}", key.name, key.value));
-  if (!launch.empty()) text += fmt::format("- {}\n", fmt::join(launch, ", "));
-  if (const std::string measured = scene::measured_load_text(study.scene.scene.load); !measured.empty())
-    text += fmt::format("- The measured pressure curve: {}\n", measured);
-  std::vector<std::pair<std::string, std::string>> held;  // a condition with the bodies that it holds
-  for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene)) {
-    const std::string condition = each.condition + "; " + each.assumes;
-    auto found = std::ranges::find(held, condition, &std::pair<std::string, std::string>::first);
-    if (found == held.end()) found = held.insert(found, {condition, {}});
-    found->second += fmt::format("{}`interface.{}`", found->second.empty() ? "" : ", ", each.body);
-  }
-  for (const auto& [condition, bodies] : held) text += fmt::format("- {}: {}\n", bodies, condition);
-  return text;
+      facts["launch"].push_back(fmt::format("`{}` = {}", key.name, key.value));
+  Row held = Row::object();  // the bodies, by the condition that holds them
+  for (const scene::InterfaceText& each : scene::describe_interfaces(study.scene.scene))
+    held[each.condition + "; " + each.assumes].push_back(fmt::format("`interface.{}`", each.body));
+  for (const auto& [condition, bodies] : held.items())
+    facts["held"].push_back({{"condition", condition}, {"bodies", bodies}});
+  return fmt::format("{}\n", fmt::join(noted("setup", facts), "\n"));
 }
 
 std::string timing_text(const study::Timing& timing) {
-  std::string text = fmt::format("re-used {}, ran {}", counted(timing.reused, "mechanical run"), timing.runs);
-  if (timing.run_time > 0)
-    text += fmt::format(" at {} particle updates per second and core",
-                        scientific(timing.updates_per_second(), 2));
-  return text +
-         fmt::format("; {} of wall time with {}", duration(timing.wall_time), counted(timing.jobs, "job"));
+  return noted("timing", {{"reused", timing.reused},
+                          {"runs", timing.runs},
+                          {"rate", timing.run_time > 0 ? scientific(timing.updates_per_second(), 2) : ""},
+                          {"wall_time", duration(timing.wall_time)},
+                          {"jobs", timing.jobs}})
+      .front();
 }
 
 std::string timing_sentence(const study::Timing& timing) {
@@ -259,10 +237,6 @@ nlohmann::ordered_json axes_json(const study::Study& study) {
     for (const double value : axis.values) json["values"].push_back(number(key.value(value)));
   }
   return axes;
-}
-
-std::string json_file_text(const nlohmann::ordered_json& object) {
-  return object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace launchsafe::report

@@ -3,11 +3,10 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <string_view>
+#include <numeric>
 
 namespace launchsafe::report {
 namespace {
@@ -29,11 +28,6 @@ std::vector<std::size_t> places_for(const Table& table, Audience audience) {
 }
 
 bool is_text(const Column& column) { return column.form.notation == Notation::text; }
-
-std::string padded(const std::string& text, std::size_t width, const Column& column) {
-  const std::string fill(width - std::min(width, display_width(text)), ' ');
-  return is_text(column) ? text + fill : fill + text;
-}
 
 /// What people read: the cells as text, the headings first.
 struct Grid {
@@ -66,36 +60,40 @@ std::vector<std::size_t> widths_of(const Grid& grid, std::size_t smallest) {
 }
 
 std::string on_one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  for (const char blank : {'\n', '\r', '\t'}) std::ranges::replace(text, blank, ' ');
   return text;
 }
 
-std::string text_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
-                      const std::vector<Column>& columns) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    line += (i > 0 ? "  " : "") + padded(cells[i], widths[i], columns[i]);
-  }
-  return line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-}
+/// What stands around the cells of a line and at the right end of the rule under numbers, and how narrow a
+/// column may be.
+struct Frame {
+  const char *begin, *between, *end;
+  char right;
+  std::size_t narrowest;
+};
+constexpr Frame text_frame{"", "  ", "", '-', 1}, markdown_frame{"| ", " | ", " |", ':', 3};
 
-std::size_t width_of(const Grid& grid) {
-  std::size_t sum = 0;
-  for (const std::size_t width : widths_of(grid, 1)) sum += width + 2;
-  return sum - std::min<std::size_t>(sum, 2);
-}
-
-std::string text_lines(const Grid& grid) {
-  const auto widths = widths_of(grid, 1);
+/// The headings, a rule, and the rows.
+std::string lines_of(const Grid& grid, const Frame& frame) {
+  const auto widths = widths_of(grid, frame.narrowest);
   std::string text;
-  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
-    text += text_line(grid.lines[i], widths, grid.columns);
-    if (i > 0) continue;
-    std::vector<std::string> rules;
-    for (const std::size_t width : widths) rules.emplace_back(width, '-');
-    text += text_line(rules, widths, grid.columns);
+  const auto add = [&](const std::vector<std::string>& cells) {
+    std::string line = frame.begin;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const std::string fill(widths[i] - display_width(cells[i]), ' ');
+      line += (i > 0 ? frame.between : "") + (is_text(grid.columns[i]) ? cells[i] + fill : fill + cells[i]);
+    }
+    line += frame.end;
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  std::vector<std::string> rules;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    rules.emplace_back(widths[i], '-');
+    if (!is_text(grid.columns[i])) rules.back().back() = frame.right;
   }
+  add(grid.lines.front());
+  add(rules);
+  for (std::size_t i = 1; i < grid.lines.size(); ++i) add(grid.lines[i]);
   return text;
 }
 
@@ -110,56 +108,31 @@ Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
 }
 
 /// Below each other as many columns as fit, each time behind the first; one that does not fit even so stands
-/// alone.
+/// alone. Width 0: all.
 std::string text_parts(const Grid& grid, std::size_t width) {
+  const auto widths = widths_of(grid, text_frame.narrowest);
+  const std::size_t needed = std::accumulate(widths.begin(), widths.end(), 2 * widths.size());
+  if (width == 0 || widths.size() < 2 || needed <= width + 2) return lines_of(grid, text_frame);
   std::string text;
   for (std::size_t next = 1; next < grid.columns.size();) {
-    std::vector<std::size_t> places{0, next++};
-    for (; next < grid.columns.size(); ++next) {
-      places.push_back(next);
-      if (width_of(part_of(grid, places)) <= width) continue;
-      places.pop_back();
-      break;
-    }
-    text += (text.empty() ? "" : "\n") + text_lines(part_of(grid, places));
+    std::vector<std::size_t> places{0, next};
+    std::size_t taken = widths[0] + 2 + widths[next];
+    while (++next < grid.columns.size() && (taken += 2 + widths[next]) <= width) places.push_back(next);
+    text += (text.empty() ? "" : "\n") + lines_of(part_of(grid, places), text_frame);
   }
   return text;
 }
 
-std::string markdown_line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths,
-                          const std::vector<Column>& columns) {
-  std::string line = "|";
-  for (std::size_t i = 0; i < cells.size(); ++i) line += " " + padded(cells[i], widths[i], columns[i]) + " |";
-  return line + "\n";
-}
-
-std::string markdown_rule(const std::vector<std::size_t>& widths, const std::vector<Column>& columns) {
-  std::string line = "|";
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    line += !is_text(columns[i]) ? " " + std::string(widths[i] - 1, '-') + ": |"
-                                 : " " + std::string(widths[i], '-') + " |";
-  }
-  return line + "\n";
-}
-
-void append_csv(std::string& csv, const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos && !text.starts_with(' ') && !text.ends_with(' ')) {
-    csv += text;
-    return;
-  }
-  csv += '"';
-  for (const char character : text) {
-    if (character == '"') csv += '"';
-    csv += character;
-  }
-  csv += '"';
-}
-
 /// Written in place: tables of a hundred thousand rows go through here.
 void append_csv(std::string& csv, const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) append_csv(csv, *text);
   if (const auto* number = std::get_if<double>(&cell)) csv += exact(*number);
   if (const auto* count = std::get_if<std::int64_t>(&cell)) csv += std::to_string(*count);
+  const auto* text = std::get_if<std::string>(&cell);
+  if (text == nullptr) return;
+  if (text->find_first_of(",\"\r\n") == std::string::npos && !text->starts_with(' ') && !text->ends_with(' '))
+    csv += *text;
+  else
+    csv += '"' + boost::algorithm::replace_all_copy(*text, "\"", "\"\"") + '"';
 }
 
 nlohmann::ordered_json json_cell(const Cell& cell) {
@@ -171,13 +144,20 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
 
 }  // namespace
 
-double shown_value(double value_si, const Form& form) {
-  return scene::as_written(value_si, form.dimension, form.unit);
+std::string cell_text(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
 }
 
 Cell shown_cell(Cell cell_si, const Column& column) {
   if (auto* number = std::get_if<double>(&cell_si)) *number = shown_value(*number, column.form);
   return cell_si;
+}
+
+double shown_value(double value_si, const Form& form) {
+  return scene::as_written(value_si, form.dimension, form.unit);
 }
 
 std::string digits_of(double value_si, const Form& form) {
@@ -186,13 +166,6 @@ std::string digits_of(double value_si, const Form& form) {
 
 std::string in_words(double value_si, const Form& form) {
   return digits_of(value_si, form) + (form.unit.empty() ? "" : " " + form.unit);
-}
-
-std::string cell_text(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-  return {};
 }
 
 std::string markdown_escaped(const std::string& text) {
@@ -227,20 +200,15 @@ std::vector<std::string> keys_of(const Table& table) {
 std::string to_text(const Table& table, std::size_t width) {
   const Grid grid = grid_of(table, on_one_line);
   std::string text = table.title.empty() ? "" : table.title + "\n\n";
-  const bool fits = width == 0 || grid.columns.size() < 2 || width_of(grid) <= width;
-  text += fits ? text_lines(grid) : text_parts(grid, width);
+  text += text_parts(grid, width);
   for (std::size_t i = 0; i < table.notes.size(); ++i) text += (i == 0 ? "\n" : "") + table.notes[i] + "\n";
   return text;
 }
 
 std::string to_markdown(const Table& table) {
   const Grid grid = grid_of(table, markdown_escaped);
-  const auto widths = widths_of(grid, 3);
   std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
-  for (std::size_t i = 0; i < grid.lines.size(); ++i) {
-    text += markdown_line(grid.lines[i], widths, grid.columns);
-    if (i == 0) text += markdown_rule(widths, grid.columns);
-  }
+  text += lines_of(grid, markdown_frame);
   for (const std::string& note : table.notes) text += "\n" + markdown_escaped(note) + "\n";
   return text;
 }

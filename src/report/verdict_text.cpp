@@ -1,7 +1,6 @@
 #include "launchsafe/report/verdict_text.hpp"
 
 #include "built_in_templates.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -13,18 +12,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace launchsafe::report {
 namespace {
 
 using keys::fixed, keys::scientific, keys::text;
-
-std::string ignition_text(const study::NamedIgnition& ignition) {
-  return fmt::format("{} at {}, {}", study::to_string(ignition.cause),
-                     in_words(ignition.time, quantity::ignition_time.form), ignition.point);
-}
 
 /// A share of the uncertainty.
 Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
@@ -60,17 +51,6 @@ void add_off_grid(const study::StudyFile& study, Row& facts) {
     facts["of_cases"] = study.cases.size();
   }
   facts["count"] = count;
-}
-
-/// What nobody accepts, as a file would say it; the first where many cases have values of their own.
-void add_not_accepted(const study::StudyFile& study, Row& facts) {
-  constexpr std::size_t most_entries = 12;
-  std::vector<scene::Implausible> missing = study::acceptances_of(study).missing;
-  if (missing.empty()) return;
-  facts["missing_count"] = missing.size();
-  facts["missing_more"] = missing.size() > most_entries;
-  missing.resize(std::min(missing.size(), most_entries));
-  facts["missing"] = "\n" + scene::acceptances_to_write(missing);
 }
 
 double percent_of(double share) { return shown_value(share, keys::significant(6, percent)); }
@@ -224,7 +204,11 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       evidence_quantity("extrapolated", study::extrapolated_text,
                         "What lies outside the domain of the calibration."),
       {for_people(Column{"ignition", "ignition", text(), "Cause, instant and station of ignition."}),
-       &GapVerdict::ignition, ignition_text},
+       &GapVerdict::ignition,
+       [](const NamedIgnition& ignition) {
+         return fmt::format("{} at {}, {}", study::to_string(ignition.cause),
+                            in_words(ignition.time, quantity::ignition_time.form), ignition.point);
+       }},
       {for_programs(Column{"ignition_cause", "ignition cause", text(), "What began it."}),
        &GapVerdict::ignition, [](const NamedIgnition& ignition) { return study::to_string(ignition.cause); }},
       {for_programs(ignition_time), &GapVerdict::ignition, &NamedIgnition::time},
@@ -275,7 +259,13 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
                                {"K", each.value},
                                {"because", each.because}});
   add_off_grid(study, facts);
-  add_not_accepted(study, facts);
+  // What nobody accepts, as a file would say it; the first where many cases have values of their own.
+  constexpr std::size_t most_entries = 12;
+  std::vector<scene::Implausible> missing = study::acceptances_of(study).missing;
+  facts["missing_count"] = missing.size();
+  facts["missing_more"] = missing.size() > most_entries;
+  missing.resize(std::min(missing.size(), most_entries));
+  if (!missing.empty()) facts["missing"] = "\n" + scene::acceptances_to_write(missing);
   return noted("mesh", facts);
 }
 
@@ -295,18 +285,11 @@ double value_of(const study::CriticalGap& gap) {
 }
 
 std::string reads_as(const study::CriticalGap& gap) {
-  switch (gap.kind) {
-    case study::CriticalGapKind::value:
-      return in_words(gap.value, keys::significant(3, centimetre));
-    case study::CriticalGapKind::all_safe:
-      return "> " + centimetres(gap.lower);
-    case study::CriticalGapKind::all_ignite:
-      return gap.upper > 0 ? "< " + centimetres(gap.upper) : "ignites without a gap";
-    case study::CriticalGapKind::several_crossings:
-      return "several, the first at " + centimetres(gap.lower);
-    case study::CriticalGapKind::indeterminate:
-      break;
-  }
+  using enum study::CriticalGapKind;
+  if (gap.kind == value) return in_words(gap.value, keys::significant(3, centimetre));
+  if (gap.kind == all_safe) return "> " + centimetres(gap.lower);
+  if (gap.kind == all_ignite) return gap.upper > 0 ? "< " + centimetres(gap.upper) : "ignites without a gap";
+  if (gap.kind == several_crossings) return "several, the first at " + centimetres(gap.lower);
   if (std::isnan(gap.indicative)) return "indeterminate";
   return fmt::format("indeterminate (indicative: {})", gap.indicative == study::no_ignition
                                                            ? "none up to the end of the search"
