@@ -17,24 +17,19 @@ namespace {
 /// What the values of a list, of which every mesh has one, tend to on the meshes, finest first.
 template <class List>
 std::vector<ReferenceValue> over_meshes(std::span<const AccuracyRow> meshes, List list) {
+  const auto sizes = of_each(meshes, [](const AccuracyRow& mesh) { return mesh.setting.cell; });
   std::vector<ReferenceValue> references;
-  for (std::size_t i = 0; i < std::invoke(list, meshes.front()).size(); ++i) {
-    std::vector<double> values, sizes;
-    for (const AccuracyRow& mesh : meshes) {
-      values.push_back(std::invoke(list, mesh)[i]);
-      sizes.push_back(mesh.setting.cell);
-    }
-    references.push_back(study::reference_value(std::move(values), sizes));
-  }
+  for (std::size_t i = 0; i < std::invoke(list, meshes.front()).size(); ++i)
+    references.push_back(study::reference_value(
+        of_each(meshes, [&](const AccuracyRow& mesh) { return std::invoke(list, mesh)[i]; }), sizes));
   return references;
 }
 
 /// s, for every gap; NaN where it does not ignite.
 std::vector<double> ignition_times(const AccuracyRow& row) {
-  std::vector<double> times;
-  for (const study::GapVerdict& gap : row.answer.verdicts)
-    times.push_back(gap.ignition ? gap.ignition->time : not_a_number);
-  return times;
+  return of_each(row.answer.verdicts, [](const study::GapVerdict& gap) {
+    return gap.ignition ? gap.ignition->time : not_a_number;
+  });
 }
 
 /// What the reference meshes, finest first, tend to.
@@ -48,9 +43,7 @@ AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study:
       over_meshes(meshes, [](const AccuracyRow& mesh) { return std::vector{mesh.peak_pressure}; }).front();
   reference.at_times = over_meshes(meshes, &AccuracyRow::at_times);
   reference.points = over_meshes(meshes, [](const AccuracyRow& mesh) {
-    std::vector<double> values;
-    for (const study::StationTemperature& point : mesh.points) values.push_back(point.temperature);
-    return values;
+    return of_each(mesh.points, &study::StationTemperature::temperature);
   });
   reference.bottom = meshes.front().bottom;
   return reference;
@@ -64,7 +57,6 @@ std::vector<double> errors_against(const std::vector<ReferenceValue>& references
   return errors;
 }
 
-/// Errors of a run that completed.
 void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
   row.temperature_error = errors_against(reference.temperature, row.setting.temperature);
   row.largest_temperature_error = 0.0;
@@ -109,17 +101,16 @@ AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
   row.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
   row.memory = run::cost_of(scene).memory();
   if (!row.computed()) return row;
-  for (const study::FinishedRun& run : runs) {
-    const std::vector<std::string> warnings = run::validity_warnings(scene, run.result.mechanics);
-    if (row.validity_warnings.empty()) row.validity_warnings = fmt::format("{}", fmt::join(warnings, "; "));
-  }
+  for (const study::FinishedRun& run : runs)
+    if (row.validity_warnings.empty())
+      row.validity_warnings =
+          fmt::format("{}", fmt::join(run::validity_warnings(scene, run.result.mechanics), "; "));
   add_first_gap(study, scene, runs.front().result, row);
   row.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
   row.peak_pressure = *std::ranges::max_element(row.bottom.pressure);
   return row;
 }
 
-/// What was measured on the runs of all cases.
 void run_settings(AccuracyResult& result, const study::StudyOptions& options) {
   std::vector<std::pair<VariantAccuracy*, std::size_t>> places;  // of every case of the study
   for (VariantAccuracy& variant : result.variants) {
@@ -145,7 +136,6 @@ std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
   return inert;
 }
 
-/// Which row is what.
 void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
   const study::StudyFile& study = variant.study;
   const study::Setting own = study::setting_of(study.scene.scene);
@@ -198,7 +188,7 @@ study::AccuracyRecord record_of(const VariantAccuracy& variant) {
 }
 
 void compare(VariantAccuracy& variant) {
-  const std::size_t meshes = settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes.size();
+  const std::size_t meshes = settings_of<AccuracySettings>(variant.study).reference_cell_sizes.size();
   const std::span<const AccuracyRow> finest_first(variant.rows.data(), meshes);
   for (const AccuracyRow& mesh : finest_first) {
     if (mesh.sound()) continue;
@@ -252,12 +242,11 @@ void mark_front(std::vector<AccuracyRow>& rows) {
   const auto counts = [](const AccuracyRow& row) {
     return row.sound() && !row.other_model && std::isfinite(row.error_to_go_by());
   };
-  for (AccuracyRow& row : rows) {
+  for (AccuracyRow& row : rows)
     row.on_front = counts(row) && std::ranges::none_of(rows, [&](const AccuracyRow& other) {
                      return counts(other) && other.setting.processor_time < row.setting.processor_time &&
                             other.error_to_go_by() <= row.error_to_go_by();
                    });
-  }
 }
 
 bool VariantAccuracy::any_indeterminate() const {
@@ -267,9 +256,9 @@ bool VariantAccuracy::any_indeterminate() const {
 }
 
 const AccuracyRow* VariantAccuracy::baseline() const {
-  const auto found =
-      std::ranges::find_if(rows, [](const AccuracyRow& row) { return row.baseline && row.sound(); });
-  return found == rows.end() ? nullptr : &*found;
+  for (const AccuracyRow& row : rows)
+    if (row.baseline && row.sound()) return &row;
+  return nullptr;
 }
 
 double VariantAccuracy::reference_uncertainty() const {
@@ -288,7 +277,7 @@ AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOpt
   return run_timed<AccuracyResult>(
       study, options,
       [&](AccuracyResult& result) {
-        for (const AccuracyVariant& each : settings_of<AccuracySettings>(study.study).variants)
+        for (const AccuracyVariant& each : settings_of<AccuracySettings>(study).variants)
           result.variants.push_back({each.name, each.study});
         if (result.variants.empty()) result.variants.push_back({{}, study});
         run_settings(result, options);

@@ -1,5 +1,4 @@
-// A study of kind accuracy as a file: its reference meshes, its settings, and the cases that follow from
-// both.
+// A study of kind accuracy as a file: reference meshes, settings, variants, and the cases that follow.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -12,42 +11,37 @@
 
 namespace launchsafe::kinds {
 
-using study::Change, study::Fault, study::StudyFile;
+using study::Change, study::StudyFile;
 
 namespace {
 
-using scene::KeyDescription, scene::KeyKind, scene::Place, scene::Value;
+using scene::KeyDescription, scene::Place, scene::Value;
 
 constexpr std::size_t least_reference_meshes = 3;
-constexpr const char* cell_size_key = "numerics.cell_size";
+constexpr const char *cell_size_key = "numerics.cell_size", *meshes_key = "reference_cell_sizes";
 
-Fault read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
+AccuracySettings& own(StudyFile& study) { return settings_of<AccuracySettings>(study.study); }
+
+void read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
-  if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling") {
-    return fault_at(study, key, leaf.name + " as a setting",
-                    "numerics keys, frame, friction.closure, ...; the gaps are the study's");
-  }
-  auto description = scene::describe_key(study.scene, leaf.name, place);
-  if (!description) return scene::within("settings", description.error());
-  const auto values = scene::read_values(*leaf.node, *description, study.file);
-  if (!values) return scene::within("settings", values.error());
-  SettingsAxis& axis = settings_of<AccuracySettings>(study.study).settings[block].emplace_back();
-  for (const Value& value : *values)
-    axis.push_back({leaf.name, value, scene::format_value(*description, value), key, place});
-  return std::nullopt;
+  if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling")
+    refuse_at(study, key, leaf.name + " as a setting",
+              "numerics keys, frame, friction.closure, ...; the gaps are the study's");
+  const KeyDescription description = taken(scene::describe_key(study.scene, leaf.name, place), "settings");
+  SettingsAxis& axis = own(study).settings[block].emplace_back();
+  for (const Value& value : taken(scene::read_values(*leaf.node, description, study.file), "settings"))
+    axis.push_back({leaf.name, value, scene::format_value(description, value), key, place});
 }
 
-Fault check_reference_meshes(StudyFile& study) {
-  std::vector<double>& sizes = settings_of<AccuracySettings>(study.study).reference_cell_sizes;
+void check_reference_meshes(StudyFile& study) {
+  std::vector<double>& sizes = own(study).reference_cell_sizes;
   std::ranges::sort(sizes);
-  const std::string key = "reference_cell_sizes";
-  if (Fault fault = check_twice(study, key, scene::Dimension::length, sizes)) return fault;
-  if (sizes.size() >= least_reference_meshes) return std::nullopt;
-  return fault_at(
-      study, key, fmt::format("{} cell sizes", sizes.size()),
-      fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
+  refuse_if(check_twice(study, meshes_key, scene::Dimension::length, sizes));
+  if (sizes.size() < least_reference_meshes)
+    refuse_at(study, meshes_key, fmt::format("{} cell sizes", sizes.size()),
+              fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
 }
 
 /// Of one grid to the next. Between grids that are nearer to each other the values differ by less than their
@@ -55,118 +49,96 @@ Fault check_reference_meshes(StudyFile& study) {
 constexpr double least_refinement = 1.2;
 
 /// Grids beside the charge's edge converge to something else, and two nominal sizes may be one grid.
-Fault check_reference_grids(const StudyFile& study) {
-  const std::size_t count = settings_of<AccuracySettings>(study.study).reference_cell_sizes.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::string size = scene::format_quantity(
-        settings_of<AccuracySettings>(study.study).reference_cell_sizes[i], scene::Dimension::length);
+void check_reference_grids(StudyFile& study) {
+  const std::vector<double>& sizes = own(study).reference_cell_sizes;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const std::string size = scene::format_quantity(sizes[i], scene::Dimension::length);
     const scene::Scene& scene = study.cases[i].scene.scene;
-    if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty()) {
-      return fault_at(study, "reference_cell_sizes",
-                      fmt::format("{}, whose grid does not run along the charge: {}", size, edges),
-                      "cells that divide the outer radius and the radius of the charge, rounded up a little");
-    }
+    if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
+      refuse_at(study, meshes_key,
+                fmt::format("{}, whose grid does not run along the charge: {}", size, edges),
+                "cells that divide the outer radius and the radius of the charge, rounded up a little");
     if (i == 0) continue;
     const scene::CellRange finer = scene::cells_of(study.cases[i - 1].scene.scene),
                            mesh = scene::cells_of(scene);
     if (!(mesh.shortest_r > finer.shortest_r && mesh.shortest_x > finer.shortest_x))
-      return fault_at(study, "reference_cell_sizes",
-                      fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
-                      "cell sizes that make different grids");
-    if (mesh.shortest_r >= least_refinement * finer.shortest_r &&
-        mesh.shortest_x >= least_refinement * finer.shortest_x)
-      continue;
-    return fault_at(study, "reference_cell_sizes",
-                    fmt::format("{}, whose fitted grid is less than {} times as coarse as the one before it",
-                                size, least_refinement),
-                    "grids far enough apart to show how T max moves with them");
+      refuse_at(study, meshes_key,
+                fmt::format("{}, whose fitted grid is not coarser than the one before it", size),
+                "cell sizes that make different grids");
+    if (mesh.shortest_r < least_refinement * finer.shortest_r ||
+        mesh.shortest_x < least_refinement * finer.shortest_x)
+      refuse_at(study, meshes_key,
+                fmt::format("{}, whose fitted grid is less than {} times as coarse as the one before it",
+                            size, least_refinement),
+                "grids far enough apart to show how T max moves with them");
   }
-  return std::nullopt;
 }
 
-/// "cell_size 0.5 cm, inertial_scaling 16".
 std::string label_of(const std::vector<Change>& changes) {
-  std::string label;
-  for (const Change& change : changes) {
-    const std::string name = change.key.substr(change.key.rfind('.') + 1);
-    label += fmt::format("{}{} {}", label.empty() ? "" : ", ", name, change.text);
-  }
-  return label.empty() ? "as in the scene" : label;
+  if (changes.empty()) return "as in the scene";
+  const auto part = [](const Change& change) {
+    return change.key.substr(change.key.rfind('.') + 1) + " " + change.text;
+  };
+  return fmt::format("{}", fmt::join(of_each(changes, part), ", "));
 }
 
-/// The scenes of the cases so far.
 using KnownScenes = std::set<std::string>;
 
-/// Makes a case of a valid scene, unless it is known.
-Fault add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
-  auto scene = with_changes(study.scene, changes);
-  if (!scene) return scene.error();
-  if (!known.insert(scene::to_toml(scene->scene)).second) return std::nullopt;
-  study::StudyCase made = study::case_of(label_of(changes), std::move(*scene));
+void add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
+  scene::SceneFile scene = taken(with_changes(study.scene, changes));
+  if (!known.insert(scene::to_toml(scene.scene)).second) return;
+  study::StudyCase made = study::case_of(label_of(changes), std::move(scene));
   made.own_conditions = true;
   if (made.closing) made.scene.scene.surface.gaps = study.study.gaps;
   study.cases.add(std::move(made));
-  return std::nullopt;
 }
 
 /// Every combination of the values of a block, the last key fastest.
-Fault add_block(StudyFile& study, const std::vector<SettingsAxis>& axes, std::vector<Change> changes,
-                KnownScenes& known) {
+void add_block(StudyFile& study, const std::vector<SettingsAxis>& axes, std::vector<Change> changes,
+               KnownScenes& known) {
   if (changes.size() == axes.size()) return add_case(study, changes, known);
   const SettingsAxis& axis = axes[changes.size()];
   changes.emplace_back();
   for (const Change& change : axis) {
     changes.back() = change;
-    if (Fault fault = add_block(study, axes, changes, known)) return fault;
+    add_block(study, axes, changes, known);
   }
-  return std::nullopt;
 }
 
-Fault check_setting_count(const StudyFile& study) {
+void check_setting_count(StudyFile& study) {
   double count = 1.0;
-  for (const auto& block : settings_of<AccuracySettings>(study.study).settings) {
+  for (const auto& block : own(study).settings) {
     double product = 1.0;
     for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.size());
     count += product;
   }
-  if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
-  return fault_at(study, "settings", fmt::format("{:.0f} settings", count),
-                  fmt::format("at most {}", study.most_cases));
+  refuse_if(check_count(study, "settings", count, "every combination of [[settings]]"));
 }
 
-Fault read_settings(const toml::table& root, StudyFile& study) {
-  if (Fault fault = check_reference_meshes(study)) return fault;
-  const toml::node* node = root.get("settings");
-  if (!node || (node->is_array() && node->as_array()->empty())) return std::nullopt;
-  if (!node->is_array_of_tables()) {
-    return scene::error_at(scene::place_of(*node, study.file), "settings", scene::found_text(*node),
-                           "tables, each written [[settings]], of scene keys with several values");
+void read_settings(const toml::table& root, StudyFile& study) {
+  check_reference_meshes(study);
+  for (const toml::table* table :
+       taken(scene::tables_of(root, "settings", study.file,
+                              "tables, each written [[settings]], of scene keys with several values"))) {
+    const std::size_t block = own(study).settings.size();
+    own(study).settings.emplace_back();
+    for (const study::Leaf& leaf : study::leaves_as_written(*table)) read_axis(leaf, block, study);
   }
-  for (const toml::node& element : *node->as_array()) {
-    const std::size_t block = settings_of<AccuracySettings>(study.study).settings.size();
-    settings_of<AccuracySettings>(study.study).settings.emplace_back();
-    for (const study::Leaf& leaf : study::leaves_as_written(*element.as_table())) {
-      if (Fault fault = read_axis(leaf, block, study)) return fault;
-    }
-  }
-  return check_setting_count(study);
+  check_setting_count(study);
 }
 
-Fault make_setting_cases(StudyFile& study) {
-  const AccuracySettings settings = settings_of<AccuracySettings>(study.study);
+void make_setting_cases(StudyFile& study) {
+  const AccuracySettings settings = own(study);
   const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
   KnownScenes known;
-  for (const double size : settings.reference_cell_sizes) {
-    const Change change{cell_size_key, size, scene::format_value(description, size), "reference_cell_sizes",
-                        place_of_key(study, "reference_cell_sizes")};
-    if (Fault fault = add_case(study, {change}, known)) return fault;
-  }
-  if (Fault fault = check_reference_grids(study)) return fault;
-  if (Fault fault = add_case(study, {}, known)) return fault;
-  for (const std::vector<SettingsAxis>& block : settings.settings) {
-    if (Fault fault = add_block(study, block, {}, known)) return fault;
-  }
-  return std::nullopt;
+  for (const double size : settings.reference_cell_sizes)
+    add_case(study,
+             {{cell_size_key, size, scene::format_value(description, size), meshes_key,
+               place_of_key(study, meshes_key)}},
+             known);
+  check_reference_grids(study);
+  add_case(study, {}, known);
+  for (const std::vector<SettingsAxis>& block : settings.settings) add_block(study, block, {}, known);
 }
 
 // --- variants ---
@@ -186,63 +158,67 @@ void move_into(toml::table& to, toml::table& from) {
 }
 
 /// The name of a variant, of which the name of a file is made.
-scene::Expected<std::string> name_of_variant(const toml::table& table, const StudyFile& study) {
+std::string name_of_variant(const toml::table& table, StudyFile& study) {
   constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
   constexpr std::size_t longest = 64;
   const toml::node* node = table.get("name");
   const std::string name = node ? node->value_or(std::string{}) : std::string{};
   const Place place = scene::place_of(node ? *node : table, study.file);
-  if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos) {
-    return scene::error_at(place, "variant.name", node ? scene::found_text(*node) : "no name",
-                           fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest));
-  }
-  for (const AccuracyVariant& other : settings_of<AccuracySettings>(study.study).variants) {
-    if (other.name == name)
-      return scene::error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
-                             "a name that no other variant has");
-  }
+  if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos)
+    refuse_if(scene::error_at(place, "variant.name", node ? scene::found_text(*node) : "no name",
+                              fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest)));
+  if (keys::find_named(own(study).variants, name) != nullptr)
+    refuse_if(scene::error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
+                              "a name that no other variant has"));
   return name;
 }
 
 /// What the file says of all variants, with what the variant of that number says otherwise in its place.
-Fault add_variant(const StudySource& source, std::size_t index, StudyFile& study) {
-  auto root = scene::parse_toml(source.text, study.file);
-  if (!root) return root.error();
-  toml::table own = std::move(*root->get_as<toml::array>(variant_key)->get_as<toml::table>(index));
-  root->erase(variant_key);
-  const auto name = name_of_variant(own, study);
-  if (!name) return name.error();
-  own.erase("name");
-  for (const char* common : {"kind", variant_key}) {
-    if (const toml::node* node = own.get(common))
-      return scene::error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
-                             scene::found_text(*node), "keys of a study that variants may have otherwise");
-  }
-  move_into(*root, own);
-  auto variant = read_study_table({*root, source.text, source.folder, source.tolerance}, study.file,
-                                  study.most_cases - std::min(study.most_cases, study.cases.size()));
-  if (!variant) return variant.error();
-  for (study::StudyCase each : variant->cases) {
-    each.label = *name + ": " + each.label;
+void add_variant(const StudySource& source, std::size_t index, StudyFile& study) {
+  toml::table root = taken(scene::parse_toml(source.text, study.file));
+  toml::table table = std::move(*root.get_as<toml::array>(variant_key)->get_as<toml::table>(index));
+  root.erase(variant_key);
+  const std::string name = name_of_variant(table, study);
+  table.erase("name");
+  for (const char* common : {"kind", variant_key})
+    if (const toml::node* node = table.get(common))
+      refuse_if(scene::error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
+                                scene::found_text(*node),
+                                "keys of a study that variants may have otherwise"));
+  move_into(root, table);
+  StudyFile variant =
+      taken(read_study_table({root, source.text, source.folder, source.tolerance}, study.file,
+                             study.most_cases - std::min(study.most_cases, study.cases.size())));
+  for (study::StudyCase each : variant.cases) {
+    each.label = name + ": " + each.label;
     study.cases.add(std::move(each));
   }
-  study.records.insert(study.records.end(), variant->records.begin(), variant->records.end());
-  study.records.push_back(store::sha256(scene::to_toml(variant->scene.scene)));
-  settings_of<AccuracySettings>(study.study).variants.push_back({*name, std::move(*variant)});
-  return std::nullopt;
+  study.records.insert(study.records.end(), variant.records.begin(), variant.records.end());
+  study.records.push_back(store::sha256(scene::to_toml(variant.scene.scene)));
+  own(study).variants.push_back({name, std::move(variant)});
 }
 
-Fault make_accuracy_cases(const StudySource& source, StudyFile& study) {
-  const toml::node* node = source.root.get(variant_key);
-  if (node == nullptr) return make_setting_cases(study);
-  for (std::size_t i = 0; i < node->as_array()->size(); ++i) {
-    if (Fault fault = add_variant(source, i, study)) return fault;
-  }
+/// Those of the file; none where it is one study by itself.
+std::vector<const toml::table*> variants_of(const StudySource& source, const StudyFile& study) {
+  constexpr const char* allowed = "tables, each written [[variant]], with a name and what it has otherwise";
+  const auto tables = taken(scene::tables_of(source.root, variant_key, study.file, allowed));
+  if (const toml::node* node = source.root.get(variant_key); node != nullptr && tables.empty())
+    refuse_if(scene::error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed));
+  return tables;
+}
+
+void read_accuracy(const StudySource& source, StudyFile& study) {
+  if (variants_of(source, study).empty()) read_settings(source.root, study);
+}
+
+void make_accuracy_cases(const StudySource& source, StudyFile& study) {
+  const std::size_t variants = variants_of(source, study).size();
+  if (variants == 0) return make_setting_cases(study);
+  for (std::size_t i = 0; i < variants; ++i) add_variant(source, i, study);
   // The first is the study's own.
-  const StudyFile& first = settings_of<AccuracySettings>(study.study).variants.front().study;
+  const StudyFile& first = own(study).variants.front().study;
   study.scene = first.scene;
   study.overrides = first.overrides;
-  return std::nullopt;
 }
 
 const std::vector<scene::Key<AccuracySettings>> accuracy_keys{
@@ -262,14 +238,6 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
     for (const AccuracyRow& row : variant.rows)
       add_failure(failures, result.study.cases.label(index++), row.answer.outcome, row.answer.failure);
   return failures;
-}
-
-Fault read_accuracy(const StudySource& source, StudyFile& study) {
-  const toml::node* node = source.root.get(variant_key);
-  if (node == nullptr) return read_settings(source.root, study);
-  if (node->is_array_of_tables()) return std::nullopt;
-  return scene::error_at(scene::place_of(*node, study.file), variant_key, scene::found_text(*node),
-                         "tables, each written [[variant]], with a name and what it has otherwise");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ Row belief_facts(const VariantAccuracy& variant) {
     ++sound;
     drift = std::max(drift, row.answer.run.energy_drift);
   }
-  return {{"grids", settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes.size()},
+  return {{"grids", settings_of<AccuracySettings>(variant.study).reference_cell_sizes.size()},
           {"justified", justified},
           {"gaps", limits.size()},
           {"sound", sound},
@@ -94,7 +94,6 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"inexactness_K", inexactness}};
 }
 
-/// A setting in the picture.
 void add_mark(const AccuracyRow& row, Series& series) {
   series.add(row.setting.processor_time, row.largest_temperature_error);
 }
@@ -116,7 +115,6 @@ std::vector<const AccuracyRow*> steps_to_the_limit(std::vector<const AccuracyRow
   return steps;
 }
 
-/// A panel for every variant.
 Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
   if (variants.size() == 1) return error_plot(*variants.front());
   Plot plot;
@@ -138,16 +136,14 @@ Plot error_plot(const VariantAccuracy& variant) {
   plot.width = 760;
   plot.height = 480;
   plot.named_in_place = true;
-  Series others{
-      .label = "other settings", .style = report::Style::points, .colour = grey, .mark = Mark::circle};
-  Series meshes{
-      .label = "reference meshes", .style = report::Style::points, .colour = blue, .mark = Mark::open_square};
-  Series paper{.label = "updated-Lagrangian (the paper's method)",
-               .style = report::Style::points,
-               .colour = green,
-               .mark = Mark::up_triangle};
-  Series late{.style = report::Style::points, .colour = grey, .mark = Mark::open_circle};
-  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study.study).times;
+  const auto points = [](const char* label, int colour, Mark mark) {
+    return Series{.label = label, .style = report::Style::points, .colour = colour, .mark = mark};
+  };
+  Series others = points("other settings", grey, Mark::circle),
+         meshes = points("reference meshes", blue, Mark::open_square),
+         paper = points("updated-Lagrangian (the paper's method)", green, Mark::up_triangle),
+         late = points("", grey, Mark::open_circle);
+  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
   if (!times.empty())
     late.label = fmt::format("all at {}, gap {}", report::milliseconds(times.back()),
                              report::centimetres(variant.study.study.gaps.front()));

@@ -16,10 +16,10 @@ namespace {
 
 const std::vector<double>& gaps_of(const VariantAccuracy& variant) { return variant.study.study.gaps; }
 const std::vector<double>& times_of(const VariantAccuracy& variant) {
-  return settings_of<AccuracySettings>(variant.study.study).times;
+  return settings_of<AccuracySettings>(variant.study).times;
 }
 const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
-  return settings_of<AccuracySettings>(variant.study.study).reference_cell_sizes;
+  return settings_of<AccuracySettings>(variant.study).reference_cell_sizes;
 }
 
 /// The one that stands at the place of `key` in a list of keys; none where that is not there.
@@ -40,7 +40,6 @@ std::vector<double> all_of_variants(const AccuracyResult& result, List list) {
   return all;
 }
 
-/// The rows of all variants begin with its name where there are several.
 template <class Row>
 Quantities<Row> with_variants(const AccuracyResult& result, const Quantities<Row>& quantities,
                               const VariantAccuracy* Row::*variant) {
@@ -126,7 +125,6 @@ std::string remark_of(const AccuracyRow& row) {
   return text;
 }
 
-/// One setting of a variant.
 using SettingRow = PartOf<VariantAccuracy, const AccuracyRow*>;
 
 /// One of a list, of which there is one for every gap, or time, of the variant.
@@ -141,7 +139,6 @@ const Column critical_gap_bound{"critical_gap_bound", "its bound", significant(2
                                 "By how much that may be off."};
 const Column processor_time{"processor_time", "processor time", fixed(1, keys::second), "Of the run."};
 
-/// An error at every gap.
 Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string& heading,
                               const std::string& name, const Form& form,
                               std::vector<double> AccuracyRow::*list) {
@@ -158,7 +155,6 @@ struct ComparedAt {
   std::vector<double> gaps, igniting_gaps, times;
 };
 
-/// The cost of a setting and its errors.
 Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
   const auto of_row = [](const Quantities<AccuracyRow>& quantities) {
     return of_part<SettingRow>(quantities, &SettingRow::part);
@@ -212,7 +208,7 @@ struct VariantRow {
   const AccuracyRow* most_distant = nullptr;
 };
 
-VariantRow row_of(const VariantAccuracy& variant) {
+VariantRow variant_row(const VariantAccuracy& variant) {
   VariantRow row{&variant, variant.baseline()};
   if (row.own == nullptr) return row;
   row.half_bound = cheapest_within(variant.record, 0.5 * row.own->setting.temperature_bound);
@@ -302,10 +298,8 @@ Table setting_table(const AccuracyResult& result) {
 }
 
 Table variant_table(const AccuracyResult& result) {
-  std::vector<VariantRow> rows;
-  for (const VariantAccuracy& variant : result.variants) rows.push_back(row_of(variant));
-  return table_of("How wrong each variant is with its own setting", variant_quantities, rows,
-                  said("accuracy.note.variants"));
+  return table_of("How wrong each variant is with its own setting", variant_quantities,
+                  of_each(result.variants, variant_row), said("accuracy.note.variants"));
 }
 
 std::vector<report::ReportTable> accuracy_results() {

@@ -16,6 +16,20 @@ namespace launchsafe::kinds {
 
 namespace quantity = report::quantity;
 
+/// What a member, or a function, says of each of several.
+template <class Range, class Member>
+auto of_each(const Range& all, Member member) {
+  std::vector<std::decay_t<std::invoke_result_t<Member, decltype(*all.begin())>>> values;
+  for (const auto& each : all) values.push_back(std::invoke(member, each));
+  return values;
+}
+
+// Every kind, and what its tables hold.
+Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind(),
+    comparison_kind();
+std::vector<report::ReportTable> critical_gap_results(), calibration_results(), sensitivity_results(),
+    accuracy_results(), stability_results(), comparison_results();
+
 /// Adds a run that came to nothing, unless another shard runs it.
 inline void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
                         const std::string& reason) {
@@ -66,25 +80,18 @@ inline double temperature_of(const study::CaseAnswer& answer, std::size_t gap, b
   return inert ? answer.verdicts[gap].heated : answer.verdicts[gap].maximum.temperature;
 }
 
+/// m, of a case that completed; NaN where it is no number.
+inline double critical_gap_number(const study::CaseAnswer& answer) {
+  return answer.completed() ? answer.critical.value : study::not_a_number;
+}
+
 inline bool is_bound(const study::CaseAnswer& answer) {
   return answer.critical.kind == study::CriticalGapKind::all_safe ||
          answer.critical.kind == study::CriticalGapKind::all_ignite;
 }
 
-/// How many cases and verdicts came out how.
-struct SweepCounts {
-  std::size_t cases = 0, failed = 0;
-  std::map<study::CriticalGapKind, std::size_t> critical_gaps{{study::CriticalGapKind::value, 0},
-                                                              {study::CriticalGapKind::all_safe, 0},
-                                                              {study::CriticalGapKind::all_ignite, 0},
-                                                              {study::CriticalGapKind::several_crossings, 0},
-                                                              {study::CriticalGapKind::indeterminate, 0}};
-  std::map<study::Verdict, std::size_t> verdicts{
-      {study::Verdict::safe, 0}, {study::Verdict::unsafe, 0}, {study::Verdict::indeterminate, 0}};
-  std::size_t limited = 0;      ///< cases in which a limiter acted
-  run::LimiterCounts limiters;  ///< of all cases
-};
-SweepCounts counts_of(const std::vector<study::CaseAnswer>& answers);
+/// Cases that came to nothing.
+std::size_t count_failed(const std::vector<study::CaseAnswer>& answers);
 
 /// "completed", how the run ended instead, or "failed" where it never was.
 std::string status_of(const study::CaseAnswer& answer);
@@ -98,7 +105,7 @@ std::string failures_list(const std::vector<report::ShownKey>& keys, const study
                           const std::vector<study::CaseAnswer>& answers);
 
 /// What must be said where limiters acted; else empty.
-std::string limited_text(const SweepCounts& counts, const std::string& noun);
+std::string limited_text(const std::vector<study::CaseAnswer>& answers, const std::string& noun);
 
 /// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
 /// left out.

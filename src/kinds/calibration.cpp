@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 
+#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-#include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
@@ -21,11 +21,10 @@ using scene::FrictionClosure;
 
 /// A load belongs to the closure that it was fitted with.
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
-  if (settings_of<CalibrationSettings>(study.study).load_fitted) return {study.scene.scene.surface.friction};
+  if (settings_of<CalibrationSettings>(study).load_fitted) return {study.scene.scene.surface.friction};
   return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
 }
 
-/// A kinetics to calibrate with.
 struct NamedKinetics {
   std::string name;
   materials::KineticsParameters parameters;
@@ -34,7 +33,7 @@ struct NamedKinetics {
 std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
   const materials::KineticsParameters& own = study.scene.scene.charge().kinetics;
   std::vector<NamedKinetics> all{{own.name, own}};
-  if (!settings_of<CalibrationSettings>(study.study).compare_kinetics) return all;
+  if (!settings_of<CalibrationSettings>(study).compare_kinetics) return all;
   const auto key = scene::describe_key(study.scene, "kinetics.set", {});
   if (!key) return all;
   for (const std::string& word : key->words) {
@@ -51,9 +50,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   run_every_case(
       study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
         CalibrationRun& run = result.runs[i];
-        run.outcome = finished.front().outcome;
-        run.failure = finished.front().failure;
-        run.mechanics = finished.front().result.mechanics;
+        run.take(finished.front());
         run.mechanics.trace = trace::until(run.mechanics.trace, scene::read_time(run.input.scene.scene.load));
       });
 }
@@ -101,7 +98,7 @@ std::pair<double, double> mesh_range(const CalibrationResult& result) {
 void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>& kinetics) {
   const auto [finest, coarsest] = mesh_range(result);
   if (!(finest < coarsest)) return;
-  for (const NamedKinetics& set : kinetics) {
+  for (const NamedKinetics& set : kinetics)
     for (const FrictionClosure closure : closures_of(result.study)) {
       if (closure == FrictionClosure::none) continue;
       const auto constants_on = [&](double mesh) {
@@ -111,18 +108,15 @@ void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>&
       result.convergence.push_back({closure, set.name, (a.localisation - b.localisation) / a.localisation,
                                     (a.exchange_time - b.exchange_time) / a.exchange_time});
     }
-  }
 }
 
 double change_of(const CalibrationResult& result, FrictionClosure closure, const std::string& kinetics) {
-  for (const Convergence& each : result.convergence) {
+  for (const Convergence& each : result.convergence)
     if (each.closure == closure && each.kinetics == kinetics) return std::abs(each.localisation_change);
-  }
   return not_a_number;
 }
 
-/// K. Closures whose misfits differ by less are equally good: the misfits themselves are of tens of
-/// kelvin.
+/// K. Closures whose misfits differ by less are equally good: the misfits are of tens of kelvin.
 constexpr double distinguishable_rms = 0.5;
 
 FrictionClosure study_closure(const CalibrationResult& result) {
@@ -134,12 +128,13 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
   const std::size_t place = row_place(result, mesh, study_closure(result), kinetics);
   const CalibrationRow& own = result.rows[place];
   if (!own.failure.empty()) {
-    result.recommendation.reason = "no constants are recommended: " + own.failure;
+    result.reason = "no constants are recommended: " + own.failure;
     return;
   }
-  result.recommendation = {
-      place, fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
-                         study::to_string(own.closure), 1e3 * mesh)};
+  result.recommended_row = place;
+  result.reason =
+      fmt::format("The load and the constants of closure \"{}\" were fitted on cells of {:.6g} mm.",
+                  study::to_string(own.closure), 1e3 * mesh);
 }
 
 /// What the misfits and the meshes say of the two closures with the scene's own kinetics.
@@ -156,9 +151,8 @@ void recommend(CalibrationResult& result) {
   };
   const CalibrationRow* total = row_of_closure(FrictionClosure::total_strain_rate);
   const CalibrationRow* inelastic = row_of_closure(FrictionClosure::inelastic);
-  Recommendation& said = result.recommendation;
   if (!std::isfinite(total->root_mean_square) || !std::isfinite(inelastic->root_mean_square)) {
-    said.reason =
+    result.reason =
         "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
         "temperatures that nothing was fitted to";
     return;
@@ -171,30 +165,25 @@ void recommend(CalibrationResult& result) {
       separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
   const CalibrationRow* better = choose_inelastic ? inelastic : total;
   const CalibrationRow* other = choose_inelastic ? total : inelastic;
-  said.reason = fmt::format(
-      "On the finest mesh ({:.6g} mm) \"{}\" misses the temperatures that nothing was fitted to by {:.4g} K "
-      "(RMS), \"{}\" by {:.4g} K{}. {}",
-      1e3 * finest, study::to_string(better->closure), better->root_mean_square,
-      study::to_string(other->closure), other->root_mean_square,
-      std::isfinite(better->spread_root_mean_square) && std::isfinite(other->spread_root_mean_square)
-          ? fmt::format("; the spreads by {:.4g} K and {:.4g} K", better->spread_root_mean_square,
-                        other->spread_root_mean_square)
-          : std::string{},
-      separates ? "That separates them."
-                : fmt::format("A difference below {} K does not separate them, and the scene keeps \"{}\".",
-                              distinguishable_rms, study::to_string(better->closure)));
-  const double change = change_of(result, better->closure, kinetics);
-  const double other_change = change_of(result, other->closure, kinetics);
-  if (std::isfinite(change) && std::isfinite(other_change)) {
-    said.reason += fmt::format(
-        " From the coarsest to the finest mesh its localisation changes by {:.3g} %, the other's by {:.3g} "
-        "%.",
-        100.0 * change, 100.0 * other_change);
-  } else {
-    said.reason += " With one mesh nothing is known about convergence.";
-  }
+  const auto change_with = [&](const CalibrationRow* row) {
+    return change_of(result, row->closure, kinetics);
+  };
+  const auto facts_of = [&](const CalibrationRow* row) {
+    return report::Row{{"closure", study::to_string(row->closure)},
+                       {"rms_K", row->root_mean_square},
+                       {"spread_K", report::number(row->spread_root_mean_square)},
+                       {"change_percent", report::number(100.0 * change_with(row))}};
+  };
+  result.reason = said("calibration.recommendation",
+                       {{"finest_mm", 1e3 * finest},
+                        {"better", facts_of(better)},
+                        {"other", facts_of(other)},
+                        {"converge", std::isfinite(change_with(better) + change_with(other))},
+                        {"separates", separates},
+                        {"distinguishable_K", distinguishable_rms}})
+                      .front();
   const std::size_t chosen = row_place(result, mesh, better->closure, kinetics);
-  if (result.rows[chosen].failure.empty()) said.row = chosen;
+  if (result.rows[chosen].failure.empty()) result.recommended_row = chosen;
 }
 
 /// End temperature (K) of every station without a gap, with constants.
@@ -205,10 +194,9 @@ std::vector<double> end_temperatures(const CalibrationRun& run, const Calibratio
   const trace::BottomTrace& trace = run.mechanics.trace;
   const auto history = surface::integrate_skin(model, trace, 0.0);
   std::vector<double> temperatures;
-  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+  for (std::size_t station = 0; station < trace.stations.size(); ++station)
     if (!trace.stations[station].observation)
       temperatures.push_back(surface::temperature_at_time(history, trace, station, trace.time.back()));
-  }
   return temperatures;
 }
 
@@ -216,10 +204,7 @@ std::vector<double> end_temperatures(const CalibrationRun& run, const Calibratio
 double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return not_a_number;
   double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double change = std::abs(a[i] - b[i]);
-    if (!(change <= largest)) largest = change;
-  }
+  for (std::size_t i = 0; i < a.size(); ++i) largest = study::larger_bound(largest, std::abs(a[i] - b[i]));
   return largest;
 }
 
@@ -234,12 +219,15 @@ const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bo
   return next;
 }
 
+const CalibrationRun& run_of(const CalibrationResult& result, const CalibrationRow& row) {
+  return *std::ranges::find(result.runs, row.cell_size,
+                            [](const CalibrationRun& run) { return run.input.cell_size; });
+}
+
 void compare_stations(CalibrationResult& result) {
   if (!result.recommended()) return;
   const CalibrationRow& row = *result.recommended();
-  const auto own = std::ranges::find_if(
-      result.runs, [&](const auto& run) { return run.input.cell_size == row.cell_size; });
-  const auto temperatures = end_temperatures(*own, row);
+  const auto temperatures = end_temperatures(run_of(result, row), row);
   const auto change_to = [&](bool finer) {
     const CalibrationRun* other = neighbour(result, row.cell_size, finer);
     return other == nullptr ? not_a_number : largest_change(temperatures, end_temperatures(*other, row));
@@ -254,43 +242,35 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
   for (const study::StudyCase& input : study.cases) {
-    CalibrationRun run;
-    run.input = input;
+    CalibrationRun& run = result.runs.emplace_back(CalibrationRun{input});
     if (result.load && result.load->bell) run.input.scene.scene.load = *result.load->bell;
     if (result.load) run.failure = result.load->failure;
-    result.runs.push_back(std::move(run));
   }
   if (!result.load || result.load->failure.empty()) run_meshes(result, options);
   const auto kinetics = kinetics_of(study);
-  for (const CalibrationRun& run : result.runs) {
-    for (const NamedKinetics& set : kinetics) {
-      for (const FrictionClosure closure : closures_of(study)) {
+  for (const CalibrationRun& run : result.runs)
+    for (const NamedKinetics& set : kinetics)
+      for (const FrictionClosure closure : closures_of(study))
         result.rows.push_back(row_of(study, run, closure, set, targets));
-      }
-    }
-  }
   compare_meshes(result, kinetics);
   recommend(result);
   if (result.load && !result.load->failure.empty())
-    result.recommendation.reason = "no load is recommended: " + result.load->failure;
+    result.reason = "no load is recommended: " + result.load->failure;
   compare_stations(result);
 }
 
 std::string digest_of(const std::vector<study::Reference>& references) {
   std::string text;
-  for (const study::Reference& row : references) {
+  for (const study::Reference& row : references)
     text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
                         row.early_temperature, row.early_point, row.spread, row.early_spread,
                         row.ignition_time, row.rise_begins, row.rise_ends, row.calibrated, row.selection);
-  }
   return store::sha256(text);
 }
 
 /// The scene of the recommended row, with its constants.
 scene::Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
-  const auto run = std::ranges::find_if(
-      result.runs, [&](const auto& each) { return each.input.cell_size == row.cell_size; });
-  scene::Scene scene = run->input.scene.scene;
+  scene::Scene scene = run_of(result, row).input.scene.scene;
   scene.surface.friction = row.closure;
   put(row.calibrated.constants, scene.surface, scene.charge().kinetics);
   scene.accepted.clear();
@@ -311,8 +291,8 @@ std::optional<study::CalibrationRecord> record_of(const CalibrationResult& resul
   record.title = result.study.study.title;
   record.load_fitted = result.load.has_value();
   record.references_digest = digest_of(result.study.study.references);
-  if (!result.recommendation.row) {
-    record.failure = result.recommendation.reason;
+  if (!result.recommended_row) {
+    record.failure = result.reason;
     record.calibration = {result.study.scene.scene, study::no_evidence};
     return record;
   }

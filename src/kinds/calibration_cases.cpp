@@ -9,21 +9,17 @@
 namespace launchsafe::kinds {
 
 using scene::Dimension, scene::Key, scene::Standing;
-using study::Fault, study::Firing, study::fitted_keys, study::StudyFile;
+using study::Firing, study::fitted_keys, study::StudyFile;
 
 namespace {
 
 scene::InputError missing(const StudyFile& study, std::string found, std::string allowed) {
-  const auto first = study.places.find("reference.0.gap");
-  const auto kind = study.places.find("kind");
-  const scene::Place place = first != study.places.end()  ? first->second
-                             : kind != study.places.end() ? kind->second
-                                                          : scene::Place{study.file};
-  return scene::error_at(place, "reference", std::move(found), std::move(allowed));
+  const char* at = study.places.contains("reference.0.gap") ? "reference.0.gap" : "kind";
+  return scene::error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
 }
 
 /// What a fit of the load needs besides: a bell, and no fewer numbers than unknowns.
-Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
+study::Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
   constexpr const char* key = "load_fitted";
   const scene::Load& load = study.scene.scene.load;
   if (!load.curve_time.empty())
@@ -63,8 +59,8 @@ const std::vector<scene::Key<CalibrationSettings>> calibration_keys{
                     "1fd14b4", &CalibrationSettings::frozen_at),
 };
 
-const FiringSettings& settings_in(const study::Study& study) {
-  return settings_of<CalibrationSettings>(study).firings;
+const std::vector<Firing>& firings_of(const StudyFile& study) {
+  return settings_of<CalibrationSettings>(study).firings.firings;
 }
 
 const std::vector<Key<Firing>> firing_row_keys{
@@ -103,7 +99,7 @@ void complete(Firing& firing, const scene::Scene& scene) {
 }
 
 /// The scene under the pressure and temperature of a firing.
-scene::Expected<scene::SceneFile> scene_of(const StudyFile& study, const Firing& firing, std::size_t place) {
+scene::SceneFile scene_of(const StudyFile& study, const Firing& firing, std::size_t place) {
   std::vector<study::Change> changes;
   const auto change = [&](const char* key, const char* of_firing, double value, double in_scene,
                           Dimension dimension) {
@@ -116,23 +112,20 @@ scene::Expected<scene::SceneFile> scene_of(const StudyFile& study, const Firing&
   change("load.peak", "pressure", firing.pressure, study::fired_pressure(own.load), Dimension::pressure);
   change("initial_temperature", "temperature", firing.temperature, own.initial_temperature,
          Dimension::temperature);
-  return study::with_changes(study.scene, changes);
+  return taken(study::with_changes(study.scene, changes));
 }
 
 /// The load of a measured curve has a peak of its own.
-Fault check_curve(const StudyFile& study, const Firing& firing, std::size_t place) {
+void check_curve(const StudyFile& study, const Firing& firing, std::size_t place) {
   const scene::Load& load = study.scene.scene.load;
   const double peak = study::fired_pressure(load);
-  if (load.curve_time.empty() || load.rescale_to_peak || study::same_number(firing.pressure, peak))
-    return std::nullopt;
-  return fault_at(study, fmt::format("firing.{}.pressure", place),
-                  fmt::format("{} beside a measured curve with a peak of {}",
-                              scene::format_quantity(firing.pressure, Dimension::pressure),
-                              scene::format_quantity(peak, Dimension::pressure)),
-                  "that of the curve, or load.rescale_to_peak = true in the scene");
+  if (!load.curve_time.empty() && !load.rescale_to_peak && !study::same_number(firing.pressure, peak))
+    refuse_at(study, fmt::format("firing.{}.pressure", place),
+              fmt::format("{} beside a measured curve with a peak of {}",
+                          scene::format_quantity(firing.pressure, Dimension::pressure),
+                          scene::format_quantity(peak, Dimension::pressure)),
+              "that of the curve, or load.rescale_to_peak = true in the scene");
 }
-
-bool has_firings(const study::Study& study) { return !settings_in(study).firings.empty(); }
 
 std::vector<Key<study::Study>> firing_keys() {
   const auto number = [](const char* name, Dimension dimension, scene::Limits limits, const char* sentence,
@@ -160,63 +153,54 @@ std::vector<Key<study::Study>> firing_keys() {
   return own_keys(keys::keys_of_part("", &CalibrationSettings::firings, keys));
 }
 
-/// Reads [[firing]], where there are any.
-Fault read_firings(const toml::table& root, StudyFile& study) {
+void read_firings(const toml::table& root, StudyFile& study) {
   std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
-  if (Fault fault = study::read_rows(root, "firing", firing_row_keys, study.file, study, firings))
-    return fault;
+  refuse_if(study::read_rows(root, "firing", firing_row_keys, study.file, study, firings));
   for (std::size_t place = 0; place < firings.size(); ++place) {
     complete(firings[place], study.scene.scene);
-    if (Fault fault = check_curve(study, firings[place], place)) return fault;
+    check_curve(study, firings[place], place);
   }
-  return std::nullopt;
 }
 
 /// A case for every pressure and temperature that was fired, in that order.
-Fault make_firing_cases(StudyFile& study) {
-  const std::vector<Firing>& firings = settings_in(study.study).firings;
+void make_firing_cases(StudyFile& study) {
+  const std::vector<Firing>& firings = firings_of(study);
   const std::vector<std::size_t> conditions = conditions_of(firings);
-  for (std::size_t i = 0; i < firings.size(); ++i) {
-    if (conditions[i] < study.cases.size()) continue;
-    auto scene = scene_of(study, firings[i], i);
-    if (!scene) return scene.error();
-    study.cases.add(
-        study::case_of(fmt::format("{}, {}", scene::format_quantity(firings[i].pressure, Dimension::pressure),
-                                   scene::format_quantity(firings[i].temperature, Dimension::temperature)),
-                       std::move(*scene)));
-  }
-  return std::nullopt;
+  for (std::size_t i = 0; i < firings.size(); ++i)
+    if (conditions[i] >= study.cases.size())
+      study.cases.add(study::case_of(
+          fmt::format("{}, {}", scene::format_quantity(firings[i].pressure, Dimension::pressure),
+                      scene::format_quantity(firings[i].temperature, Dimension::temperature)),
+          scene_of(study, firings[i], i)));
 }
 
 /// Firings stand alone, with what is only of them; they start from a calibration on published results.
-Fault check_firings(const StudyFile& study) {
-  const bool any = has_firings(study.study);
+void check_firings(const StudyFile& study) {
+  const bool any = !firings_of(study).empty();
   for (const auto& [key, place] : study.places) {
     const bool of_firings = key.starts_with("prior.") || key == "next_gaps" || key == "calibration";
     const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||
                          key == "compare_kinetics" || key == "ignition_bracket";
     if (any ? of_rows : of_firings)
-      return fault_at(
-          study, key,
-          any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
-          any ? "either [[firing]] or published rows" : "at least one [[firing]]");
+      refuse_at(study, key,
+                any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
+                any ? "either [[firing]] or published rows" : "at least one [[firing]]");
   }
-  return std::nullopt;
 }
 
-Fault read_calibration(const StudySource& source, StudyFile& study) {
-  if (Fault fault = read_firings(source.root, study)) return fault;
-  if (Fault fault = check_firings(study)) return fault;
-  if (Fault fault = read_references(source, study)) return fault;
-  const auto& own = settings_of<CalibrationSettings>(study.study);
-  return add_axis(study, "numerics.cell_size", "meshes", own.meshes);
+void read_calibration(const StudySource& source, StudyFile& study) {
+  read_firings(source.root, study);
+  check_firings(study);
+  read_references(source, study);
+  refuse_if(
+      add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes));
 }
 
-Fault make_calibration_cases(const StudySource&, StudyFile& study) {
-  if (has_firings(study.study)) return make_firing_cases(study);
-  if (const auto targets = calibration_targets(study); !targets) return targets.error();
-  return make_factorial(
-      study, [](const study::StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); });
+void make_calibration_cases(const StudySource&, StudyFile& study) {
+  if (!firings_of(study).empty()) return make_firing_cases(study);
+  taken(calibration_targets(study));
+  refuse_if(make_factorial(
+      study, [](const study::StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }));
 }
 
 /// Of the launches that a result has in `runs`.
@@ -229,7 +213,7 @@ std::vector<Failure> failed_runs(const Result& result) {
 }
 
 StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
-  if (has_firings(study.study))
+  if (!firings_of(study).empty())
     return outcome_of<run_firings, failed_runs<FiringResult, &FiringResult::conditions>>(study, options);
   return outcome_of<run_calibration, failed_runs<CalibrationResult, &CalibrationResult::runs>>(study,
                                                                                                options);
@@ -254,22 +238,20 @@ scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) 
     if (!std::isfinite(row.maximum_temperature))
       return missing(study, "a calibrated row without maximum_temperature", "one with it");
   }
-  if (zero != 1 || wide != 1) {
+  if (zero != 1 || wide != 1)
     return missing(study, fmt::format("{} calibrated rows at gap 0 and {} at other gaps", zero, wide),
                    "one calibrated row at gap 0 (sets the localisation) and one at another gap that does not "
                    "ignite (sets the exchange time)");
-  }
-  if (igniting > 1.0 || !(safe < igniting)) {
+  if (igniting > 1.0 || !(safe < igniting))
     return missing(study,
                    igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
                    "rows with an ignition_time, all at larger gaps than the rows without");
-  }
   targets.safe_gap = safe;
   targets.igniting_gap = igniting;
-  targets.load_fitted = settings_of<CalibrationSettings>(study.study).load_fitted;
+  targets.load_fitted = settings_of<CalibrationSettings>(study).load_fitted;
   targets.early_time = study.study.early_time;
   if (targets.load_fitted)
-    if (Fault fault = check_fit_of_load(study, targets)) return *fault;
+    if (const study::Fault fault = check_fit_of_load(study, targets)) return *fault;
   return targets;
 }
 
@@ -291,25 +273,18 @@ Kind calibration_kind() {
 }
 
 study::FiringPrior FiringSettings::prior_about(const surface::SurfaceConstants& centre) const {
-  study::FiringPrior prior;
-  prior.centre = centre;
-  prior.log_localisation = std::log(localisation_factor);
-  prior.log_exchange_time = std::log(exchange_time_factor);
-  prior.ignition_temperature = ignition_temperature;
-  prior.scatter = scatter;
-  return prior;
+  return {.centre = centre,
+          .log_localisation = std::log(localisation_factor),
+          .log_exchange_time = std::log(exchange_time_factor),
+          .ignition_temperature = ignition_temperature,
+          .scatter = scatter};
 }
 
 std::vector<std::size_t> conditions_of(const std::vector<Firing>& firings) {
-  std::vector<std::pair<double, double>> made;
-  std::vector<std::size_t> conditions;
-  for (const Firing& each : firings) {
-    const std::pair condition{each.pressure, each.temperature};
-    const auto place = static_cast<std::size_t>(std::ranges::find(made, condition) - made.begin());
-    if (place == made.size()) made.push_back(condition);
-    conditions.push_back(place);
-  }
-  return conditions;
+  std::map<std::pair<double, double>, std::size_t> places;
+  return of_each(firings, [&](const Firing& each) {
+    return places.try_emplace({each.pressure, each.temperature}, places.size()).first->second;
+  });
 }
 
 }  // namespace launchsafe::kinds

@@ -1,4 +1,7 @@
+// The fits of a calibration: constants on one trace, and the load with them.
+#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
@@ -8,7 +11,8 @@
 
 namespace launchsafe::kinds {
 
-using study::Reference;
+using study::FinishedRun, study::fitted_keys, study::Reference, study::StudyFile, study::StudyOptions,
+    study::Timing;
 
 namespace {
 
@@ -20,12 +24,10 @@ std::vector<double> highest_temperatures(const surface::SkinHistory& history,
                                          const trace::BottomTrace& trace) {
   std::vector<double> highest(history.time.size(), 0.0);
   const std::size_t stations = trace.stations.size();
-  for (std::size_t sample = 0; sample < highest.size(); ++sample) {
-    for (std::size_t station = 0; station < stations; ++station) {
+  for (std::size_t sample = 0; sample < highest.size(); ++sample)
+    for (std::size_t station = 0; station < stations; ++station)
       if (!trace.stations[station].observation)
         highest[sample] = std::max(highest[sample], history.temperature[sample * stations + station]);
-    }
-  }
   return highest;
 }
 
@@ -67,38 +69,29 @@ void find_misfits(const surface::SkinModel& model, const trace::BottomTrace& tra
   result.wide_gap_misfit = misfit_of(model, trace, targets.wide_gap);
 }
 
-/// Positive root of a function that changes sign once, sought from `start` by factors of 2 in both
-/// directions.
+/// Positive root of a function that changes sign once, sought from `start` by factors of 2 both ways.
 std::optional<double> positive_root(const std::function<double(double)>& function, double start) {
+  struct End {
+    double factor, x, value;
+  };
   const double at_start = function(start);
   if (!std::isfinite(at_start)) return std::nullopt;
   if (at_start == 0.0) return start;
-  double low = start, high = start, at_low = at_start, at_high = at_start;
-  for (int doubling = 0; doubling < 60 && !(at_low * at_high < 0.0); ++doubling) {
-    low *= 0.5;
-    const double below = function(low);
-    if (below * at_low <= 0.0) {
-      high = 2.0 * low;
-      at_high = at_low;
-      at_low = below;
-      break;
+  End ends[] = {{0.5, start, at_start}, {2.0, start, at_start}};
+  for (int doubling = 0; doubling < 60; ++doubling)
+    for (End& end : ends) {
+      const End last = end;
+      end.x *= end.factor;
+      end.value = function(end.x);
+      if (!(last.value * end.value <= 0.0)) continue;
+      const auto& [low, high] = std::minmax(last, end, [](const End& a, const End& b) { return a.x < b.x; });
+      std::uintmax_t iterations = 100;
+      const auto [left, right] =
+          boost::math::tools::toms748_solve(function, low.x, high.x, low.value, high.value,
+                                            boost::math::tools::eps_tolerance<double>(46), iterations);
+      return 0.5 * (left + right);
     }
-    at_low = below;
-    high *= 2.0;
-    const double above = function(high);
-    if (above * at_high <= 0.0) {
-      low = 0.5 * high;
-      at_low = at_high;
-      at_high = above;
-      break;
-    }
-    at_high = above;
-  }
-  if (!(at_low * at_high <= 0.0)) return std::nullopt;
-  std::uintmax_t iterations = 100;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      function, low, high, at_low, at_high, boost::math::tools::eps_tolerance<double>(46), iterations);
-  return 0.5 * (left + right);
+  return std::nullopt;
 }
 
 CalibratedConstants failed(CalibratedConstants result, std::string why) {
@@ -134,6 +127,28 @@ std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
   return "the two fits do not settle";
 }
 
+/// Step of the forward differences, in the logarithms of the unknowns.
+constexpr double difference_step = 5e-3;
+
+/// Why a fit failed, a clause; empty where it did not.
+std::string text_of(const math::NonlinearFit& fit) {
+  using enum math::FitFailure;
+  switch (fit.failure) {
+    case none:
+      return {};
+    case too_few_residuals:
+      return "the rows have fewer numbers than are to be fitted";
+    case not_computable:
+      return "a number of the rows cannot be computed";
+    case singular:
+      return fmt::format("the numbers of the rows do not determine all that is fitted (condition {:.2g})",
+                         fit.condition);
+    case does_not_settle:
+      return "the least-squares fit does not settle";
+  }
+  return {};
+}
+
 /// Least squares of all numbers of the two rows from there on, with the load held; empty where it settled.
 std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace& trace,
                             const CalibrationTargets& targets, CalibratedConstants& result) {
@@ -143,18 +158,143 @@ std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace&
     model.surface.exchange_time = start.exchange_time * std::exp(logarithms[1]);
   };
   const auto misfits = [&](const std::vector<std::vector<double>>& points) {
-    std::vector<std::vector<double>> all;
-    for (const std::vector<double>& point : points) {
+    return std::optional(of_each(points, [&](const std::vector<double>& point) {
       set(point);
-      all.push_back(weighted_misfits(model, trace, targets));
-    }
-    return std::optional(all);
+      return weighted_misfits(model, trace, targets);
+    }));
   };
   const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
   if (std::string failure = text_of(fit); !failure.empty()) return failure;
   set(fit.unknowns);
   find_misfits(model, trace, targets, result);
   return {};
+}
+
+// --- the load ---
+
+struct Trial {
+  scene::Load load;
+  double localisation = 0;
+  double exchange_time = 0;  ///< s
+};
+
+/// What tells the loads of trials apart: peak time, width, steepness, base.
+using LoadNumbers = std::array<double, 4>;
+LoadNumbers numbers_of(const scene::Load& load) {
+  return {load.peak_time, load.width, load.steepness, load.base};
+}
+
+/// Tries loads, each by a mechanical run the first time that it is asked for.
+struct LoadTrials {
+  const StudyFile& study;
+  const CalibrationTargets& targets;
+  const StudyOptions& options;
+  Timing& timing;
+  Trial start{study.scene.scene.load};
+  std::map<LoadNumbers, trace::BottomTrace> traces = {};
+  std::string failure = {};
+
+  /// Constants that meet the highest temperatures under the scene's load; false with `failure` where none do.
+  bool find_start() {
+    if (!run_all({start.load})) return false;
+    surface::SkinModel model = surface::skin_model(study.scene.scene);
+    CalibrationTargets highest = targets;
+    highest.load_fitted = false;
+    const CalibratedConstants found = calibrate(model, trace_of(start.load), highest);
+    // An ignition temperature is found at the end, and what stands in its way here may be gone then.
+    if (!std::isfinite(found.constants.localisation)) return fail(found.failure);
+    start.localisation = found.constants.localisation;
+    start.exchange_time = found.constants.exchange_time;
+    return true;
+  }
+
+  /// With the unknowns given as logarithms of their ratios to those of the start.
+  std::optional<std::vector<std::vector<double>>> misfits(const std::vector<std::vector<double>>& points) {
+    if (!run_all(of_each(points, [&](const auto& point) { return trial_at(point).load; })))
+      return std::nullopt;
+    return of_each(points, [&](const auto& point) { return misfits_of(trial_at(point)); });
+  }
+
+  /// Derivative of the misfits with respect to the pressure at the start, 1/Pa; empty where its run failed.
+  std::vector<double> base_derivative(const math::NonlinearFit& fit) {
+    Trial raised = trial_at(fit.unknowns);
+    const double change = 2e-3 * raised.load.peak;
+    raised.load.base += change;
+    if (!run_all({raised.load})) return {};
+    std::vector<double> derivative = misfits_of(raised);
+    for (std::size_t i = 0; i < derivative.size(); ++i)
+      derivative[i] = (derivative[i] - fit.residuals[i]) / change;
+    return derivative;
+  }
+
+  Trial trial_at(const std::vector<double>& point) const {
+    Trial trial = start;
+    std::size_t next = 0;
+    for (double* number : {&trial.load.peak_time, &trial.load.width, &trial.load.steepness,
+                           &trial.localisation, &trial.exchange_time})
+      *number *= std::exp(point[next++]);
+    return trial;
+  }
+
+  bool fail(std::string why) {
+    if (failure.empty()) failure = std::move(why);
+    return false;
+  }
+
+  scene::Scene scene_under(const scene::Load& load) const {
+    scene::Scene scene = study.scene.scene;
+    scene.load = load;
+    return scene;
+  }
+
+  const trace::BottomTrace& trace_of(const scene::Load& load) const { return traces.at(numbers_of(load)); }
+
+  std::vector<double> misfits_of(const Trial& trial) const {
+    surface::SkinModel model = surface::skin_model(study.scene.scene);
+    model.surface.localisation = trial.localisation;
+    model.surface.exchange_time = trial.exchange_time;
+    return weighted_misfits(model, trace_of(trial.load), targets);
+  }
+
+  /// Runs those loads that were not run before.
+  bool run_all(const std::vector<scene::Load>& loads) {
+    if (stop_requested(options)) return fail("interrupted");
+    std::map<LoadNumbers, scene::Load> untried;
+    for (const scene::Load& load : loads)
+      if (!traces.contains(numbers_of(load))) untried[numbers_of(load)] = load;
+    const auto runs = of_each(untried, [&](const auto& each) {
+      return planned_run(study::mechanics_run(scene_under(each.second), label_of(each.second)));
+    });
+    std::vector<FinishedRun> finished(runs.size());
+    study::ProgressTracker untold({});
+    run_each(runs, options, untold, timing,
+             [&](std::size_t i, const FinishedRun& run) { finished[i] = run; });
+    for (std::size_t i = 0; const auto& [numbers, load] : untried) {
+      const FinishedRun& run = finished[i++];
+      if (!run.failure.empty())
+        return fail(fmt::format("the run with its {}: {}", label_of(load), run.failure));
+      traces[numbers] = trace::until(run.result.mechanics.trace, scene::read_time(load));
+    }
+    return true;
+  }
+
+  static std::string label_of(const scene::Load& load) {
+    return fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}", 1e3 * load.peak_time,
+                       1e3 * load.width, load.steepness);
+  }
+};
+
+void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trials) {
+  load.bell = trials.trial_at(fit.unknowns).load;
+  load.numbers = fit.residuals.size();
+  load.sum_of_squares = fit.sum_of_squares();
+  load.condition = fit.condition;
+  const std::size_t left = load.numbers - fit.unknowns.size();
+  const double variance = left == 0 ? 1.0 : std::max(1.0, load.sum_of_squares / static_cast<double>(left));
+  load.covariance = fit.covariance;
+  for (double& entry : load.covariance) entry *= variance;
+  const std::vector<double> derivative = trials.base_derivative(fit);
+  if (!derivative.empty()) load.base = math::add_unknown(fit, derivative);
 }
 
 }  // namespace
@@ -191,10 +331,8 @@ surface::SkinModel untriggered(surface::SkinModel model) {
 }
 
 std::size_t fitted_numbers(const Reference& row) {
-  std::size_t count = 0;
-  for (const double number : {row.maximum_temperature, row.early_temperature, row.rise_begins, row.rise_ends})
-    count += std::isfinite(number);
-  return count;
+  const auto numbers = {row.maximum_temperature, row.early_temperature, row.rise_begins, row.rise_ends};
+  return static_cast<std::size_t>(std::ranges::count_if(numbers, [](double x) { return std::isfinite(x); }));
 }
 
 std::vector<double> weighted_misfits(const surface::SkinModel& model, const trace::BottomTrace& trace,
@@ -203,24 +341,6 @@ std::vector<double> weighted_misfits(const surface::SkinModel& model, const trac
   for (const Reference* row : {&targets.zero_gap, &targets.wide_gap})
     add_misfits(misfits, untriggered(model), trace, *row, targets.early_time);
   return misfits;
-}
-
-std::string text_of(const math::NonlinearFit& fit) {
-  using enum math::FitFailure;
-  switch (fit.failure) {
-    case none:
-      return {};
-    case too_few_residuals:
-      return "the rows have fewer numbers than are to be fitted";
-    case not_computable:
-      return "a number of the rows cannot be computed";
-    case singular:
-      return fmt::format("the numbers of the rows do not determine all that is fitted (condition {:.2g})",
-                         fit.condition);
-    case does_not_settle:
-      return "the least-squares fit does not settle";
-  }
-  return {};
 }
 
 void put(const surface::SurfaceConstants& constants, scene::Surface& surface,
@@ -236,29 +356,60 @@ CalibratedConstants calibrate(const surface::SkinModel& given, const trace::Bott
   surface::SkinModel model = untriggered(given);
   if (std::string failure = fit_both(model, trace, targets, result); !failure.empty())
     return failed(result, std::move(failure));
-  if (targets.load_fitted) {
+  if (targets.load_fitted)
     if (std::string failure = fit_all_numbers(model, trace, targets, result); !failure.empty())
       return failed(result, std::move(failure));
-  }
   result.constants.localisation = model.surface.localisation;
   result.constants.exchange_time = model.surface.exchange_time;
   result.ignition_lowest = maximum_at(model, trace, targets.safe_gap);
   result.ignition_highest = maximum_at(model, trace, targets.igniting_gap);
-  if (!(result.ignition_lowest < result.ignition_highest)) {
+  if (!(result.ignition_lowest < result.ignition_highest))
     return failed(result, fmt::format("no ignition temperature separates {:.6g} K at {:.6g} cm from {:.6g} K "
                                       "at {:.6g} cm",
                                       result.ignition_lowest, 100.0 * targets.safe_gap,
                                       result.ignition_highest, 100.0 * targets.igniting_gap));
-  }
   constexpr double near = 1.0;  // K
-  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near)) {
+  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near))
     return failed(result,
                   fmt::format("at {:.6g} cm the reaction runs away by itself, and the rows say of the "
                               "ignition temperature only that it is above {:.6g} K",
                               100.0 * targets.igniting_gap, result.ignition_lowest));
-  }
   result.constants.ignition_temperature = 0.5 * (result.ignition_lowest + result.ignition_highest);
   return result;
+}
+
+double FittedLoad::deviation(std::size_t i) const {
+  return std::sqrt(covariance.at(i * fitted_keys.size() + i));
+}
+
+double FittedLoad::correlation(std::size_t i, std::size_t j) const {
+  return covariance.at(i * fitted_keys.size() + j) / (deviation(i) * deviation(j));
+}
+
+std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+  std::vector<std::string> warnings = run::validity_warnings(scene, mechanics);
+  for (const scene::Implausible& each : scene::implausible_values(scene)) {
+    // What the calibration settles is no input to it.
+    const bool settled = each.key == "kinetics.ignition_temperature" ||
+                         std::ranges::find(fitted_keys, each.key) != fitted_keys.end();
+    if (!each.accepted() && !settled) warnings.push_back(scene::validity_warning(each));
+  }
+  return warnings.empty() ? std::string{} : fmt::format("validity warning: {}", fmt::join(warnings, "; "));
+}
+
+FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, const StudyOptions& options,
+                    Timing& timing) {
+  LoadTrials trials{study, targets, options, timing};
+  FittedLoad load;
+  if (trials.find_start()) {
+    const auto fit = math::fit_nonlinear([&](const auto& points) { return trials.misfits(points); },
+                                         std::vector<double>(fitted_keys.size(), 0.0), difference_step);
+    load.failure = text_of(fit);
+    if (load.failure.empty()) describe(load, fit, trials);
+  }
+  if (!trials.failure.empty()) load.failure = trials.failure;
+  load.runs = trials.traces.size();
+  return load;
 }
 
 }  // namespace launchsafe::kinds

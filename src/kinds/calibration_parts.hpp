@@ -10,9 +10,6 @@ namespace launchsafe::kinds {
 inline constexpr double temperature_weight = 0.5;  ///< K
 inline constexpr double instant_weight = 0.5e-3;   ///< s: the text reads to half a millisecond
 
-/// Step of the forward differences, in the logarithms of the unknowns.
-inline constexpr double difference_step = 5e-3;
-
 /// When the highest temperature of the stations rises fast: where its rate, over half a millisecond, is more
 /// than 15 % of its largest.
 struct FastRise {
@@ -33,12 +30,20 @@ std::size_t fitted_numbers(const study::Reference& row);
 std::vector<double> weighted_misfits(const surface::SkinModel& model, const trace::BottomTrace& trace,
                                      const CalibrationTargets& targets);
 
-/// Why a fit failed, a clause; empty where it did not.
-std::string text_of(const math::NonlinearFit& fit);
-
 /// Why constants must not be fitted to a run that completed, a clause: it has validity warnings, or its scene
 /// has values that are not plausible and that nobody accepted. Empty for a sound one.
 std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics);
+
+/// The targets among a study's references, or what is missing.
+scene::Expected<CalibrationTargets> calibration_targets(const study::StudyFile& study);
+
+/// Fills the compared numbers, the placements and the root mean squares of a row.
+void compare(const study::Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
+             CalibrationRow& row);
+
+/// Of every firing, the place of its pressure and temperature among those that differ, in their order.
+std::vector<std::size_t> conditions_of(const std::vector<study::Firing>& firings);
+std::vector<report::ReportTable> firing_results();
 
 /// How the runs of a calibration went.
 report::Table run_table(const std::vector<CalibrationRun>& runs);

@@ -108,7 +108,6 @@ const Quantities<SelectionMisfit> selection_quantities{
     {"computed_minus_published", "computed - published", fixed(2, kelvin), "Difference.",
      &SelectionMisfit::misfit}};
 
-/// What the constants do from mesh to mesh.
 const Quantities<Convergence> convergence_quantities{
     {quantity::closure, [](const Convergence& each) { return study::to_string(each.closure); }},
     {quantity::kinetics, &Convergence::kinetics},
@@ -154,7 +153,6 @@ const Quantities<ConstantRow> scene_quantities{
 
 bool has_load(const CalibrationResult& result) { return result.load && result.load->failure.empty(); }
 
-/// One of the fitted keys.
 struct FittedRow {
   const FittedLoad* load;
   std::size_t place;
@@ -193,7 +191,7 @@ Json load_json(const CalibrationResult& result) {
       {quantity::reason, &FittedLoad::failure}};
   Json json = json_of(quantities, *result.load);
   json["covariance_of_logarithms"] = result.load->covariance;
-  json["frozen_at"] = settings_of<CalibrationSettings>(result.study.study).frozen_at;
+  json["frozen_at"] = settings_of<CalibrationSettings>(result.study).frozen_at;
   return json;
 }
 
@@ -213,9 +211,8 @@ std::string fit_text(const CalibrationResult& result) {
   return said_below("calibration.fit", facts);
 }
 
-std::string misfits_text(const CalibrationResult& result) {
-  if (result.recommended() == nullptr) return {};
-  const MisfitBound misfits = misfit_bound(*result.recommended());
+std::string misfits_text(const CalibrationRow& row) {
+  const MisfitBound misfits = misfit_bound(row);
   return said_below("calibration.misfits", {{"count", misfits.count},
                                             {"root_mean_square_K", misfits.root_mean_square},
                                             {"factor", misfits.factor},
@@ -225,10 +222,9 @@ std::string misfits_text(const CalibrationResult& result) {
 }  // namespace
 
 Table run_table(const std::vector<CalibrationRun>& runs) {
-  std::vector<report::NamedRun> rows;
-  for (const CalibrationRun& each : runs)
-    rows.push_back({each.input.label, each.failure, &each.mechanics, {}});
-  return report::run_table(rows);
+  return report::run_table(of_each(runs, [](const CalibrationRun& each) {
+    return report::NamedRun{each.input.label, each.failure, &each.mechanics, {}};
+  }));
 }
 
 Table constants_table(const CalibrationResult& result) {
@@ -255,7 +251,7 @@ Table constants_table(const CalibrationResult& result) {
 }
 
 std::string answer(const CalibrationResult& result) {
-  Row facts{{"reason", result.recommendation.reason}, {"load", load_json(result)}};
+  Row facts{{"reason", result.reason}, {"load", load_json(result)}};
   if (const CalibrationRow* row = result.recommended()) {
     facts["row"] = json_of(calibration_setting_quantities, *row);
     facts["row"].update(json_of(constant_quantities, row->calibrated.constants));
@@ -271,21 +267,22 @@ report::Report report_of(const CalibrationResult& result) {
   report.add({constants_table(result), "", "constants"});
   report.add({fitted_table(result), "", "fitted"});
   report.say(fit_text(result));
-  report.say(misfits_text(result));
+  const CalibrationRow* recommended = result.recommended();
+  if (recommended != nullptr) report.say(misfits_text(*recommended));
   report.add({table_of("Calibrated constants, and how far they miss what nothing was fitted to",
                        calibration_quantities(result.study.study), result.rows,
                        said("calibration.note.calibrations")),
               "calibration.csv", "calibrations"});
   // By which a model is chosen among others.
-  if (const CalibrationRow* row = result.recommended(); row != nullptr && row->selection.size() > 1) {
-    report.add({table_of("Differences that choose among models", selection_quantities, row->selection,
-                         said("calibration.note.selection", {{"rms_K", row->selection_root_mean_square}})),
-                "", "selection", Shown::page});
-  }
+  if (recommended != nullptr && recommended->selection.size() > 1)
+    report.add(
+        {table_of("Differences that choose among models", selection_quantities, recommended->selection,
+                  said("calibration.note.selection", {{"rms_K", recommended->selection_root_mean_square}})),
+         "", "selection", Shown::page});
   report.add({table_of("From the coarsest to the finest mesh", convergence_quantities, result.convergence),
               "", "convergence"});
   // Of the row that is recommended; the file has all.
-  if (const CalibrationRow* row = result.recommended()) report.add({compared_table(result, *row)});
+  if (recommended != nullptr) report.add({compared_table(result, *recommended)});
   report.add({table_of_all(result.rows, compared_quantities(), &CalibrationRow::compared), "compared.csv",
               "compared", Shown::file});
   report.add({table_of_all(result.rows, placement_quantities, &CalibrationRow::placements), "", "placements",
@@ -293,8 +290,8 @@ report::Report report_of(const CalibrationResult& result) {
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({run_table(result.runs), "", "runs", Shown::page});
   report.say(report::timing_sentence(result.timing));
-  Json recommendation{{"reason", result.recommendation.reason}, {"row", nullptr}};
-  if (result.recommendation.row) recommendation["row"] = *result.recommendation.row;
+  Json recommendation{{"reason", result.reason}, {"row", nullptr}};
+  if (result.recommended_row) recommendation["row"] = *result.recommended_row;
   Json in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
   in_scene.update(json_of(constant_quantities, result.in_scene));
   report.json = study_json(result.study, report,

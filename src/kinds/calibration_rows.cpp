@@ -1,6 +1,6 @@
 // What a calibrated model computes for the published rows, beside them.
+#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-#include "launchsafe/math/statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -18,18 +18,14 @@ std::string name_of(const trace::BottomTrace& trace, const surface::Maximum& max
 }
 
 double root_mean_square_of(const std::vector<double>& misfits) {
-  double sum = 0;
-  for (const double each : misfits) sum += each * each;
-  return misfits.empty() ? not_a_number : std::sqrt(sum / static_cast<double>(misfits.size()));
+  return std::sqrt(math::sum_of_squares(misfits) / static_cast<double>(misfits.size()));  // NaN of none
 }
 
-/// K by which the station at a published place is colder at a time (s) than the hottest one; NaN without such
-/// a place.
+/// K by which the station at a published place is colder at a time (s) than the hottest; NaN without one.
 double place_misfit(const surface::SkinHistory& history, const trace::BottomTrace& trace,
                     const std::string& place, double time) {
-  const auto found =
-      std::ranges::find_if(trace.stations, [&](const trace::Station& each) { return each.name == place; });
-  if (found == trace.stations.end()) return not_a_number;
+  const trace::Station* found = keys::find_named(trace.stations, place);
+  if (found == nullptr) return not_a_number;
   double nearest = std::numeric_limits<double>::infinity(), there = not_a_number;
   for (std::size_t station = 0; station < trace.stations.size(); ++station) {
     const trace::Station& each = trace.stations[station];
@@ -77,10 +73,9 @@ struct RowComparison {
     add("ignition time", history.ignition ? history.ignition->time : not_a_number, reference.ignition_time,
         {.temperature = false, .in_seconds = true, .use = Use::chosen_by});
     place("T max", name_of(trace, maximum), reference.ignited() ? std::string{} : reference.point);
-    if (reference.ignited()) {
+    if (reference.ignited())
       place("first ignition", history.ignition ? trace.stations[history.ignition->station].name : "none",
             reference.point);
-    }
     place("T" + at_early, name_of(trace, early), reference.early_point);
     if (reference.selection && reference.gap == 0.0) add_places();
   }
@@ -121,22 +116,20 @@ struct RowComparison {
   }
   void add_places() {
     const auto add_place = [&](const std::string& at, const std::string& point, double time) {
-      const double misfit = place_misfit(history, trace, point, time);
-      if (!point.empty()) row.selection.push_back({"hottest place" + at, misfit});
+      if (!point.empty())
+        row.selection.push_back({"hottest place" + at, place_misfit(history, trace, point, time)});
     };
     add_place(at_early, reference.early_point, study.early_time);
     add_place(" at the end", reference.point, end);
   }
 };
 
-/// Over what is not fitted. NaN where any of the misfits is: a row with a number that cannot be computed has
-/// no good mean.
+/// Over what is not fitted. NaN where any misfit is: a number that cannot be computed leaves no good mean.
 double root_mean_square(const CalibrationRow& row, bool temperatures) {
   std::vector<double> misfits;
-  for (const ComparedNumber& each : row.compared) {
+  for (const ComparedNumber& each : row.compared)
     if (each.temperature == temperatures && !each.in_seconds && each.use != Use::fitted)
       misfits.push_back(each.misfit());
-  }
   return root_mean_square_of(misfits);
 }
 
@@ -144,19 +137,15 @@ double root_mean_square(const CalibrationRow& row, bool temperatures) {
 void add_selection(CalibrationRow& row) {
   std::map<std::string, std::vector<double>> spreads;
   for (const ComparedNumber& each : row.compared) {
-    if (!each.selects) continue;
-    if (each.temperature) {
+    if (each.selects && each.temperature)
       row.selection.push_back(
           {fmt::format("{} at {:.6g} cm", each.quantity, 100.0 * each.gap), each.misfit()});
-    } else {
+    else if (each.selects)
       spreads[each.quantity].push_back(each.misfit());
-    }
   }
   for (const auto& [quantity, misfits] : spreads)
     row.selection.push_back({quantity, root_mean_square_of(misfits)});
-  std::vector<double> all;
-  for (const SelectionMisfit& each : row.selection) all.push_back(each.misfit);
-  row.selection_root_mean_square = root_mean_square_of(all);
+  row.selection_root_mean_square = root_mean_square_of(of_each(row.selection, &SelectionMisfit::misfit));
 }
 
 }  // namespace

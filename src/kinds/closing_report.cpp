@@ -45,11 +45,8 @@ auto hotter_on(const char* bound, const char* than) {
 }
 
 /// K, by which its computation may have that wrong; NaN where it ignites.
-auto uncertainty_on(const char* bound) {
-  return [bound](const ClosingRow& row) {
-    const ClosingPoint* point = row.point(bound);
-    return point != nullptr && !point->ignited ? point->at_most - point->maximum_temperature : not_a_number;
-  };
+double uncertainty_of(const ClosingPoint& point) {
+  return point.ignited ? not_a_number : point.at_most - point.maximum_temperature;
 }
 
 std::string bound_name(const ClosingAnswer& answer) {
@@ -64,7 +61,6 @@ std::string why_unknown(const ClosingRow& row) {
   return {};
 }
 
-/// A column of kelvins.
 report::Column kelvins(const char* name, const char* label, const char* meaning) {
   return {name, label, fixed(1, keys::kelvin), meaning};
 }
@@ -89,17 +85,16 @@ const report::Quantities<ClosingRow> closing_quantities{
      on("corner"), &ClosingPoint::release},
     {kelvins("corner_numerical", "of its computation",
              "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
-     uncertainty_on("corner")},
+     on("corner"), uncertainty_of},
     {for_programs(kelvins("conducting_numerical", "of computation, base conducts",
                           "The same where the base takes heat.")),
-     uncertainty_on("conducting")},
+     on("conducting"), uncertainty_of},
     {for_programs(kelvins("insulated_numerical", "of computation, base insulated",
                           "The same where the base takes no heat.")),
-     uncertainty_on("insulated")},
+     on("insulated"), uncertainty_of},
     {"remark", "remark", text(), "Why a temperature is not known.", why_unknown}};
 
-/// What is not known of a gap that closes, an interval each, with what its worst end adds to T max where all
-/// before it stand at theirs.
+/// What is not known of a gap that closes, with what each worst end adds where all before stand at theirs.
 const report::Quantities<ClosingRow> closing_share_quantities{
     {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
     {quantity::gap, &ClosingRow::gap},
@@ -118,9 +113,8 @@ const report::Quantities<ClosingRow> closing_share_quantities{
              "What melting would add with an insulated base; no verdict rests on it."),
      hotter_on("melting", "insulated")}};
 
-/// What one bound says of the critical gap.
 struct BoundRow {
-  const std::string* label;
+  std::string label;
   const ClosingAnswer* answer;
 };
 
@@ -136,15 +130,14 @@ auto text_of_bound(std::size_t bound) {
 }
 
 const report::Quantities<BoundRow> closing_bound_quantities{
-    {quantity::case_name, [](const BoundRow& row) { return *row.label; }},
-    {"bound", "where the gap closes", text(), "Terms on which it closes.",
-     [](const BoundRow& row) { return bound_name(*row.answer); }},
+    {quantity::case_name, &BoundRow::label},
+    {"bound", "where the gap closes", text(), "Terms on which it closes.", &BoundRow::answer, bound_name},
     {"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
      "Largest gap below the first that ignites.", &BoundRow::answer, &ClosingAnswer::lower},
     {"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites.",
      &BoundRow::answer, &ClosingAnswer::upper},
-    {"launches", "gaps computed", keys::significant(6), "Gaps that were computed.",
-     [](const BoundRow& row) { return static_cast<double>(row.answer->points.size()); }}};
+    {"launches", "gaps computed", keys::significant(6), "Gaps that were computed.", &BoundRow::answer,
+     [](const ClosingAnswer& answer) { return static_cast<double>(answer.points.size()); }}};
 
 /// By which kinetics the cases of rows may ignite, and whether records say how far T max may be off.
 report::Row closing_facts(const std::vector<ClosingRow>& rows) {
@@ -228,7 +221,7 @@ Table closing_bound_table(const CriticalGapResult& result) {
   std::vector<BoundRow> rows;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     for (const ClosingAnswer& answer : result.answers[i].closing)
-      rows.push_back({&result.study.cases.label(i), &answer});
+      rows.push_back({result.study.cases.label(i), &answer});
   return report::table_of("Critical gap where the gap closes", closing_bound_quantities, rows);
 }
 
@@ -247,17 +240,15 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
   // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
   const double burning = ignition + 20.0;
-  report::Series reservoir{"reservoir, as published"};
+  Series& reservoir = plot.series.emplace_back(Series{"reservoir, as published"});
   for (const GapVerdict& row : outcome.verdicts)
-    reservoir.add(report::shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
-  plot.series.push_back(std::move(reservoir));
+    reservoir.add(shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
   for (const ClosingAnswer& answer : outcome.closing) {
     if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
-    report::Series series{bound_name(answer)};
+    Series& series = plot.series.emplace_back(Series{bound_name(answer)});
     for (const ClosingPoint& point : answer.points)
       if (point.ignited || std::isfinite(point.maximum_temperature))
-        series.add(report::shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
-    plot.series.push_back(std::move(series));
+        series.add(shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
   }
   const std::string at = report::in_words(ignition, keys::significant(4, keys::kelvin));
   plot.horizontal_lines.push_back({ignition, "ignition: " + at + "; what ignites is drawn above"});

@@ -1,3 +1,4 @@
+// The study of kind comparison: its cases, answer, tables and page.
 #include "launchsafe/kinds/comparison.hpp"
 
 #include "answer_tables.hpp"
@@ -7,7 +8,10 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault, study::StudyFile;
+using keys::fixed, keys::significant;
+using report::Quantities, report::ReportTable, report::Row, report::Table;
+using study::CaseAnswer, study::not_a_number, study::RunSummary, study::StationTemperature, study::Study,
+    study::StudyFile;
 
 namespace {
 
@@ -19,13 +23,11 @@ const std::vector<scene::Key<ComparisonSettings>> comparison_keys{
 };
 
 /// The record of a calibration, with or without constants.
-scene::Expected<study::CalibrationRecord> read_calibration_record(const StudyFile& study,
-                                                                  const StudySource& source,
-                                                                  const std::string& name,
-                                                                  const std::string& key) {
-  const auto text = read_named_file(study, source.folder, key, name, "the calibration.json of a calibration");
-  if (!text) return text.error();
-  return study::parse_calibration_record(*text, (source.folder / name).string());
+study::CalibrationRecord read_calibration_record(const StudyFile& study, const StudySource& source,
+                                                 const std::string& name, const std::string& key) {
+  const std::string text =
+      taken(read_named_file(study, source.folder, key, name, "the calibration.json of a calibration"));
+  return taken(study::parse_calibration_record(text, (source.folder / name).string()));
 }
 
 /// Makes the cases of one variant after another.
@@ -34,107 +36,80 @@ struct VariantMaker {
   StudyFile& study;
   StudyKeys keys = joined({common_keys(), comparison_kind().keys});
 
-  Fault add_scene_itself() {
-    const auto& settings = settings_of<ComparisonSettings>(study.study);
-    Variant variant{.name = settings.name, .description = settings.description};
-    return add(std::move(variant), {}, {{"set", source.root.get("set")}}, source.root);
-  }
-
-  Fault add_variant(const toml::table& table, const std::string& key) {
+  void add_variant(const toml::table& table, const std::string& key) {
     VariantText text;
-    auto read = scene::read_table(table, variant_keys(), {"set", "accept"}, study.file, text);
-    if (!read) return scene::within("vary.variants", read.error());
-    for (const auto& [name, place] : *read) study.places[key + "." + name] = place;
-    for (const Variant& other : variants()) {
-      if (other.name == text.name)
-        return fault_at(study, key + ".name", fmt::format("\"{}\" a second time", text.name),
-                        "a name that no other variant has");
-    }
-    if (Fault fault = check_gaps(table)) return fault;
+    for (const auto& [name, place] : taken(
+             scene::read_table(table, variant_keys(), {"set", "accept"}, study.file, text), "vary.variants"))
+      study.places[key + "." + name] = place;
+    if (keys::find_named(variants(), text.name) != nullptr)
+      refuse_at(study, key + ".name", fmt::format("\"{}\" a second time", text.name),
+                "a name that no other variant has");
+    check_gaps(table);
     Variant variant{.name = text.name, .description = text.description};
-    if (!text.calibration.empty()) {
-      auto record = read_calibration_record(study, source, text.calibration, key + ".calibration");
-      if (!record) return record.error();
-      variant.calibration = std::move(*record);
-    }
+    if (!text.calibration.empty())
+      variant.calibration = read_calibration_record(study, source, text.calibration, key + ".calibration");
     const bool own_constants = variant.calibration && variant.calibration->failure.empty();
-    return add(std::move(variant), own_constants ? text.calibration : std::string{},
-               {{"set", source.root.get("set")}, {"vary.variants.set", table.get("set")}}, table);
+    add(std::move(variant), own_constants ? text.calibration : std::string{},
+        {{"set", source.root.get("set")}, {"vary.variants.set", table.get("set")}}, table);
   }
 
   std::vector<Variant>& variants() { return settings_of<ComparisonSettings>(study.study).variants; }
 
   /// Gaps of a variant would silently do nothing.
-  Fault check_gaps(const toml::table& table) const {
+  void check_gaps(const toml::table& table) const {
     const toml::node* set = table.get("set");
-    if (!set || !set->is_table()) return std::nullopt;
-    for (const study::Leaf& leaf : study::leaves_as_written(*set->as_table())) {
-      if (leaf.name != "gap.thickness" && leaf.name != "gap.opens_by_cooling") continue;
-      return scene::error_at(scene::place_of(*leaf.node, study.file), "vary.variants.set." + leaf.name,
-                             "gaps of a variant", "the study's gaps, which all variants share");
-    }
-    return std::nullopt;
+    if (!set || !set->is_table()) return;
+    for (const study::Leaf& leaf : study::leaves_as_written(*set->as_table()))
+      if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling")
+        refuse_if(scene::error_at(scene::place_of(*leaf.node, study.file), "vary.variants.set." + leaf.name,
+                                  "gaps of a variant", "the study's gaps, which all variants share"));
   }
 
   /// `calibration`: the record with the constants of the variant; empty: the study's.
-  Fault add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
-            const toml::table& acceptances) {
+  void add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
+           const toml::table& acceptances) {
     StudyFile own = start(calibration);
-    study::AccuracyRecords records;
-    if (Fault fault = settle_scene(source, overrides, own, records)) return fault;
-    if (Fault fault = check_load_axes(own)) return fault;
-    for (const study::Axis& axis : own.study.axes) {
+    settle_scene(source, overrides, own);
+    refuse_if(check_load_axes(own));
+    for (const study::Axis& axis : own.study.axes)
       if (own.overrides.contains(axis.key.name))
-        return fault_at(study, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
-                        axis.key.name + " either here or there");
-    }
-    if (Fault fault = settle_acceptances(source.root, keys, own)) return fault;
-    if (&acceptances != &source.root) {
-      if (Fault fault = accept_also(acceptances, own)) return fault;
-    }
-    if (own.study.early_time > scene::end_time(own.scene.scene.load)) {
-      return fault_at(study, "early_time",
-                      fmt::format("an instant after the launch of variant \"{}\"", variant.name),
-                      "a time within the load's duration of every variant");
-    }
-    if (Fault fault = make_factorial(own)) return fault;
-    return take(std::move(variant), own);
+        refuse_at(study, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
+                  axis.key.name + " either here or there");
+    settle_acceptances(source.root, keys, own);
+    if (&acceptances != &source.root)  // a variant accepts for itself
+      for (scene::Acceptance& each :
+           taken(scene::read_acceptances(acceptances, scene::acceptable_keys(own.scene.scene), study.file),
+                 "vary.variants"))
+        scene::accept(own.scene.scene.accepted, std::move(each));
+    if (own.study.early_time > scene::end_time(own.scene.scene.load))
+      refuse_at(study, "early_time",
+                fmt::format("an instant after the launch of variant \"{}\"", variant.name),
+                "a time within the load's duration of every variant");
+    refuse_if(make_factorial(own));
+    take(std::move(variant), own);
   }
 
   /// The study before its scene was read.
   StudyFile start(const std::string& calibration) const {
     StudyFile own;
     own.study = study.study;
-    own.study.settings.reset();
-    own.study.implausible.clear();
-    own.study.calibration = study::shipped_calibration();
-    own.study.fit_uncertainty = study::not_a_number;  // of its own calibration
-    if (!calibration.empty()) own.study.calibration_record = calibration;
     own.file = study.file;
     own.places = study.places;
     own.most_cases = study.most_cases;
+    own.study.settings.reset();
+    own.study.implausible.clear();
+    own.study.calibration = study::shipped_calibration();
+    own.study.fit_uncertainty = not_a_number;  // of its own calibration
+    if (!calibration.empty()) own.study.calibration_record = calibration;
     return own;
   }
 
-  /// A variant accepts for itself.
-  Fault accept_also(const toml::table& table, StudyFile& own) const {
-    auto accepted = scene::read_acceptances(table, scene::acceptable_keys(own.scene.scene), study.file);
-    if (!accepted) return scene::within("vary.variants", accepted.error());
-    for (scene::Acceptance& each : *accepted) scene::accept(own.scene.scene.accepted, std::move(each));
-    return std::nullopt;
-  }
-
-  /// The cases become those of the study.
-  Fault take(Variant variant, StudyFile& own) {
-    const std::size_t count = study.cases.size() + own.cases.size();
-    if (count > study.most_cases) {
-      return fault_at(study, "vary", fmt::format("{} mechanical runs", count),
-                      fmt::format("at most {} mechanical runs", study.most_cases));
-    }
+  void take(Variant variant, StudyFile& own) {
+    refuse_if(check_count(study, "vary", static_cast<double>(study.cases.size() + own.cases.size()),
+                          "of all variants"));
     if (!variant.calibration && !own.study.calibration_record.empty()) {
       auto record = read_calibration_record(study, source, own.study.calibration_record, "calibration");
-      if (!record) return record.error();
-      if (variants().empty()) variant.calibration = std::move(*record);
+      if (variants().empty()) variant.calibration = std::move(record);
     }
     for (const auto& [key, value] : own.overrides) {
       const auto common = study.overrides.find(key);
@@ -142,8 +117,8 @@ struct VariantMaker {
         variant.changes.push_back(key + " = " + value);
     }
     if (!variants().empty() && variant.changes.empty())
-      return fault_at(study, "vary", fmt::format("\"{}\", which is the scene as it is", variant.name),
-                      "a variant with set or calibration");
+      refuse_at(study, "vary", fmt::format("\"{}\", which is the scene as it is", variant.name),
+                "a variant with set or calibration");
     variant.scene = own.scene.scene;
     for (study::StudyCase each : own.cases) {
       each.label = variant.name + ": " + each.label;
@@ -153,20 +128,17 @@ struct VariantMaker {
     variant.judged = std::move(own.study);
     study.records.insert(study.records.end(), own.records.begin(), own.records.end());
     variants().push_back(std::move(variant));
-    return std::nullopt;
   }
 };
 
-Fault make_comparison_cases(const StudySource& source, StudyFile& study) {
-  const auto tables = variants_in(source, study);
-  if (!tables) return tables.error();
+void make_comparison_cases(const StudySource& source, StudyFile& study) {
+  const std::vector<const toml::table*> tables = variants_in(source, study);
   VariantMaker maker{source, study};
-  if (Fault fault = maker.add_scene_itself()) return fault;
-  std::size_t index = 0;
-  for (const toml::table* table : *tables) {
-    if (Fault fault = maker.add_variant(*table, fmt::format("vary.{}.variants", index++))) return fault;
-  }
-  return std::nullopt;
+  const ComparisonSettings settings = settings_of<ComparisonSettings>(study);
+  maker.add({.name = settings.name, .description = settings.description}, {},
+            {{"set", source.root.get("set")}}, source.root);
+  for (std::size_t index = 0; const toml::table* table : tables)
+    maker.add_variant(*table, fmt::format("vary.{}.variants", index++));
 }
 
 void judge(const Variant& variant, const study::StudyCase& input, std::vector<study::FinishedRun>& runs,
@@ -180,6 +152,127 @@ void judge(const Variant& variant, const study::StudyCase& input, std::vector<st
   for (const double gap : variant.judged.gaps)
     of.stations.push_back(
         study::station_temperatures(surface::integrate_skin(model, mechanics.trace, gap), mechanics.trace));
+}
+
+// --- tables and page ---
+
+struct CaseRow {
+  const ComparisonResult* result;
+  std::size_t index;
+
+  const ComparedCase& compared() const { return result->answers[index]; }
+  const std::vector<double>& coordinates() const { return result->study.cases.coordinates(index); }
+  const std::string& variant() const { return result->variants()[compared().variant].name; }
+};
+
+/// Variant, and peak pressure where there are several.
+Quantities<CaseRow> place_quantities(const Study& study) {
+  return keys::joined<CaseRow>({{{quantity::variant, &CaseRow::variant}},
+                                of_part<CaseRow>(report::axis_quantities(study), &CaseRow::coordinates)});
+}
+
+double hottest(const ComparedCase& each) {
+  double highest = not_a_number;
+  for (const study::GapVerdict& row : each.verdicts)
+    if (!(row.heated <= highest)) highest = row.heated;
+  return highest;
+}
+
+/// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
+double shift_of(const ComparisonResult& result, std::size_t index) {
+  return report::value_of(result.answers[index].critical) -
+         report::value_of(result.answers[result.counterpart(index)].critical);
+}
+
+Quantities<CaseRow> compared_case_quantities(const Study& study) {
+  const auto unless_own = [](double (*difference)(const CaseRow&)) {
+    return [difference](const CaseRow& row) {
+      return row.compared().variant == 0 ? not_a_number : difference(row);
+    };
+  };
+  return keys::joined<CaseRow>(
+      {place_quantities(study),
+       of_part<CaseRow>(report::critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
+       {{"critical_gap_difference", "less that of the scene", significant(3, keys::centimetre),
+         "Critical gap minus that of the scene as it is.",
+         unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
+        {quantity::temperature_max_inert, [](const CaseRow& row) { return hottest(row.compared()); }},
+        {"temperature_max_inert_difference", "less that of the scene", fixed(1, keys::kelvin),
+         "The same minus that of the scene as it is.", unless_own([](const CaseRow& row) {
+           return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
+         })},
+        {for_programs(quantity::processor_time), &CaseRow::compared, &ComparedCase::processor_time},
+        {for_programs(quantity::particles), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
+        {for_programs(quantity::steps), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
+        {for_programs(quantity::energy_drift), &CaseRow::compared, &CaseAnswer::run,
+         &RunSummary::energy_drift},
+        {quantity::reason, [](const CaseRow& row) {
+           const CaseAnswer& answer = row.compared();
+           return answer.completed() ? answer.critical.reason : answer.failure;
+         }}}});
+}
+
+/// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
+Table comparison_table(const ComparisonResult& result) {
+  std::vector<CaseRow> rows;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
+  return report::table_of("Variants side by side", compared_case_quantities(result.study.study), rows,
+                          said("comparison.note.cases"));
+}
+
+struct StationRow {
+  CaseRow of;
+  double gap;  ///< m
+  const StationTemperature* station;
+};
+
+Quantities<StationRow> station_quantities(const Study& study) {
+  return keys::joined<StationRow>(
+      {of_part<StationRow>(place_quantities(study), &StationRow::of),
+       {{quantity::gap, &StationRow::gap},
+        {quantity::station, &StationRow::station, &StationTemperature::name},
+        {always(quantity::temperature_max_inert), &StationRow::station, &StationTemperature::temperature}}});
+}
+
+/// A row for every station of every gap and case.
+Table station_table(const ComparisonResult& result) {
+  std::vector<StationRow> rows;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const auto& stations = result.answers[i].stations;
+    for (std::size_t gap = 0; gap < stations.size(); ++gap)
+      for (const StationTemperature& each : stations[gap])
+        rows.push_back({{&result, i}, result.study.study.gaps[gap], &each});
+  }
+  return report::table_of("T max of every station, without reaction", station_quantities(result.study.study),
+                          rows);
+}
+
+/// Stations side by side at the largest gap: a column for each variant. Peak pressures are compared in the
+/// files; here the first one of every variant.
+Table stations_side_by_side(const ComparisonResult& result) {
+  const std::vector<double>& gaps = result.study.study.gaps;
+  const auto gap = static_cast<std::size_t>(std::ranges::max_element(gaps) - gaps.begin());
+  std::vector<std::string> rows;
+  Quantities<std::string> quantities{{quantity::station, std::identity{}}};
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const ComparedCase& each = result.answers[i];
+    const std::vector<StationTemperature> stations =
+        each.stations.empty() ? std::vector<StationTemperature>{} : each.stations[gap];
+    for (const StationTemperature& station : stations)
+      if (std::ranges::find(rows, station.name) == rows.end()) rows.push_back(station.name);
+    if (result.counterpart(i) != 0) continue;
+    const std::string& variant = result.variants()[each.variant].name;
+    quantities.emplace_back(variant, variant, fixed(1), "T max of the station under that variant.",
+                            [stations](const std::string& name) {
+                              const auto* found = keys::find_named(stations, name);
+                              return found == nullptr ? not_a_number : found->temperature;
+                            });
+  }
+  Table table = report::table_of(
+      "T max [K] by station at " + report::centimetres(gaps[gap]) + ", without reaction", quantities, rows);
+  if (!result.study.study.axes.empty())
+    table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
+  return table;
 }
 
 }  // namespace
@@ -212,6 +305,64 @@ ComparisonResult run_comparison(const study::StudyFile& study, const study::Stud
       judge(result.variants()[of.variant], study.cases[i], runs, of);
     });
   });
+}
+
+std::string answer(const ComparisonResult& result) {
+  Row facts{{"variants", result.variants().size() - 1},
+            {"cases", result.answers.size()},
+            {"gaps", result.study.study.gaps.size()}};
+  // The variant with the smallest critical gap against that of the scene as it is.
+  double least = 0.0;
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const std::string& label = result.study.cases[i].label;
+    if (result.answers[i].variant == 0) {
+      facts["own"].push_back(
+          {{"case", label}, {"critical_gap", report::reads_as(result.answers[i].critical)}});
+      continue;
+    }
+    const double shift = shift_of(result, i);
+    unknown += std::isnan(shift);
+    if (!(shift < least)) continue;
+    least = shift;
+    facts["least"] = report::in_words(shift, significant(3, keys::centimetre)) + ", of " + label;
+  }
+  facts["unknown"] = unknown;
+  return answer_of(said("comparison.answer", facts), result.study);
+}
+
+report::Report report_of(const ComparisonResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+  report.add({comparison_table(result), "comparison.csv", "cases"});
+  report.add({station_table(result), "stations.csv", "stations", report::Shown::file});
+  report.add({.table = stations_side_by_side(result), .shown = report::Shown::page});
+  add_model_form(result, report);
+  Row variants = Row::array();  // what each does otherwise
+  for (const Variant& each : result.variants())
+    variants.push_back({{"name", each.name},
+                        {"description", each.description},
+                        {"changes", each.changes},
+                        {"failure", each.calibration ? each.calibration->failure : ""}});
+  report.say("## Variants\n\n" + said_below("comparison.variants", {{"variants", variants}}));
+  report.say("## What it rests on\n\n" + report::friction_remark(result.study));
+  report.say(report::station_note(result.study) + "\n");
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.say(report::timing_sentence(result.timing));
+  report.json = study_json(
+      result.study, report,
+      {{"axes", report::axes_json(result.study.study)},
+       {"early_time_ms", report::shown_value(result.study.study.early_time, quantity::time(2).form)},
+       {"timing", report::timing_json(result.timing)}});
+  return report;
+}
+
+std::vector<ReportTable> comparison_results() {
+  const Study study;
+  std::vector<ReportTable> tables{
+      {report::table_of({}, compared_case_quantities(study), {}), "comparison.csv", "cases"},
+      {report::table_of({}, station_quantities(study), {}), "stations.csv", "stations"}};
+  for (ReportTable& each : model_form_results()) tables.push_back(std::move(each));
+  return tables;
 }
 
 }  // namespace launchsafe::kinds

@@ -34,13 +34,11 @@ constexpr double least_shift = 1e-6;
 
 /// Pressures at which an alternative ignites at smaller gaps than the default, in MPa.
 std::string towards_ignition(const ModelFormRecord& record, const ModelAlternative& alternative) {
-  std::string pressures;
-  for (std::size_t i = 0; i < record.peak_pressures.size(); ++i) {
-    if (!(alternative.critical_gap[i] < record.critical_gap[i] - least_shift)) continue;
-    pressures +=
-        (pressures.empty() ? "" : ", ") + digits_of(record.peak_pressures[i], quantity::peak_pressure.form);
-  }
-  return pressures;
+  std::vector<std::string> pressures;
+  for (std::size_t i = 0; i < record.peak_pressures.size(); ++i)
+    if (alternative.critical_gap[i] < record.critical_gap[i] - least_shift)
+      pressures.push_back(digits_of(record.peak_pressures[i], quantity::peak_pressure.form));
+  return fmt::format("{}", fmt::join(pressures, ", "));
 }
 
 std::string counts_for(const ModelFormRecord& record, const ModelAlternative* alternative) {
@@ -77,9 +75,9 @@ Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
 Table model_form_table(const ModelForm& form) {
   std::vector<ModelRow> rows;
   for (const ModelFormEntry& each : form.entries) {
-    ModelRow& row = rows.emplace_back(ModelRow{each.name, each.title, {}, {}});
-    for (const study::GapOrBound gap : each.critical_gap) row.gaps.push_back(gap_text(gap, form.largest_gap));
-    row.counts_as = counts_for(form.record, keys::find_named(form.record.alternatives, each.name));
+    const auto text = [&](study::GapOrBound gap) { return gap_text(gap, form.largest_gap); };
+    rows.push_back({each.name, each.title, of_each(each.critical_gap, text),
+                    counts_for(form.record, keys::find_named(form.record.alternatives, each.name))});
   }
   ModelRow shift{"shift", "of a SAFE's gap towards ignition", {}, "the largest of the models that count"};
   for (const double pressure : form.record.peak_pressures) {
@@ -94,7 +92,6 @@ Table model_form_table(const ModelForm& form) {
                           model_quantities(form.record.peak_pressures), rows);
 }
 
-/// A model that was calibrated.
 using CalibratedModel = const ModelFormEntry*;
 
 Quantities<CalibratedModel> model_constant_quantities() {
@@ -181,35 +178,28 @@ report::Plot model_form_plot(const ModelForm& form) {
   return plot;
 }
 
-/// The cases of the scene as it is, by increasing peak pressure; those of the variants follow in the same
-/// order.
+/// The cases of the scene as it is, by increasing peak pressure; those of variants are in the same order.
 std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
   std::vector<std::size_t> order(result.cases_per_variant());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto peak = [&](std::size_t i) { return result.study.cases[i].peak_pressure; };
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return peak(a) < peak(b); });
+  std::ranges::sort(order, {}, [&](std::size_t i) { return result.study.cases[i].peak_pressure; });
   return order;
 }
 
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
 /// none, a clause. The comparison has to live as long as what is made of it.
-std::optional<ModelForm> model_form_of(const ComparisonResult& result, std::string& reason) {
+scene::Expected<ModelForm, std::string> model_form_of(const ComparisonResult& result) {
   ModelForm form{{}, {}, result.study.study.largest_gap};
   const std::vector<std::size_t> order = by_peak_pressure(result);
   for (const Variant& each : result.variants()) {
     const std::size_t first = form.entries.size() * result.cases_per_variant();
-    ModelFormEntry& entry = form.entries.emplace_back();
-    entry = {each.name, each.description, &*each.calibration, each.scene, {}};
-    for (const std::size_t i : order)
-      entry.critical_gap.push_back(gap_or_bound(result.answers[first + i].critical));
+    const auto gap = [&](std::size_t i) { return gap_or_bound(result.answers[first + i].critical); };
+    form.entries.push_back(
+        {each.name, each.description, &*each.calibration, each.scene, of_each(order, gap)});
   }
-  std::vector<double> pressures;
-  for (const std::size_t i : order) pressures.push_back(result.study.cases[i].peak_pressure);
-  auto made = make_model_form(form.entries, std::move(pressures));
-  if (!made) {
-    reason = made.error();
-    return std::nullopt;
-  }
+  auto made = make_model_form(
+      form.entries, of_each(order, [&](std::size_t i) { return result.study.cases[i].peak_pressure; }));
+  if (!made) return made.error();
   form.record = std::move(*made);
   return form;
 }
@@ -221,12 +211,8 @@ void add_model_form(const ComparisonResult& result, report::Report& report) {
   const bool is_of_models = std::ranges::all_of(
       result.variants(), [](const Variant& each) { return each.calibration.has_value(); });
   if (!is_of_models || result.study.study.axes.empty()) return;
-  std::string reason;
-  const std::optional<ModelForm> form = model_form_of(result, reason);
-  if (!form) {
-    report.say("There is no record of other models: " + reason + ".\n");
-    return;
-  }
+  const auto form = model_form_of(result);
+  if (!form) return report.say("There is no record of other models: " + form.error() + ".\n");
   report.files.push_back({"model_form.json", to_json_text(form->record)});
   report.say("## Other models\n\n" + said_below("comparison.models"));
   report.add({model_form_table(*form), "model_form.csv", "models"});

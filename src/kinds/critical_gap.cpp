@@ -11,8 +11,8 @@
 
 namespace launchsafe::kinds {
 
-using study::CaseOutcome, study::CaseRun, study::CaseRuns, study::Confirmation, study::Fault,
-    study::FinishedRun, study::PlannedRun, study::ProgressTracker, study::StudyOptions;
+using study::CaseOutcome, study::CaseRun, study::CaseRuns, study::Confirmation, study::FinishedRun,
+    study::PlannedRun, study::ProgressTracker, study::StudyOptions;
 
 namespace {
 
@@ -102,7 +102,6 @@ double following_cost(const study::StudyFile& study, const CaseRuns& runs, const
 struct FollowingRuns {
   using Taker = std::function<void(const FinishedRun&)>;
   CriticalGapResult& result;
-  const StudyOptions& options;
   std::vector<PlannedRun> runs = {};
   std::vector<Taker> takers = {};
 
@@ -139,25 +138,17 @@ struct FollowingRuns {
     });
   }
 
-  void run(ProgressTracker& tracker) {
-    run_each(std::move(runs), options, tracker, result.timing,
-             [this](std::size_t i, const FinishedRun& finished) { takers[i](finished); });
-  }
-
   void add(CaseRun run, Taker taker) {
     runs.push_back(planned_run(std::move(run)));
     takers.push_back(std::move(taker));
   }
 };
 
-/// The launches of gaps that close, for those of the cases (or answers) that ask for them: what they say of
-/// each. `counted`: the tracker has these cases as done, or else each is once its gaps are found.
-template <class Case>
-std::map<std::size_t, std::vector<study::ClosingAnswer>> run_closing_gaps(const std::vector<Case>& cases,
-                                                                          CriticalGapResult& result,
-                                                                          const StudyOptions& options,
-                                                                          ProgressTracker& tracker,
-                                                                          bool counted) {
+/// The launches of gaps that close, for those of the cases (or answers) that ask for them; `take` takes what
+/// they say of each. `counted`: the tracker has these cases as done, or else each is once its gaps are found.
+template <class Case, class Take>
+void run_closing_gaps(const std::vector<Case>& cases, CriticalGapResult& result, const StudyOptions& options,
+                      ProgressTracker& tracker, bool counted, Take take) {
   tracker.begin(study::Phase::closing_gaps);
   const study::RunBatch run = [&](std::vector<PlannedRun> runs, const auto& done) {
     run_each(std::move(runs), options, tracker, result.timing, done);
@@ -168,9 +159,7 @@ std::map<std::size_t, std::vector<study::ClosingAnswer>> run_closing_gaps(const 
   auto answers = find_closing_gaps(result.study, closing, run, [&](std::size_t) {
     if (!counted && !stop_requested(options)) tracker.cases_ended(1, {});
   });
-  std::map<std::size_t, std::vector<study::ClosingAnswer>> found;
-  for (std::size_t i = 0; i < closing.size(); ++i) found[closing[i]] = std::move(answers[i]);
-  return found;
+  for (std::size_t i = 0; i < closing.size(); ++i) take(closing[i], std::move(answers[i]));
 }
 
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
@@ -199,17 +188,18 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
         tracker.found({result.details[member].input.label, gap.lower, gap.upper});
     }
   });
-  FollowingRuns following{result, options};
+  FollowingRuns following{result};
   for (std::size_t i = 0; i < runs.size(); ++i)
     if (longer[i].make) following.add_longer_launch(longer[i], runs[i].members);
   if (confirm)
     std::ranges::for_each(result.details, [&](CaseOutcome& each) { following.add_confirmations(each); });
   tracker.begin(study::Phase::following_runs);
   tracker.expect(0, -foreseen);
-  following.run(tracker);
+  run_each(std::move(following.runs), options, tracker, result.timing,
+           [&](std::size_t i, const FinishedRun& finished) { following.takers[i](finished); });
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  for (auto& [i, closing] : run_closing_gaps(result.details, result, options, tracker, true))
-    result.details[i].closing = std::move(closing);
+  run_closing_gaps(result.details, result, options, tracker, true,
+                   [&](std::size_t i, auto closing) { result.details[i].closing = std::move(closing); });
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);
@@ -228,8 +218,9 @@ void run_many(CriticalGapResult& result, const StudyOptions& options) {
     tracker.expect_cases(1);
     if (!answer.completed() || !result.study.cases[i].closing) tracker.cases_ended(1, answer.failure);
   }
-  for (auto& [i, closing] : run_closing_gaps(result.answers, result, options, tracker, false))
+  run_closing_gaps(result.answers, result, options, tracker, false, [&](std::size_t i, auto closing) {
     take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
+  });
 }
 
 const std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys{
@@ -259,46 +250,41 @@ StudyKeys raised_load_keys() {
       &study::Study::raised_load)};
 }
 
-/// A raised load that is to be interpolated where none is needed, or between no cases.
-Fault check_raised_load(const study::StudyFile& study) {
-  if (study.study.raised_load == study::RaisedLoad::launched) return std::nullopt;
+/// Refuses a raised load that is to be interpolated where none is needed, or between no cases.
+void check_raised_load(const study::StudyFile& study) {
+  if (study.study.raised_load == study::RaisedLoad::launched) return;
   if (!propagates_spread(study.study))
-    return fault_at(study, "raised_load", "a raised load beside a stated input_uncertainty",
-                    "one of the two");
+    refuse_at(study, "raised_load", "a raised load beside a stated input_uncertainty", "one of the two");
   for (std::size_t i = 0; i < study.cases.size(); ++i)
-    if (neighbouring_loads(study, i)) return std::nullopt;
-  return fault_at(
-      study, "raised_load", "\"interpolated\", and no case with two neighbours in peak_pressure",
-      fmt::format("at least three peak pressures, each {:.3g} to {:.3g} % above the one before, and a "
-                  "launch whose end does not follow from load.muzzle_travel",
-                  100.0 * (study::least_load_ratio - 1.0), 100.0 * (study::largest_load_ratio - 1.0)));
+    if (neighbouring_loads(study, i)) return;
+  refuse_at(study, "raised_load", "\"interpolated\", and no case with two neighbours in peak_pressure",
+            fmt::format("at least three peak pressures, each {:.3g} to {:.3g} % above the one before, and a "
+                        "launch whose end does not follow from load.muzzle_travel",
+                        100.0 * (study::least_load_ratio - 1.0), 100.0 * (study::largest_load_ratio - 1.0)));
 }
 
-Fault read_critical_gap(const StudySource& source, study::StudyFile& study) {
-  if (Fault fault = read_references(source, study)) return fault;
-  return read_cited_limits(source.root, study);
+void read_critical_gap(const StudySource& source, study::StudyFile& study) {
+  read_references(source, study);
+  refuse_if(read_cited_limits(source.root, study));
 }
 
-Fault make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
-  if (settings_of<CriticalGapSettings>(study.study).surrogate)
-    if (Fault fault = check_sweep_surrogate(study)) return fault;
-  if (Fault fault = make_factorial(study)) return fault;
-  if (Fault fault = check_raised_load(study)) return fault;
+void make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
+  if (settings_of<CriticalGapSettings>(study.study).surrogate) check_sweep_surrogate(study);
+  refuse_if(make_factorial(study));
+  check_raised_load(study);
   const bool few = study.cases.size() <= most_cases_in_detail;
   bool& confirm = settings_of<CriticalGapSettings>(study.study).confirm;
   if (!study.places.contains("confirm")) confirm = few;
   study.study.in_detail = few || confirm;
   study.confirmations_per_case = confirm ? 2 : 0;
-  return std::nullopt;
 }
 
 std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   std::vector<Failure> failures = failures_of(result);
-  for (const study::CaseOutcome& each : result.details) {
+  for (const study::CaseOutcome& each : result.details)
     for (const study::Confirmation& confirmation : each.confirmations)
       add_failure(failures, label_with_skin(each, confirmation.gap), confirmation.outcome,
                   confirmation.failure);
-  }
   return failures;
 }
 

@@ -18,8 +18,6 @@ using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::Fitte
 
 namespace {
 
-using NamedOutcome = const CaseOutcome*;
-
 /// One gap of a case with one constant as calibrated.
 struct CalibratedRow {
   const CaseOutcome* outcome;
@@ -27,7 +25,6 @@ struct CalibratedRow {
   const AsCalibrated* constant;
 };
 
-using keys::text;
 const Quantities<CalibratedRow> calibrated_quantities{
     {quantity::case_name, &CalibratedRow::outcome, &CaseOutcome::input, &StudyCase::label},
     {quantity::gap, &CalibratedRow::gap, &GapVerdict::gap},
@@ -50,7 +47,6 @@ std::string outcome_word(const Confirmation& each) {
   return each.completed ? ignition_word(each.ignited) : "failed";
 }
 
-/// What is told of the case itself.
 const Quantities<CaseOutcome> case_quantities{{quantity::case_name, &CaseOutcome::input, &StudyCase::label}};
 
 const auto coupled_quantities = with_whole(
@@ -75,7 +71,7 @@ const auto coupled_quantities = with_whole(
 
 /// A gap of a case that also has an answer on other terms.
 struct OtherRow {
-  NamedOutcome of;
+  const CaseOutcome* of;
   std::size_t gap;
 };
 
@@ -112,7 +108,7 @@ Quantities<OtherRow> longer_launch_quantities() {
 
 /// A line over the gap; only that of least squares has errors.
 struct FittedLine {
-  NamedOutcome of;
+  const CaseOutcome* of;
   std::string name;
   const Line* line;
   const GapFit* fit = nullptr;
@@ -150,7 +146,7 @@ Quantities<FittedLine> line_quantities() {
 
 /// A gap that does not ignite beside the lines through it and its neighbours.
 struct FittedRow {
-  NamedOutcome of;
+  const CaseOutcome* of;
   std::size_t gap;
   const GapFit& fit() const { return *of->fit; }
   double residual(const std::optional<Line>& line) const {
@@ -173,7 +169,6 @@ const Quantities<FittedRow> fitted_row_quantities{
     {"residual_published", "less the published line", fixed(2, kelvin), "T max less the line as published.",
      [](const FittedRow& row) { return row.residual(row.fit().published); }}};
 
-/// Curves through the rows of a case.
 const auto curve_quantities = with_whole(
     case_quantities,
     Quantities<FittedCurve>{
@@ -253,11 +248,10 @@ Table curve_table(const CriticalGapResult& result) {
 }
 
 Table run_table(const CriticalGapResult& result) {
-  std::vector<report::NamedRun> runs;
-  for (const CaseOutcome& outcome : result.details)
-    runs.push_back({outcome.input.label, outcome.failure, &outcome.result.mechanics,
-                    outcome.completed() ? "cases/" + outcome.hash + ".h5" : std::string{}});
-  return report::run_table(runs);
+  return report::run_table(of_each(result.details, [](const CaseOutcome& outcome) {
+    const std::string stored = outcome.completed() ? "cases/" + outcome.hash + ".h5" : "";
+    return report::NamedRun{outcome.input.label, outcome.failure, &outcome.result.mechanics, stored};
+  }));
 }
 
 bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
@@ -265,8 +259,7 @@ bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
          row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
 
-/// Which gaps of every case lie between the lower bound of the critical gap and ignition, with the cause that
-/// lowers the bound most; empty where none does.
+/// Which gaps lie between the lower bound of the critical gap and ignition, and what lowers that bound most.
 std::string undecided_text(const CriticalGapResult& result) {
   Row facts{{"several", result.details.size() > 1}, {"undecided", Row::array()}};
   for (const CaseOutcome& outcome : result.details) {
@@ -302,10 +295,8 @@ Table coupled_run_table(const CriticalGapResult& result) {
 
 std::string confirmation_text(const CaseOutcome& outcome) {
   if (outcome.confirmations.empty()) return "not confirmed";
-  std::string text;
-  for (const Confirmation& each : outcome.confirmations)
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", centimetres(each.gap), outcome_word(each));
-  return text;
+  const auto text = [](const Confirmation& each) { return centimetres(each.gap) + " " + outcome_word(each); };
+  return fmt::format("{}", fmt::join(of_each(outcome.confirmations, text), "; "));
 }
 
 std::string limiter_remark(const CriticalGapResult& result) {
@@ -320,8 +311,9 @@ void add_details(const CriticalGapResult& result, report::Report& report) {
   for (ReportTable& table : closing_tables(result)) report.items.push_back(std::move(table));
   if (auto plot = closing_plot(result))
     report.draw({"closing.svg", std::move(*plot), "T max where the gap closes"});
-  std::vector<report::NamedGap> cases;
-  for (const CaseOutcome& outcome : result.details) cases.push_back({outcome.input.label, &outcome.critical});
+  const auto cases = of_each(result.details, [](const CaseOutcome& outcome) {
+    return report::NamedGap{outcome.input.label, &outcome.critical};
+  });
   for (ReportTable table :
        {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
         ReportTable{other_table(result, "In a barrel without end", longer_launch_quantities(),

@@ -23,13 +23,12 @@ struct SweptAxis {
 
 std::vector<SweptAxis> swept_axes(const study::Study& study) {
   std::vector<SweptAxis> axes;
-  for (std::size_t i = 0; i < study.axes.size(); ++i) {
-    SweptAxis axis{i, report::shown(study.axes[i]), {}};
+  for (const study::Axis& each : study.axes) {
+    SweptAxis& axis = axes.emplace_back(SweptAxis{axes.size(), report::shown(each), {}});
     axis.key.heading = report::plain_words(axis.key.heading);
-    for (const double value : study.axes[i].values) axis.values.push_back(axis.key.value(value));
+    axis.values = of_each(each.values, [&](double value) { return axis.key.value(value); });
     std::ranges::sort(axis.values);
     axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
-    axes.push_back(std::move(axis));
   }
   return axes;
 }
@@ -128,6 +127,7 @@ study::AssumedShares in_both(const study::AssumedShares& a, const study::Assumed
 /// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
 struct GapLines {
   const CriticalGapResult& result;
+  Plot plot;
   const SweptAxis& along;
   const SweptAxis* across;
   std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
@@ -215,8 +215,7 @@ struct GapLines {
     return found != shares.end() && found->second.any();
   }
 
-  /// Values on lines of two and more, which a picture is made for; none where all differ by less than the
-  /// best of them is known to.
+  /// Values on lines of two and more; none where all differ by less than the best of them is known to.
   std::size_t joined() const {
     std::size_t joined = 0;
     if (highest - lowest < least_uncertainty) return joined;
@@ -225,7 +224,7 @@ struct GapLines {
     return joined;
   }
 
-  void put_into(Plot& plot) {
+  Plot drawn() {
     plot.title = finding() + plot.title;
     for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
@@ -239,6 +238,7 @@ struct GapLines {
       plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
     for (auto& [kind, series] : marks)
       if (!series.x.empty()) plot.series.push_back(std::move(series));
+    return std::move(plot);
   }
 
   std::string label_of(double shown) const {
@@ -250,8 +250,7 @@ struct GapLines {
     return static_cast<std::size_t>(std::ranges::count_if(line.y, [](double y) { return std::isfinite(y); }));
   }
 
-  /// "Critical gap at crack radius 30 µm falls from 0.096 cm at 250 MPa to 0.026 cm at 550 MPa", of the line
-  /// that has most values.
+  /// "Critical gap at crack radius 30 µm falls from 0.1 cm at 250 MPa to ...", of the line with most values.
   std::string finding() const {
     const Series& line = *std::ranges::max_element(values, {}, known_of);
     std::vector<std::size_t> known;
@@ -272,54 +271,49 @@ struct GapLines {
   }
 };
 
-/// Pictures, and how many values their lines join.
 struct Drawn {
   std::vector<Plot> plots;
-  std::size_t joined = 0;
+  std::size_t joined = 0;  ///< values that their lines join
 };
 
-/// A picture for every combination of the axes that it does not show, in the order of the cases, where a line
-/// joins two values and more.
+/// A picture for every combination of the other axes, in the order of the cases, where a line joins values.
 Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& along,
                const SweptAxis* across) {
   std::vector<std::size_t> shown{along.index};
   if (across != nullptr) shown.push_back(across->index);
-  std::vector<std::vector<double>> combinations;
-  std::vector<Plot> plots;
+  std::map<std::vector<double>, std::size_t> combinations;  // their places among the lines
   std::vector<GapLines> lines;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
     if (input.coordinates.size() < axes.size()) continue;
     std::vector<double> others = input.coordinates;
     for (const std::size_t axis : shown) others[axis] = 0;
-    const auto found = std::ranges::find(combinations, others);
-    const auto number = static_cast<std::size_t>(found - combinations.begin());
-    if (found == combinations.end()) {
-      combinations.push_back(std::move(others));
-      lines.push_back({result, along, across});
+    const auto [place, is_new] = combinations.try_emplace(std::move(others), lines.size());
+    if (is_new) {
+      lines.push_back({result,
+                       {.title = title_of(axes, shown, input),
+                        .x = picture_axis(along),
+                        .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
+                        .named_in_place = true},
+                       along,
+                       across});
       lines.back().begin();
-      plots.push_back({.title = title_of(axes, shown, input),
-                       .x = picture_axis(along),
-                       .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
-                       .named_in_place = true});
     }
-    lines[number].add(input, result.answers[i]);
+    lines[place->second].add(input, result.answers[i]);
   }
   Drawn drawn;
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    const std::size_t joined = lines[i].joined();
-    if (joined == 0) continue;
-    drawn.joined += joined;
-    lines[i].put_into(plots[i]);
-    drawn.plots.push_back(std::move(plots[i]));
-  }
+  for (GapLines& each : lines)
+    if (const std::size_t joined = each.joined(); joined > 0) {
+      drawn.joined += joined;
+      drawn.plots.push_back(each.drawn());
+    }
   return drawn;
 }
 
 using AxisPair = std::pair<const SweptAxis*, const SweptAxis*>;
 
-/// Along the longer of the first two axes, a line for each value of the other; where no line joins values, as
-/// one axis has none beyond a point, along the axes that join most.
+/// Along the longer of the first two axes, a line for each value of the other; where no line joins values,
+/// along the axes that join most.
 AxisPair drawn_axes(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
                     std::vector<const SweptAxis*> several) {
   if (several.size() == 1) return {several[0], nullptr};
@@ -345,9 +339,8 @@ AxisPair drawn_axes(const CriticalGapResult& result, const std::vector<SweptAxis
 GapPictures gap_pictures(const CriticalGapResult& result) {
   const std::vector<SweptAxis> axes = swept_axes(result.study.study);
   std::vector<const SweptAxis*> several;
-  for (const SweptAxis& axis : axes) {
+  for (const SweptAxis& axis : axes)
     if (axis.values.size() > 1) several.push_back(&axis);
-  }
   if (several.empty() || result.answers.empty()) return {};
   const auto [along, across] = drawn_axes(result, axes, several);
   std::vector<Plot> plots = plots_of(result, axes, *along, across).plots;

@@ -1,21 +1,24 @@
-// The answer, the page and the files of a critical-gap study.
+// The answer, the page, the picture of T max and the files of a critical-gap study.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cctype>
+#include <limits>
 #include <set>
 
 namespace launchsafe::kinds {
 
 using keys::significant, keys::text;
-using report::Picture, report::ReportTable, report::Row, report::Shown, report::shown_gap, report::Statement,
-    report::Table;
-using study::StudyCase, surface::Extent;
+using report::Mark, report::Picture, report::Plot, report::ReportTable, report::Row, report::Series,
+    report::Shown, report::shown_gap, report::Style, report::Table;
+using study::CaseOutcome, study::StudyCase, study::Use, surface::Extent;
 
 namespace {
 
@@ -36,14 +39,15 @@ void raise(double& most, double value) {
   if (std::isfinite(value) && !(value <= most)) most = value;
 }
 
-template <class Counts>
-Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts counts) {
+/// Of all cases, or of those with a crack below its flaw.
+Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_flaw) {
   std::map<std::vector<double>, Line> lines;
   Extent extent;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
     const study::CaseAnswer& answer = result.answers[i];
-    if (input.coordinates.size() <= axis || !answer.completed() || !counts(input)) continue;
+    if (input.coordinates.size() <= axis || !answer.completed()) continue;
+    if (below_flaw && input.crack_radius >= input.flaw_size) continue;
     std::vector<double> others = input.coordinates;
     extent.include(others[axis]);
     others[axis] = 0.0;
@@ -57,14 +61,12 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, Counts count
   Effect effect{study::not_a_number, study::not_a_number, extent.lowest, extent.highest};
   for (const auto& [others, line] : lines) {
     raise(effect.critical, line.critical.highest - line.critical.lowest);
-    for (const auto& [gap, range] : line.temperature) {
+    for (const auto& [gap, range] : line.temperature)
       if (!line.ignited.contains(gap)) raise(effect.temperature, range.highest - range.lowest);
-    }
   }
   return effect;
 }
 
-/// What an axis changes.
 struct EffectRow {
   std::string axis;
   report::ShownKey key;
@@ -84,8 +86,7 @@ const report::Quantities<EffectRow> effect_quantities{
      "Largest change of the critical gap over the axis, all else the same.", &EffectRow::effect,
      &Effect::critical}};
 
-/// What there is to say of a crack radius that changes little below the flaw size; nothing where it changes
-/// much.
+/// Of a crack radius that changes little below the flaw size; nothing where it changes much.
 Row crack_facts(const CriticalGapResult& result, const Effect& below) {
   constexpr double little = 5.0;  // K
   if (!(below.temperature <= little)) return {};
@@ -100,22 +101,33 @@ Row crack_facts(const CriticalGapResult& result, const Effect& below) {
 /// Of a table on the page; the files have all.
 constexpr std::size_t most_rows = 200;
 
-nlohmann::ordered_json counts_json(const SweepCounts& counts) {
-  nlohmann::ordered_json gaps, verdicts;
-  for (const auto& [kind, count] : counts.critical_gaps) gaps[study::to_string(kind)] = count;
-  for (const auto& [verdict, count] : counts.verdicts) verdicts[study::to_string(verdict)] = count;
-  return {{"cases", counts.cases},
-          {"failed", counts.failed},
-          {"limiters_acted", counts.limited},
-          {"critical_gaps", std::move(gaps)},
-          {"verdicts", std::move(verdicts)}};
+/// How many cases and verdicts came out how.
+Row counts_json(const CriticalGapResult& result) {
+  using study::CriticalGapKind, study::Verdict;
+  std::map<CriticalGapKind, std::size_t> kinds;
+  std::map<Verdict, std::size_t> verdicts;
+  std::size_t limited = 0;
+  for (const study::CaseAnswer& answer : result.answers) {
+    limited += report::acted(answer.run.limiters) ? 1 : 0;
+    ++kinds[answer.critical.kind];
+    for (const study::GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
+  }
+  Row counts{{"cases", result.answers.size()},
+             {"failed", count_failed(result.answers)},
+             {"limiters_acted", limited}};
+  for (const auto kind : {CriticalGapKind::value, CriticalGapKind::all_safe, CriticalGapKind::all_ignite,
+                          CriticalGapKind::indeterminate, CriticalGapKind::several_crossings})
+    counts["critical_gaps"][study::to_string(kind)] = kinds[kind];
+  for (const auto verdict : {Verdict::safe, Verdict::unsafe, Verdict::indeterminate})
+    counts["verdicts"][study::to_string(verdict)] = verdicts[verdict];
+  return counts;
 }
 
 /// What the answer about many cases is filled with.
-Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
+Row facts_of(const CriticalGapResult& result) {
   const study::Study& study = result.study.study;
   const auto keys = report::shown_axes(study);
-  Row facts = counts_json(counts);
+  Row facts = counts_json(result);
   for (std::size_t i = 0; i < keys.size(); ++i)
     facts["axes"].push_back(
         fmt::format("{} ({})", keys[i].heading, values_text(keys[i], study.axes[i].values)));
@@ -146,10 +158,9 @@ Row facts_of(const CriticalGapResult& result, const SweepCounts& counts) {
   return facts;
 }
 
-/// Of few cases, one after the other.
 std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
-  for (const study::CaseOutcome& outcome : result.details) {
+  for (const CaseOutcome& outcome : result.details) {
     Row row = report::json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update({{"why", outcome.critical.reason},
                 {"confirmed", !outcome.confirmations.empty()},
@@ -169,13 +180,166 @@ nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Tabl
       // Of the only case; where there are several, each has its own.
       {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
       {"early_time_ms", report::shown_value(result.study.study.early_time, report::quantity::time(2).form)},
-      {"counts", counts_json(counts_of(result.answers))},
+      {"counts", counts_json(result)},
       {"notes", report::mesh_notes(result.study)}};
   if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
   return members;
 }
 
+// --- T max against gap, of a study in detail ---
+
+/// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
+/// move on with every round of colours, so that no two cases look alike.
+void give_look(std::size_t index, Series& series) {
+  constexpr std::array<Mark, 8> looks{Mark::circle,      Mark::open_square,  Mark::up_triangle,
+                                      Mark::open_circle, Mark::diamond,      Mark::open_triangle,
+                                      Mark::square,      Mark::down_triangle};
+  series.colour = static_cast<int>(index);
+  series.mark = looks[(index + index / looks.size()) % looks.size()];
+}
+
+/// What did not ignite, of one verdict or of all, with its uncertainty: the model form, whose sign is known,
+/// counts upwards alone.
+Series inert_series(const CaseOutcome& outcome, const std::string& label,
+                    std::optional<study::Verdict> verdict = {}) {
+  Series series{.label = label, .style = Style::vertical_bars, .mark = Mark::circle};
+  if (!outcome.completed()) return series;  // temperatures of a part of the launch
+  for (const study::GapVerdict& row : outcome.verdicts) {
+    const double temperature = row.maximum.temperature;
+    if (row.ignition || !std::isfinite(temperature)) continue;
+    if (verdict && row.judgement.verdict != *verdict) continue;
+    const study::Uncertainty& uncertainty = row.uncertainty;
+    // Of one that ignites at an end of the range nothing is known but that.
+    const double below = uncertainty.total() - uncertainty.model_form;
+    series.add(shown_gap(row.gap), temperature, std::isfinite(below) ? temperature - below : temperature,
+               temperature + uncertainty.total());
+  }
+  return series;
+}
+
+/// What ignited: the temperature is that of the burning skin, of which the uncertainty says nothing.
+Series ignited_series(const CaseOutcome& outcome) {
+  Series series{.style = Style::points, .mark = Mark::cross};
+  for (const study::GapVerdict& row : outcome.verdicts) {
+    if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
+    series.add(shown_gap(row.gap), row.maximum.temperature);
+  }
+  return series;
+}
+
+void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, Plot& plot) {
+  if (!outcome.fit) return;
+  Series& line = plot.series.emplace_back(Series{.label = label, .style = Style::line, .colour = colour});
+  const study::Line& fitted = outcome.fit->ordinary;
+  for (const double gap : outcome.fit->gaps)
+    line.add(shown_gap(gap), fitted.intercept + fitted.slope * shown_gap(gap));
+}
+
+/// The only case, in a colour for each verdict.
+void add_only_case(const CaseOutcome& outcome, Plot& plot) {
+  constexpr int grey = 7, green = 2, orange = 4, vermilion = 1;
+  add_fit(outcome, "least squares", grey, plot);
+  const auto add = [&plot](Series series, int colour) {
+    series.colour = colour;
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  };
+  for (const auto& [verdict, colour] :
+       {std::pair{study::Verdict::safe, green}, {study::Verdict::indeterminate, orange}})
+    add(inert_series(outcome, study::to_string(verdict), verdict), colour);
+  add(ignited_series(outcome), vermilion);
+}
+
+void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
+  add_fit(outcome, "", static_cast<int>(index), plot);
+  Series inert = inert_series(outcome, outcome.input.label), ignited = ignited_series(outcome);
+  give_look(index, inert);
+  ignited.colour = static_cast<int>(index);
+  if (inert.x.empty()) ignited.label = outcome.input.label + ": ignites";
+  for (Series* each : {&inert, &ignited})
+    if (!each->x.empty()) plot.series.push_back(std::move(*each));
+}
+
+/// The axis ends above the ignition temperature: how hot a burning skin is says nothing of the gap. What is
+/// hotter stands at that end.
+void cut_above(double ignition, Plot& plot) {
+  double lowest = ignition;
+  for (const Series& series : plot.series)
+    for (const double temperature : series.y) lowest = std::min(lowest, temperature);
+  const double top = ignition + std::max(0.25 * (ignition - lowest), 20.0);
+  for (Series& series : plot.series) {
+    for (double& temperature : series.y) temperature = std::min(temperature, top);
+    std::ranges::replace(series.upper, std::numeric_limits<double>::infinity(), top);
+  }
+  plot.y.maximum = top;
+}
+
+/// What the picture shows of the only case, with its numbers.
+std::string finding_of(const CaseOutcome& outcome) {
+  const double safe = study::largest_safe_gap(outcome.verdicts);
+  return fmt::format("Critical gap {}; {}", report::reads_as(outcome.critical),
+                     std::isfinite(safe) ? "of the computed gaps SAFE up to " + report::centimetres(safe)
+                                         : "none of the computed gaps is SAFE");
+}
+
+/// Where no case has the launch that was published there is nothing to compare; under constants that miss the
+/// calibrated rows none counts as calibrated.
+void add_published(const CriticalGapResult& result, Plot& plot) {
+  const auto own =
+      std::ranges::find_if(result.details, [](const CaseOutcome& each) { return each.input.own_conditions; });
+  if (own == result.details.end()) return;
+  const bool foreign = misses_calibrated_rows(*own);
+  const std::map<std::string, Mark> marks{{"published", Mark::open_square},
+                                          {"published, " + to_string(Use::chosen_by), Mark::open_triangle},
+                                          {"published, " + to_string(Use::fitted), Mark::open_square},
+                                          {"published, " + to_string(Use::held_out), Mark::open_circle}};
+  for (const auto& [label, mark] : marks) {
+    Series series{.label = label, .style = Style::points, .colour = 6, .mark = mark};
+    for (const study::Reference& each : result.study.study.references)
+      if (label == (foreign ? "published" : "published, " + report::used_for(each)) &&
+          std::isfinite(each.maximum_temperature))
+        series.add(shown_gap(each.gap), each.maximum_temperature);
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+}
+
+/// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
+void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
+  const study::CriticalGap& gap = outcome.critical;
+  if (gap.kind != study::CriticalGapKind::value) {
+    plot.subtitle = "critical gap: " + report::reads_as(gap);
+    return;
+  }
+  const double value = shown_gap(gap.value);
+  const auto known = report::measured_gap(gap);
+  const std::string label = "critical gap: " + report::measured_text(gap);
+  plot.vertical_lines = {{value, known ? "" : label}};
+  if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
+}
+
 }  // namespace
+
+Plot temperature_plot(const CriticalGapResult& result) {
+  const bool only = result.details.size() == 1;
+  Plot plot;
+  plot.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom";
+  plot.x.label = quantity::gap.label();
+  plot.y.label = quantity::temperature_max.label();
+  // The legend stands below and takes two cases a line.
+  plot.height = 600 + 14 * static_cast<int>(result.details.size());
+  for (std::size_t i = 0; i < result.details.size(); ++i)
+    only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
+  // One entry of the legend for the ignitions of all cases.
+  const auto first = std::ranges::find_if(
+      plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
+  if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
+  add_published(result, plot);
+  if (only) add_critical_gap(result.details.front(), plot);
+  const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
+  cut_above(ignition, plot);
+  plot.horizontal_lines.push_back(
+      {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
+  return plot;
+}
 
 report::Table axis_effect_table(const CriticalGapResult& result) {
   std::vector<EffectRow> rows;
@@ -185,10 +349,9 @@ report::Table axis_effect_table(const CriticalGapResult& result) {
     if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
   };
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
-    add(keys[axis], "", effect_of(result, axis, [](const StudyCase&) { return true; }));
+    add(keys[axis], "", effect_of(result, axis, false));
     if (keys[axis].scene_key != "charge.crack_radius") continue;
-    const Effect below =
-        effect_of(result, axis, [](const StudyCase& input) { return input.crack_radius < input.flaw_size; });
+    const Effect below = effect_of(result, axis, true);
     add(keys[axis], ", below the flaw size", below);
     facts["cracks"] = crack_facts(result, below);
   }
@@ -198,10 +361,9 @@ report::Table axis_effect_table(const CriticalGapResult& result) {
 
 std::string answer(const CriticalGapResult& result) {
   if (!result.details.empty()) return answer_in_detail(result);
-  const SweepCounts counts = counts_of(result.answers);
-  std::vector<std::string> lines = said("critical_gap.answer", facts_of(result, counts));
-  for (std::string& line : closing_answer(result)) lines.push_back(std::move(line));
-  lines.push_back(limited_text(counts, "case"));
+  std::vector<std::string> lines = said("critical_gap.answer", facts_of(result));
+  std::ranges::move(closing_answer(result), std::back_inserter(lines));
+  lines.push_back(limited_text(result.answers, "case"));
   return answer_of(std::move(lines), result.study);
 }
 
@@ -220,11 +382,10 @@ report::Report report_of(const CriticalGapResult& result) {
   GapPictures drawn = gap_pictures(result);
   for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
-  if (settings_of<CriticalGapSettings>(result.study.study).surrogate) {
+  if (settings_of<CriticalGapSettings>(result.study).surrogate) {
     const study::SurrogateRecord record = sweep_surrogate(result);
     report.add({surrogate_table(record), "", "surrogate"});
-    for (report::TextFile& file : surrogate_files(record, result.study))
-      report.files.push_back(std::move(file));
+    report.files = surrogate_files(record, result.study);
   }
   report.add({axis_effect_table(result), "", "axis_effects", Shown::page});
   if (Table bounds = closing_bound_table(result); !bounds.rows.empty())

@@ -20,7 +20,6 @@ struct JudgedCase : AnsweredCase {
   const study::CaseOutcome* detail;
 };
 
-/// One gap of it.
 struct JudgedGap {
   AnsweredCase of;
   const GapVerdict* gap;
@@ -34,17 +33,14 @@ Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
                                                     {quantity::crack_radius, first.crack_radius},
                                                     {quantity::flaw_size, first.flaw_size}};
   for (const auto& [column, value] : fixed_values) {
-    const auto axis = std::ranges::find(study.study.axes, column.name, &study::Axis::name);
-    if (axis == study.study.axes.end())
+    if (const auto* axis = keys::find_named(axes, column.name))
+      launch.push_back(*axis);
+    else
       launch.emplace_back(for_programs(column),
                           [value = value](const std::vector<double>&) { return value; });
-    else
-      launch.push_back(axes[static_cast<std::size_t>(axis - study.study.axes.begin())]);
   }
-  for (std::size_t i = 0; i < axes.size(); ++i)
-    if (std::ranges::find(study::named_axes(), study.study.axes[i].name, &study::NamedAxis::name) ==
-        study::named_axes().end())
-      launch.push_back(axes[i]);
+  for (const auto& axis : axes)
+    if (keys::find_named(study::named_axes(), axis.name) == nullptr) launch.push_back(axis);
   return launch;
 }
 
@@ -63,20 +59,20 @@ std::string gap_label(const Study& study, std::size_t place) {
 /// T max at the smallest and the largest gap among those judged; at one of them where they are the same.
 Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
   const std::vector<double>& gaps = study.gaps;
-  Quantities<AnsweredCase> quantities;
-  const auto [least, most] = std::ranges::minmax_element(gaps);
-  for (const auto& gap : {least, most}) {
-    if (gap == gaps.end() || (!quantities.empty() && !(*most > *least))) break;
+  if (gaps.empty()) return {};
+  const auto at = [&](auto gap, const char* name) {
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
-    const char* name = quantities.empty() ? "temperature_max_smallest_gap" : "temperature_max_largest_gap";
-    const Column column{name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
-                        "Highest temperature at that gap; of one that ignites the burning skin's."};
-    quantities.emplace_back(
-        quantities.empty() ? column : for_programs(column), [place](const AnsweredCase& row) {
+    return report::Quantity<AnsweredCase>(
+        name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
+        "Highest temperature at that gap; of one that ignites the burning skin's.",
+        [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
           return place < verdicts.size() ? verdicts[place].maximum.temperature : not_a_number;
         });
-  }
+  };
+  const auto [least, most] = std::ranges::minmax_element(gaps);
+  Quantities<AnsweredCase> quantities{at(least, "temperature_max_smallest_gap")};
+  if (*most > *least) quantities.push_back(for_programs(at(most, "temperature_max_largest_gap")));
   return quantities;
 }
 
@@ -160,13 +156,12 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
 std::string air_energy_note(const CriticalGapResult& result, const std::vector<report::ShownKey>& keys) {
   std::vector<report::AuditedGap> worst;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
     for (const GapVerdict& row : result.answers[i].verdicts) {
       if (!std::isfinite(row.air.ratio())) continue;
       if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
         worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
     }
-  }
   const scene::Surface& surface = result.study.scene.scene.surface;
   return air_energy_statement(surface.air_model, worst, surface.model == scene::GapModel::closing);
 }
@@ -178,8 +173,7 @@ std::string early_used_for(const Reference& published) {
   return to_string(published.calibrated ? fitted : published.selection ? chosen_by : held_out);
 }
 
-/// Computed minus published (K) of a calibrated row above which the scene's constants are not those of its
-/// calibration.
+/// Computed minus published (K) of a calibrated row; above it the scene's constants are of other settings.
 constexpr double calibration_slack = 0.5;
 
 /// A row that stands beside a published one.
@@ -235,9 +229,9 @@ Table verdict_table(const CriticalGapResult& result) {
 Table critical_gap_table(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
   const bool closes = result.study.scene.scene.surface.model == scene::GapModel::closing;
-  std::vector<JudgedCase> rows;
-  for (const AnsweredCase& each : answered(result.study, result.answers))
-    rows.push_back({each, in_detail ? &result.details[each.index] : nullptr});
+  const auto rows = of_each(answered(result.study, result.answers), [&](const AnsweredCase& each) {
+    return JudgedCase{each, in_detail ? &result.details[each.index] : nullptr};
+  });
   Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
                          judged_case_quantities(result.study.study, in_detail, closes), rows);
   if (!in_detail)
@@ -248,16 +242,15 @@ Table critical_gap_table(const CriticalGapResult& result) {
 }
 
 Table cited_limit_table(const CriticalGapResult& result) {
-  std::vector<const study::CriticalGap*> gaps;
-  for (const CaseAnswer& answer : result.answers) gaps.push_back(&answer.critical);
-  return report::cited_limit_table(result.study, gaps);
+  return report::cited_limit_table(
+      result.study, of_each(result.answers, [](const CaseAnswer& answer) { return &answer.critical; }));
 }
 
 Table comparison_table(const CriticalGapResult& result) {
   std::vector<ComparedRow> rows;
   bool ignited = false;
   double worst = 0;  // |computed - published| of a calibrated row, K
-  for (const CaseAnswer& answer : result.answers) {
+  for (const CaseAnswer& answer : result.answers)
     for (const GapVerdict& row : answer.verdicts) {
       if (!row.reference) continue;
       ignited = ignited || row.reference->ignited() || row.ignition;
@@ -265,7 +258,6 @@ Table comparison_table(const CriticalGapResult& result) {
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
       rows.push_back(&row);
     }
-  }
   report::Row facts{{"ignited", ignited}};
   if (!(worst <= calibration_slack))
     facts["not_met"] = std::isfinite(worst)
@@ -278,14 +270,14 @@ Table comparison_table(const CriticalGapResult& result) {
 std::vector<report::ReportTable> critical_gap_results() {
   StudyFile file;
   file.study.gaps = {0.0, 0.4e-3};
-  std::vector<Column> cases = keys::described(judged_case_quantities(file.study, true, false));
-  for (const auto& columns :
-       {keys::described(closing_gap_quantities()), keys::described(run_quantities(file.study))})
-    cases.insert(cases.end(), columns.begin(), columns.end());
+  const auto cases =
+      keys::joined<JudgedCase>({judged_case_quantities(file.study, true, false),
+                                of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer),
+                                of_part<JudgedCase>(run_quantities(file.study))});
   std::vector<report::ReportTable> tables{
       {table_of({}, judged_gap_quantities(file), {}), "verdicts.csv", "verdicts"},
       {table_of({}, comparison_quantities(file.study.early_time), {}), "", "comparison"},
-      {Table{.columns = std::move(cases)}, "critical_gaps.csv", "cases"},
+      {table_of({}, cases, {}), "critical_gaps.csv", "cases"},
       {Table{.columns = report::cited_limit_columns()}, "", "cited_limits"},
       {surrogate_table({}), "", "surrogate"},
       {axis_effect_table({}), "", "axis_effects"}};

@@ -1,15 +1,15 @@
+// A calibration on firings, with its tables, page and files.
+#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/run_cases.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <numeric>
-
 namespace launchsafe::kinds {
 
+using report::Column, report::Quantities, report::Row;
 using study::Firing, study::Posterior, study::PosteriorPoint, study::StudyOptions;
 
 namespace {
@@ -23,9 +23,7 @@ void run_conditions(FiringResult& result, const StudyOptions& options) {
   study::run_every_case(
       result.study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
         CalibrationRun& condition = result.conditions[i];
-        condition.outcome = finished.front().outcome;
-        condition.failure = finished.front().failure;
-        condition.mechanics = finished.front().result.mechanics;
+        condition.take(finished.front());
         if (condition.failure.empty())
           condition.failure = calibration_validity_warnings(condition.input.scene.scene, condition.mechanics);
       });
@@ -40,9 +38,7 @@ void count_rounds(FiringRow& row, const std::vector<Firing>& firings) {
     row.rounds += each.rounds;
     row.ignited += each.ignited ? each.rounds : 0;
   }
-  const math::Interval interval = math::clopper_pearson(row.ignited, row.rounds, 0.9);
-  row.shown_lowest = interval.lower;
-  row.shown_highest = interval.upper;
+  row.shown = math::clopper_pearson(row.ignited, row.rounds, 0.9);
 }
 
 /// K, of T max of a skin that does not react.
@@ -71,8 +67,7 @@ std::vector<FiringRow> rows_of(const std::vector<Firing>& firings) {
   return rows;
 }
 
-/// What every row needs to ignite, over all that the wider prior allows; none, and a failure, where that is
-/// not known.
+/// What every row needs to ignite, over all that the wider prior allows; none where that is not known.
 std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::FiringPrior& widest) {
   std::vector<std::optional<surface::IgnitionBoundary>> boundaries(result.rows.size());
   tbb::parallel_for(std::size_t{0}, result.rows.size(), [&](std::size_t i) {
@@ -99,27 +94,16 @@ std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::F
   return launches;
 }
 
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-template <class Number>
-std::vector<double> numbers_of(const Posterior& posterior, Number number) {
-  std::vector<double> numbers;
-  for (const PosteriorPoint& each : posterior) numbers.push_back(number(each));
-  return numbers;
-}
+double mean_of(const std::vector<double>& values) { return math::moments_of(values).mean; }
 
 double geometric_mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double each : values) sum += std::log(each);
-  return std::exp(sum / static_cast<double>(values.size()));
+  return std::exp(mean_of(of_each(values, [](double value) { return std::log(value); })));
 }
 
 std::vector<ConstantRange> ranges_of(const Posterior& prior, const Posterior& posterior,
                                      const Posterior& coarser) {
   const auto range_of = [&](const char* name, auto number) {
-    const auto before = numbers_of(prior, number), after = numbers_of(posterior, number);
+    const auto before = of_each(prior, number), after = of_each(posterior, number);
     const double centre = geometric_mean(after);
     return ConstantRange{name,
                          study::quantile_of(before, 0.05),
@@ -128,7 +112,7 @@ std::vector<ConstantRange> ranges_of(const Posterior& prior, const Posterior& po
                          study::quantile_of(after, 0.05),
                          centre,
                          study::quantile_of(after, 0.95),
-                         geometric_mean(numbers_of(coarser, number)) / centre - 1.0};
+                         geometric_mean(of_each(coarser, number)) / centre - 1.0};
   };
   return {
       range_of("friction.localisation",
@@ -162,11 +146,8 @@ std::vector<NextFiring> next_firings(const FiringResult& result, const Posterior
       const auto boundary = study::boundary_for(posterior, model, condition.mechanics.trace, gap);
       if (!boundary) continue;
       const auto probabilities = study::ignition_probabilities(posterior, *boundary, row.log_heat_spread);
-      std::vector<double> entropies;
-      for (const double p : probabilities) entropies.push_back(entropy(p));
-      const double mean = mean_of(probabilities);
-      next.push_back(
-          {row.firing.pressure, row.firing.temperature, gap, mean, entropy(mean) - mean_of(entropies)});
+      const double mean = mean_of(probabilities), open = mean_of(of_each(probabilities, entropy));
+      next.push_back({row.firing.pressure, row.firing.temperature, gap, mean, entropy(mean) - open});
     }
   }
   std::ranges::stable_sort(next, std::ranges::greater{}, &NextFiring::information);
@@ -207,13 +188,11 @@ study::CalibrationEvidence evidence_of(const FiringResult& result, const scene::
 }
 
 void calibrate_on_firings(FiringResult& result) {
-  const auto failed = std::ranges::find_if(result.conditions,
-                                           [](const CalibrationRun& each) { return !each.failure.empty(); });
-  if (failed != result.conditions.end()) {
-    result.failure = failed->input.label + ": " + failed->failure;
-    return;
-  }
-  const FiringSettings& settings = settings_of<CalibrationSettings>(result.study.study).firings;
+  for (const CalibrationRun& each : result.conditions)
+    if (result.failure.empty() && !each.failure.empty())
+      result.failure = each.input.label + ": " + each.failure;
+  if (!result.failure.empty()) return;
+  const FiringSettings& settings = settings_of<CalibrationSettings>(result.study).firings;
   study::FiringPrior prior =
       settings.prior_about(surface::constants_of(surface::skin_model(result.study.scene.scene)));
   prior.least_ignition_temperature =
@@ -252,11 +231,124 @@ void calibrate_on_firings(FiringResult& result) {
                       std::make_shared<const study::FiringEvidence>(std::move(firings))}};
 }
 
+// --- tables, page and files ---
+
+const Column initial_temperature{"initial_temperature", "T before", keys::significant(4, keys::kelvin),
+                                 "Temperature of charge and air before."};
+
+Column probability(const char* name, const char* heading, const char* meaning) {
+  return {name, heading, keys::significant(3, keys::percent), meaning};
+}
+
+const Quantities<Firing> firing_quantities{
+    {"name", "firing", keys::text(), "What the rounds are called.", &Firing::name},
+    {"rounds", "rounds", keys::count(), "How many there were.", &Firing::rounds},
+    {quantity::peak_pressure, &Firing::pressure},
+    {initial_temperature, &Firing::temperature},
+    {quantity::gap, &Firing::gap},
+    {"gap_most", "gap at most", keys::significant(6, keys::centimetre), "The largest that it can have been.",
+     &Firing::most_gap},
+    {"ignited", "ignited", keys::text(), "Whether the rounds ignited.", &Firing::ignited}};
+
+const auto row_quantities = keys::joined<FiringRow>(
+    {of_part<FiringRow>(firing_quantities, &FiringRow::firing),
+     {{probability("shown_lowest", "more than",
+                   "With 95 % the probability of a round is more, by the rounds of this kind alone."),
+       &FiringRow::shown, &math::Interval::lower},
+      {probability("shown_highest", "less than", "With 95 % it is less, by these rounds alone."),
+       &FiringRow::shown, &math::Interval::upper},
+      {probability("ignition_probability", "computed",
+                   "Probability that a round ignites, after all firings."),
+       &FiringRow::predicted, &math::Estimate::value},
+      {probability("ignition_probability_lowest", "from", "With 95 % it is more than this."),
+       &FiringRow::predicted, &math::Estimate::lower},
+      {probability("ignition_probability_highest", "to", "With 95 % it is less than this."),
+       &FiringRow::predicted, &math::Estimate::upper}}});
+
+Column bound(const char* name, const char* heading, const char* meaning) {
+  return {name, heading, keys::significant(4), meaning};
+}
+
+const Quantities<ConstantRange> range_quantities{
+    {"key", "constant", keys::text(), "Key of the scene, SI; or the scatter between rounds.",
+     &ConstantRange::name},
+    {bound("prior_lowest", "before: 5 %", "5 % of the prior lie below."), &ConstantRange::prior_lowest},
+    {bound("prior_centre", "mean", "Geometric mean of the prior."), &ConstantRange::prior_centre},
+    {bound("prior_highest", "95 %", "95 % of the prior lie below."), &ConstantRange::prior_highest},
+    {bound("lowest", "after: 5 %", "5 % of the posterior lie below."), &ConstantRange::lowest},
+    {bound("centre", "mean", "Geometric mean of the posterior, which the record has as the constant."),
+     &ConstantRange::centre},
+    {bound("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::highest},
+    {"change_of_coarser", "coarser lattice", keys::significant(2, keys::percent),
+     "By how much the mean is higher on a lattice of half as many values a constant.",
+     &ConstantRange::change_of_coarser}};
+
+const Quantities<NextFiring> next_quantities{
+    {quantity::peak_pressure, &NextFiring::pressure},
+    {initial_temperature, &NextFiring::temperature},
+    {quantity::gap, &NextFiring::gap},
+    {probability("ignition_probability", "ignites", "Probability that the round ignites, after all firings."),
+     &NextFiring::ignition},
+    {"information", "tells [bit]", keys::significant(2),
+     "What its outcome tells of the constants, on average.", &NextFiring::information}};
+
+Row facts_of(const FiringResult& result) {
+  Row facts{{"failure", result.failure},
+            {"contradicting", result.contradicting},
+            {"quiet", 0},
+            {"ignited", 0},
+            {"demonstration", result.record && result.record->calibration.firings->demonstration},
+            {"rows", Row::array()}};
+  for (const FiringRow& row : result.rows) {
+    Row& rounds = facts[row.firing.ignited ? "ignited" : "quiet"];
+    rounds = rounds.get<int>() + row.firing.rounds;
+    Row& facts_of_row = facts["rows"].emplace_back(report::json_of(row_quantities, row));
+    facts_of_row["ignited_rounds"] = row.ignited;
+    facts_of_row["counted_rounds"] = row.rounds;
+  }
+  if (!result.next.empty()) facts["next"] = report::json_of(next_quantities, result.next.front());
+  if (result.record) facts["largest"] = report::centimetres(result.record->calibration.evidence.largest_gap);
+  return facts;
+}
+
+std::vector<report::ReportTable> tables_of(const FiringResult& result) {
+  const Row facts = facts_of(result);
+  const auto table = [&](const char* title, const auto& quantities, const auto& rows, const char* notes) {
+    return report::table_of(title, quantities, rows, said(notes, facts));
+  };
+  return {{table("Firings, and the probability that such a round ignites", row_quantities, result.rows,
+                 "calibration.note.firings"),
+           "firings.csv", "firings"},
+          {table("The constants before and after the firings", range_quantities, result.constants,
+                 "calibration.note.posterior"),
+           "", "posterior"},
+          {table("What one more round would tell", next_quantities, result.next, "calibration.note.next"), "",
+           "next_firings"}};
+}
+
 }  // namespace
 
 FiringResult run_firings(const study::StudyFile& study, const StudyOptions& options) {
   return study::run_timed<FiringResult>(
       study, options, [&](FiringResult& result) { run_conditions(result, options); }, calibrate_on_firings);
 }
+
+std::string answer(const FiringResult& result) {
+  return said("calibration.firings.answer", facts_of(result)).front();
+}
+
+report::Report report_of(const FiringResult& result) {
+  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+  if (result.record) report.files.push_back({"calibration.json", study::to_json_text(*result.record)});
+  for (report::ReportTable& table : tables_of(result)) report.add(std::move(table));
+  report.say("## Setup\n\n" + report::setup_text(result.study));
+  report.add({run_table(result.conditions), "", "runs", report::Shown::page});
+  report.say(report::timing_sentence(result.timing));
+  report.json = study_json(result.study, report,
+                           {{"failure", result.failure}, {"timing", report::timing_json(result.timing)}});
+  return report;
+}
+
+std::vector<report::ReportTable> firing_results() { return tables_of({}); }
 
 }  // namespace launchsafe::kinds

@@ -1,11 +1,5 @@
 // The table of kinds, and what several kinds share.
 #include "answer_tables.hpp"
-#include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/kinds/stability.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -25,8 +19,7 @@ const std::vector<Kind>& kinds() {
 }
 
 const Kind& kind_named(std::string_view name) {
-  const auto found =
-      std::ranges::find_if(kinds(), [name](const Kind& kind) { return kind.traits.name == name; });
+  const auto found = std::ranges::find(kinds(), name, [](const Kind& kind) { return kind.traits.name; });
   assert(found != kinds().end());
   return *found;
 }
@@ -46,19 +39,8 @@ bool may_write(const Kind& kind, std::string_view name) {
                              [name](const report::ReportTable& table) { return table.csv == name; });
 }
 
-SweepCounts counts_of(const std::vector<CaseAnswer>& answers) {
-  SweepCounts counts;
-  counts.cases = answers.size();
-  for (const CaseAnswer& answer : answers) {
-    if (!answer.completed()) ++counts.failed;
-    if (report::acted(answer.run.limiters)) ++counts.limited;
-    counts.limiters.crack_at_bound += answer.run.limiters.crack_at_bound;
-    counts.limiters.tension_cutoff += answer.run.limiters.tension_cutoff;
-    counts.limiters.hugoniot_guard += answer.run.limiters.hugoniot_guard;
-    ++counts.critical_gaps.at(answer.critical.kind);
-    for (const study::GapVerdict& row : answer.verdicts) ++counts.verdicts.at(row.judgement.verdict);
-  }
-  return counts;
+std::size_t count_failed(const std::vector<CaseAnswer>& answers) {
+  return answers.size() - static_cast<std::size_t>(std::ranges::count_if(answers, &CaseAnswer::completed));
 }
 
 std::string status_of(const CaseAnswer& answer) {
@@ -74,22 +56,28 @@ std::string name_of(const std::vector<report::ShownKey>& keys, const study::Stud
 std::string failures_list(const std::vector<report::ShownKey>& keys, const StudyFile& study,
                           const std::vector<CaseAnswer>& answers) {
   constexpr std::size_t named = 3;
-  std::size_t failed = 0;
-  std::string list;
-  for (std::size_t i = 0; i < std::min(answers.size(), study.cases.size()); ++i) {
-    if (answers[i].completed()) continue;
-    if (++failed > named) continue;
-    list +=
-        fmt::format("{}{} ({})", list.empty() ? "" : "; ", name_of(keys, study.cases[i]), answers[i].failure);
-  }
-  if (failed > named) list += fmt::format("; and {} more", failed - named);
-  return list;
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < answers.size() && list.size() < named; ++i)
+    if (!answers[i].completed())
+      list.push_back(fmt::format("{} ({})", name_of(keys, study.cases[i]), answers[i].failure));
+  if (const std::size_t failed = count_failed(answers); failed > named)
+    list.push_back(fmt::format("and {} more", failed - named));
+  return fmt::format("{}", fmt::join(list, "; "));
 }
 
-std::string limited_text(const SweepCounts& counts, const std::string& noun) {
-  if (counts.limited == 0) return {};
+std::string limited_text(const std::vector<CaseAnswer>& answers, const std::string& noun) {
+  std::int64_t limited = 0;
+  run::LimiterCounts all;
+  for (const CaseAnswer& answer : answers) {
+    const run::LimiterCounts& own = answer.run.limiters;
+    limited += report::acted(own) ? 1 : 0;
+    all.crack_at_bound += own.crack_at_bound;
+    all.tension_cutoff += own.tension_cutoff;
+    all.hugoniot_guard += own.hugoniot_guard;
+  }
+  if (limited == 0) return {};
   return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",
-                     report::counted(counts.limited, noun), report::limiters_text(counts.limiters));
+                     report::counted(limited, noun), report::limiters_text(all));
 }
 
 std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {
@@ -99,9 +87,9 @@ std::string answer_of(std::vector<std::string> lines, const StudyFile& study) {
 }
 
 std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers) {
-  std::vector<AnsweredCase> cases;
-  for (std::size_t i = 0; i < answers.size(); ++i) cases.push_back({&study, i, &answers[i]});
-  return cases;
+  return of_each(answers, [&](const CaseAnswer& answer) {
+    return AnsweredCase{&study, static_cast<std::size_t>(&answer - answers.data()), &answer};
+  });
 }
 
 report::Quantities<AnsweredCase> answered_axes(const study::Study& study) {

@@ -16,57 +16,44 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault, study::StudyFile;
+using study::StudyFile;
 
 namespace {
 
 using scene::Dimension, scene::InputError, scene::Place;
 
-/// One override of a table.
-Fault add_override(const study::Leaf& leaf, const std::string& table_name, StudyFile& study,
-                   std::vector<study::Change>& changes) {
-  const Place place = scene::place_of(*leaf.node, study.file);
-  const auto key = scene::describe_key(study.scene, leaf.name, place);
-  if (!key) return scene::within(table_name, key.error());
-  const auto value = scene::read_value(*leaf.node, *key, study.file);
-  if (!value) return scene::within(table_name, value.error());
-  if (auto note = scene::note_on_former_word(*leaf.node, *key, place))
-    study.scene.notes.push_back(std::move(*note));
-  study.overrides[leaf.name] = scene::format_value(*key, *value);
-  changes.push_back({leaf.name, *value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
-  return std::nullopt;
-}
-
-Fault apply_overrides(const OverrideTable& overrides, StudyFile& study) {
-  if (!overrides.node) return std::nullopt;
-  if (!overrides.node->is_table()) {
-    return scene::error_at(scene::place_of(*overrides.node, study.file), overrides.name,
-                           scene::found_text(*overrides.node),
-                           fmt::format("a table, written [{}], of scene keys", overrides.name));
-  }
+/// Changes the study's scene by a table of scene keys.
+void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
+  const auto& [table_name, node] = overrides;
+  if (!node) return;
+  if (!node->is_table())
+    refuse_if(scene::error_at(scene::place_of(*node, study.file), table_name, scene::found_text(*node),
+                              fmt::format("a table, written [{}], of scene keys", table_name)));
   std::vector<study::Change> changes;
-  for (const study::Leaf& leaf : study::leaves_as_written(*overrides.node->as_table()))
-    if (Fault fault = add_override(leaf, overrides.name, study, changes)) return fault;
+  for (const study::Leaf& leaf : study::leaves_as_written(*node->as_table())) {
+    const Place place = scene::place_of(*leaf.node, study.file);
+    const auto key = taken(scene::describe_key(study.scene, leaf.name, place), table_name);
+    const auto value = taken(scene::read_value(*leaf.node, key, study.file), table_name);
+    if (auto note = scene::note_on_former_word(*leaf.node, key, place))
+      study.scene.notes.push_back(std::move(*note));
+    study.overrides[leaf.name] = scene::format_value(key, value);
+    changes.push_back({leaf.name, value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
+  }
   const bool may_close = study.study.kind.closing_gaps != study::ClosingGaps::refused;
-  auto changed = with_changes(study.scene, changes, may_close);
-  if (!changed) return changed.error();
-  study.scene = std::move(*changed);
-  return std::nullopt;
+  study.scene = taken(with_changes(study.scene, changes, may_close));
 }
 
-Fault check_scene(const StudyFile& study) {
+void check_scene(const StudyFile& study) {
   const scene::Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
-    return fault_at(study, "scene", "a scene without a charge", "a scene with a charge");
+    refuse_at(study, "scene", "a scene without a charge", "a scene with a charge");
   if (scene.surface.model == scene::GapModel::closing &&
       study.study.kind.closing_gaps == study::ClosingGaps::refused)
-    return fault_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
-  if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load)) {
-    return fault_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
-                    "a time within the load's duration, " +
-                        scene::format_quantity(scene::end_time(scene.load), Dimension::time));
-  }
-  return std::nullopt;
+    refuse_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
+  if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load))
+    refuse_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
+              "a time within the load's duration, " +
+                  scene::format_quantity(scene::end_time(scene.load), Dimension::time));
 }
 
 /// Whether a kind has a key or a table of that name for itself.
@@ -77,9 +64,8 @@ bool has(const Kind& kind, const std::string& name) {
 
 std::vector<std::string> kinds_with(const std::string& name) {
   std::vector<std::string> names;
-  for (const Kind& kind : kinds()) {
+  for (const Kind& kind : kinds())
     if (has(kind, name)) names.push_back(kind.traits.name);
-  }
   return names;
 }
 
@@ -101,23 +87,22 @@ constexpr FormerKey former_keys[] = {
     {"variant", "one [[vary]], and [[vary.variants]] for each variant", "comparison"},
 };
 
-Fault check_former(const toml::table& root, const std::string& file) {
+void check_former(const toml::table& root, const std::string& file) {
   const toml::node* kind = root.get("kind");
   const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
   if (name == "sweep")
-    return scene::error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
-                           "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
-                           "kind = \"critical-gap\"");
+    refuse_if(scene::error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
+                              "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
+                              "kind = \"critical-gap\""));
   for (const FormerKey& former : former_keys)
     if (const toml::node* node = root.get(former.name);
         node != nullptr && (former.kind.empty() || former.kind == name))
-      return scene::error_at(scene::place_of(*node, file), former.name, "a key of an earlier version",
-                             former.now);
-  return std::nullopt;
+      refuse_if(scene::error_at(scene::place_of(*node, file), former.name, "a key of an earlier version",
+                                former.now));
 }
 
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
-scene::Expected<const Kind*> read_kind(const toml::table& root, const std::string& file) {
+const Kind& read_kind(const toml::table& root, const std::string& file) {
   const toml::node* node = root.get("kind");
   if (!node) {
     StudyKeys keys = common_keys();
@@ -129,11 +114,10 @@ scene::Expected<const Kind*> read_kind(const toml::table& root, const std::strin
       for (const StudyTable& table : kind.tables)
         if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
     }
-    return scene::read_described(root, scene::descriptions_of(keys), tables, file).error();
+    throw Refusal{scene::read_described(root, scene::descriptions_of(keys), tables, file).error()};
   }
-  const auto value = scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file);
-  if (!value) return value.error();
-  return &kind_named(std::get<std::string>(*value));
+  return kind_named(
+      std::get<std::string>(taken(scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file))));
 }
 
 /// The keys of the file, and the tables that are read apart from the keys.
@@ -153,49 +137,41 @@ std::vector<study::Leaf> names_in(const toml::table& root) {
 }
 
 /// The first key or table of another kind, which would silently do nothing.
-Fault check_kind(const toml::table& root, const Kind& kind, const std::string& file) {
-  const study::Leaf* first = nullptr;
-  const std::vector<study::Leaf> names = names_in(root);
-  for (const study::Leaf& each : names) {
-    if (kinds_with(each.name).empty() || has(kind, each.name)) continue;
-    if (!first || each.node->source().begin.line < first->node->source().begin.line) first = &each;
-  }
-  if (!first) return std::nullopt;
-  return scene::error_at(scene::place_of(*first->node, file), first->name,
-                         "a key of kind " + scene::quoted_list(kinds_with(first->name)),
-                         "keys of kind \"" + kind.traits.name + '"');
+void check_kind(const toml::table& root, const Kind& kind, const std::string& file) {
+  std::vector<study::Leaf> others = names_in(root);
+  std::erase_if(others,
+                [&](const auto& each) { return kinds_with(each.name).empty() || has(kind, each.name); });
+  if (others.empty()) return;
+  const study::Leaf first =
+      std::ranges::min(others, {}, [](const study::Leaf& each) { return each.node->source().begin.line; });
+  refuse_if(scene::error_at(scene::place_of(*first.node, file), first.name,
+                            "a key of kind " + scene::quoted_list(kinds_with(first.name)),
+                            "keys of kind \"" + kind.traits.name + '"'));
 }
 
-/// The keys of the study file, with their places.
-Fault read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
+void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   std::vector<std::string> tables = common_tables();
   for (const StudyTable& table : kind.tables) tables.push_back(table.name);
-  auto read = scene::read_table(root, keys, tables, study.file, study.study);
-  if (!read) return read.error();
-  study.places = std::move(*read);
-  if (Fault fault = check_stated_uncertainties(keys, study)) return fault;
-  for (const std::string& name : tables) {
+  study.places = taken(scene::read_table(root, keys, tables, study.file, study.study));
+  check_stated_uncertainties(keys, study);
+  for (const std::string& name : tables)
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
-  }
-  return check_twice(study, "gaps", Dimension::length, study.study.gaps);
+  refuse_if(check_twice(study, "gaps", Dimension::length, study.study.gaps));
 }
 
 /// What varies, and the cases that follow.
-Fault settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
-  if (kind.read != nullptr)
-    if (Fault fault = kind.read(source, study)) return fault;
-  if (kind.varies.values || kind.varies.distributions)
-    if (Fault fault = read_vary(source, kind.varies, study)) return fault;
-  if (Fault fault = check_load_axes(study)) return fault;
-  if (Fault fault = settle_acceptances(source.root, keys, study)) return fault;
-  if (Fault fault = settle_gaps(study)) return fault;
-  if (Fault fault = kind.make_cases(source, study)) return fault;
+void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
+  if (kind.read != nullptr) kind.read(source, study);
+  if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
+  refuse_if(check_load_axes(study));
+  settle_acceptances(source.root, keys, study);
+  refuse_if(settle_gaps(study));
+  kind.make_cases(source, study);
   // Labels have six digits; cases that they do not tell apart are numbered.
   std::unordered_map<std::string, int> seen;
   for (std::size_t i = 0; i < study.cases.size(); ++i)
     if (const int before = seen[study.cases.label(i)]++; before > 0)
       study.cases.relabel(i, fmt::format("{} ({})", study.cases.label(i), before + 1));
-  return std::nullopt;
 }
 
 /// People do not number the tables of a study: "vary.0.range" is vary.range to them.
@@ -207,75 +183,64 @@ InputError unnumbered(InputError error, const std::string& file) {
 
 }  // namespace
 
-scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
-                                                   const std::filesystem::path& folder,
-                                                   const std::string& key, const Place& place) {
+scene::SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
+                                  const std::string& key, const Place& place) {
   const std::filesystem::path path = folder / name;
   std::error_code status;
-  if (std::filesystem::exists(path, status)) return scene::read_scene(path);
+  if (std::filesystem::exists(path, status)) return taken(scene::read_scene(path));
   const auto missing = scene::read_text_file(path);
-  return scene::error_at(place, key, fmt::format("\"{}\", which does not exist", name),
-                         "a scene file, by its path from the study file's folder",
-                         missing ? std::string{} : missing.error().suggestion);
+  throw Refusal{scene::error_at(place, key, fmt::format("\"{}\", which does not exist", name),
+                                "a scene file, by its path from the study file's folder",
+                                missing ? std::string{} : missing.error().suggestion)};
 }
 
-Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides, StudyFile& study,
-                   study::AccuracyRecords& records) {
-  auto scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
-  if (!scene) return scene.error();
-  study.scene = std::move(*scene);
-  for (const OverrideTable& each : overrides) {
-    if (Fault fault = apply_overrides(each, study)) return fault;
-  }
-  if (Fault fault = use_calibration(study, source.folder)) return fault;
-  if (Fault fault = scene::check_expected_velocity(study.scene)) return fault;
-  if (Fault fault = read_model_form(study, source.folder)) return fault;
-  auto read = read_records(study, source.folder);
-  if (!read) return read.error();
-  records = std::move(*read);
+study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
+                                    StudyFile& study) {
+  study.scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
+  for (const OverrideTable& each : overrides) apply_overrides(each, study);
+  refuse_if(use_calibration(study, source.folder));
+  refuse_if(scene::check_expected_velocity(study.scene));
+  refuse_if(read_model_form(study, source.folder));
+  study::AccuracyRecords records = taken(read_records(study, source.folder));
   const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
-  if (std::isfinite(wanted)) {
-    if (Fault fault = choose_setting(study, records, wanted)) return fault;
-  }
-  return check_scene(study);
+  if (std::isfinite(wanted)) refuse_if(choose_setting(study, records, wanted));
+  check_scene(study);
+  return records;
 }
 
-Fault settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
+void settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
   std::vector<scene::KeyDescription> known = scene::acceptable_keys(study.scene.scene);
   known.insert(known.end(), keys.begin(), keys.end());
-  auto accepted = scene::read_acceptances(root, known, study.file);
-  if (!accepted) return accepted.error();
+  auto accepted = taken(scene::read_acceptances(root, known, study.file));
   for (const auto& key : keys) {
     const scene::Value value = key.get(study.study);
     if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
     study.study.implausible.push_back(
-        scene::implausible(*accepted, key, key.name, value, scene::plausible_text(key)));
+        scene::implausible(accepted, key, key.name, value, scene::plausible_text(key)));
   }
-  for (scene::Acceptance& each : *accepted)
+  for (scene::Acceptance& each : accepted)
     if (!scene::find_key(keys, each.key)) scene::accept(study.scene.scene.accepted, std::move(each));
-  return std::nullopt;
 }
 
 scene::Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
-                                            std::size_t most_cases) {
+                                            std::size_t most_cases) try {
   StudyFile study;
   study.file = file;
   study.most_cases = most_cases;
-  if (Fault fault = scene::check_content(source.root, study.file, scene::InputContent::study)) return *fault;
-  if (Fault fault = check_former(source.root, study.file)) return *fault;
-  const auto kind = read_kind(source.root, study.file);
-  if (!kind) return kind.error();
-  const StudyKeys keys = joined({common_keys(), (*kind)->keys});
-  if (Fault fault = check_bare_uncertainties(source.root, keys, study.file)) return *fault;
-  if (Fault fault = check_kind(source.root, **kind, study.file)) return *fault;
-  if (Fault fault = read_keys(source.root, **kind, keys, study)) return *fault;
-  study::AccuracyRecords records;
-  if (Fault fault = settle_scene(source, {{"set", source.root.get("set")}}, study, records))
-    return unnumbered(*fault, study.file);
-  if (Fault fault = settle_cases(source, **kind, keys, study)) return unnumbered(*fault, study.file);
+  refuse_if(scene::check_content(source.root, file, scene::InputContent::study));
+  check_former(source.root, file);
+  const Kind& kind = read_kind(source.root, file);
+  const StudyKeys keys = joined({common_keys(), kind.keys});
+  check_bare_uncertainties(source.root, keys, file);
+  check_kind(source.root, kind, file);
+  read_keys(source.root, kind, keys, study);
+  const study::AccuracyRecords records = settle_scene(source, {{"set", source.root.get("set")}}, study);
+  settle_cases(source, kind, keys, study);
   if (!study.study.kind.own_scenes) settle_uncertainty(study, records);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
+} catch (const Refusal& refusal) {
+  return unnumbered(refusal.error, file);
 }
 
 scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
@@ -302,14 +267,11 @@ std::vector<scene::DocumentedKey> describe_study_keys() {
     documented.push_back(std::move(key));
   };
   for (const auto& key : common_keys()) add({key, default_text(key, key.default_value())}, {});
-  for (const Kind& kind : kinds()) {
+  for (const Kind& kind : kinds())
     for (const auto& key : kind.keys) add({key, default_text(key, key.default_value())}, key.name);
-  }
-  for (const Kind& kind : kinds()) {
-    for (const StudyTable& table : kind.tables) {
+  for (const Kind& kind : kinds())
+    for (const StudyTable& table : kind.tables)
       for (const scene::DocumentedKey& key : table.keys) add(key, table.name);
-    }
-  }
   for (scene::DocumentedKey& key : study_table_of("accept", scene::acceptance_keys()).keys)
     add(std::move(key), {});
   return documented;

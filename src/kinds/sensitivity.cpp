@@ -9,7 +9,7 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault, study::Study, study::StudyFile;
+using study::Study, study::StudyFile;
 
 namespace {
 
@@ -62,23 +62,21 @@ const std::vector<scene::Key<SensitivitySettings>> sensitivity_keys{
 };
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
-Fault check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
+void check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const study::Axis& axis = study.study.axes[i];
     const scene::KeyDescription& key = axis.key;
     if (key.limits.contain(coordinates[i])) continue;
     const std::string value = scene::format_quantity(coordinates[i], key.dimension);
     if (axis.distribution->kind == math::Distribution::Kind::log_normal)
-      return fault_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
-                      "the record of a calibration that knows it better: " + scene::allowed_text(key));
-    return fault_at(study, axis.values_key, fmt::format("a sample of {}", value),
-                    "a range that cuts the normal off: " + scene::allowed_text(key));
+      refuse_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
+                "the record of a calibration that knows it better: " + scene::allowed_text(key));
+    refuse_at(study, axis.values_key, fmt::format("a sample of {}", value),
+              "a range that cuts the normal off: " + scene::allowed_text(key));
   }
-  return std::nullopt;
 }
 
-/// A case for every point of the design.
-Fault add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
+void add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
   const study::UncertainInputs drawn = uncertain_inputs(study.study);
   const std::vector<double> points = design_points(study.study);
   const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
@@ -86,20 +84,20 @@ Fault add_evaluations(StudyFile& study, const std::function<std::string(std::siz
     return drawn.values_at(math::point_of_row(points, evaluation, axes));
   };
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
-    if (Fault fault = check_limits(study, coordinates(evaluation))) return fault;
-  return add_varied_cases(study, count, coordinates,
-                          [&](std::size_t evaluation, const study::StudyCase&) { return label(evaluation); });
+    check_limits(study, coordinates(evaluation));
+  refuse_if(add_varied_cases(study, count, coordinates, [&](std::size_t evaluation, const study::StudyCase&) {
+    return label(evaluation);
+  }));
 }
 
-Fault make_saltelli(StudyFile& study) {
+void make_saltelli(StudyFile& study) {
   const Study& s = study.study;
   const std::vector<SensitivityInput> each_input = inputs_of(s);
   const int rows = settings_of<SensitivitySettings>(s).samples;
   const std::size_t blocks = each_input.size() + 2;
-  if (Fault fault = check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
-                                fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())))
-    return fault;
-  return add_evaluations(study, [&](std::size_t evaluation) {
+  refuse_if(check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
+                        fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())));
+  add_evaluations(study, [&](std::size_t evaluation) {
     const std::size_t block = evaluation % blocks;
     const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
     const SensitivityInput input = mixed ? each_input[block - 2] : SensitivityInput{};
@@ -112,15 +110,14 @@ Fault make_saltelli(StudyFile& study) {
 }
 
 /// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
-Fault check_fit_of_draws(const StudyFile& study) {
+void check_fit_of_draws(const StudyFile& study) {
   constexpr int fewest_held_out = 30, most_fitted = 2000;
-  const auto& own = settings_of<SensitivitySettings>(study.study);
+  const auto& own = settings_of<SensitivitySettings>(study);
   const int fewest =
       std::max(fewest_held_out, static_cast<int>(math::fewest_chaos_points(study.study.axes.size())));
-  if (!own.surrogate || (own.samples >= fewest && own.samples <= most_fitted)) return std::nullopt;
-  return fault_at(study, "surrogate",
-                  fmt::format("{} samples to be fitted, and as many held out", own.samples),
-                  fmt::format("{} to {} samples", fewest, most_fitted));
+  if (own.surrogate && (own.samples < fewest || own.samples > most_fitted))
+    refuse_at(study, "surrogate", fmt::format("{} samples to be fitted, and as many held out", own.samples),
+              fmt::format("{} to {} samples", fewest, most_fitted));
 }
 
 bool is_closing(const StudyFile& study) {
@@ -128,68 +125,61 @@ bool is_closing(const StudyFile& study) {
 }
 
 /// Errors are asked of a fit, and leave it room for more samples.
-Fault check_asked_errors(const StudyFile& study) {
-  const auto& own = settings_of<SensitivitySettings>(study.study);
-  const bool is_fit = is_by_fit(study.study);
+void check_asked_errors(const StudyFile& study) {
+  const auto& own = settings_of<SensitivitySettings>(study);
   for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
-    if (study.places.contains(key) && !is_fit)
-      return fault_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
+    if (study.places.contains(key) && !is_by_fit(study.study))
+      refuse_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
   const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
   if (is_closing(study) && !std::isnan(own.critical_gap_error))
-    return fault_at(study, "error_of_critical_gap", "a gap that closes, each of which is a launch of its own",
-                    "error_of_temperature");
+    refuse_at(study, "error_of_critical_gap", "a gap that closes, each of which is a launch of its own",
+              "error_of_temperature");
   if (asks && own.most_samples < own.samples)
-    return fault_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
-                    fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
-                    "most_samples of at least samples");
+    refuse_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
+              fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
+              "most_samples of at least samples");
   if (!asks && study.places.contains("most_samples"))
-    return fault_at(study, "most_samples", "no error that is asked",
-                    "error_of_temperature or error_of_critical_gap beside it");
-  return std::nullopt;
+    refuse_at(study, "most_samples", "no error that is asked",
+              "error_of_temperature or error_of_critical_gap beside it");
 }
 
 /// The samples that a fit begins with, and those that it is held against.
-Fault make_chaos_samples(StudyFile& study) {
-  const Study& s = study.study;
-  const auto& own = settings_of<SensitivitySettings>(s);
+void make_chaos_samples(StudyFile& study) {
+  const auto& own = settings_of<SensitivitySettings>(study);
   const auto fitted = static_cast<std::size_t>(own.samples),
              all = fitted + static_cast<std::size_t>(own.held_out);
-  if (Fault fault = check_count(study, "samples", static_cast<double>(all),
-                                fmt::format("{} samples and {} held out", own.samples, own.held_out)))
-    return fault;
-  const std::size_t fewest = math::fewest_chaos_points(s.axes.size());
+  refuse_if(check_count(study, "samples", static_cast<double>(all),
+                        fmt::format("{} samples and {} held out", own.samples, own.held_out)));
+  const std::size_t fewest = math::fewest_chaos_points(study.study.axes.size());
   if (fitted < fewest)
-    return fault_at(study, "samples", fmt::format("{} samples for a fit", fitted),
-                    fmt::format("at least {}: two an input, and 8", fewest));
-  return add_evaluations(study, [&](std::size_t evaluation) {
+    refuse_at(study, "samples", fmt::format("{} samples for a fit", fitted),
+              fmt::format("at least {}: two an input, and 8", fewest));
+  add_evaluations(study, [&](std::size_t evaluation) {
     return evaluation < fitted ? fmt::format("sample {}", evaluation + 1)
                                : fmt::format("held out {}", evaluation - fitted + 1);
   });
 }
 
-Fault make_sensitivity_cases(const StudySource&, StudyFile& study) {
+void make_sensitivity_cases(const StudySource&, StudyFile& study) {
   const std::vector<double>& gaps = study.study.gaps;
   if (gaps.size() != 1) {
     const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
-    return fault_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
-                    fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+    refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
+              fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
   }
   // Each draw is launched at that gap where it closes.
-  if (is_closing(study)) {
-    auto own = scene::with_keys(study.scene, {{"gap.thickness", gaps, place_of_key(study, "gaps")}});
-    if (!own) return own.error();
-    study.scene = std::move(*own);
-  }
-  if (Fault fault = check_asked_errors(study)) return fault;
+  if (is_closing(study))
+    study.scene =
+        taken(scene::with_keys(study.scene, {{"gap.thickness", gaps, place_of_key(study, "gaps")}}));
+  check_asked_errors(study);
   if (is_by_fit(study.study)) return make_chaos_samples(study);
-  if (Fault fault = check_fit_of_draws(study)) return fault;
-  return make_saltelli(study);
+  check_fit_of_draws(study);
+  make_saltelli(study);
 }
 
 double number_of(const OutputSensitivity& of, const SensitivityResult& result, std::size_t evaluation) {
   const study::CaseAnswer& answer = result.answers[evaluation];
-  if (of.output == SensitivityOutput::critical_gap)
-    return answer.completed() ? answer.critical.value : study::not_a_number;
+  if (of.output == SensitivityOutput::critical_gap) return critical_gap_number(answer);
   const double temperature = temperature_of(answer, 0, of.inert);
   if (of.output == SensitivityOutput::maximum_temperature) return temperature;
   const study::StudyCase input = result.study.cases[evaluation];
@@ -198,9 +188,8 @@ double number_of(const OutputSensitivity& of, const SensitivityResult& result, s
 
 void summarise(const Study& study, OutputSensitivity& output) {
   std::vector<double> sample;
-  for (std::size_t i = 0; i < output.values.size(); ++i) {
+  for (std::size_t i = 0; i < output.values.size(); ++i)
     if (samples_inputs(study, i) && std::isfinite(output.values[i])) sample.push_back(output.values[i]);
-  }
   if (sample.size() < 2) return;
   const auto [mean, squares] = math::moments_of(sample);
   output.mean = mean;
@@ -212,22 +201,17 @@ void estimate(const SensitivityResult& result, OutputSensitivity& output) {
   const auto& own = settings_of<SensitivitySettings>(study);
   if (is_by_fit(study)) return estimate_by_chaos(result, output);
   if (own.surrogate) output.fit = fit_of(result, output);
-  math::SobolOptions options;
-  options.level = own.confidence;
-  options.resamples = static_cast<std::size_t>(own.resamples);
-  options.seed = own.seed;
-  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values, options);
+  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values, own.bootstrap());
   output.reason = output.sobol.reason;
 }
 
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
   OutputSensitivity output = values_of(result, which);
   summarise(result.study.study, output);
-  if (output.bounds > 0) {
+  if (output.bounds > 0)
     output.reason = bounds_reason(output.bounds, output.values.size());
-  } else {
+  else
     estimate(result, output);
-  }
   return output;
 }
 
@@ -265,9 +249,8 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
 }
 
 study::UncertainInputs uncertain_inputs(const Study& study) {
-  study::UncertainInputs inputs{.correlated = settings_of<SensitivitySettings>(study).correlated};
-  for (const study::Axis& axis : study.axes) inputs.distributions.push_back(*axis.distribution);
-  return inputs;
+  return {of_each(study.axes, [](const study::Axis& axis) { return *axis.distribution; }),
+          settings_of<SensitivitySettings>(study).correlated};
 }
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {

@@ -1,3 +1,4 @@
+#include "answer_tables.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <fmt/format.h>
@@ -22,18 +23,17 @@ std::vector<std::size_t> known_evaluations(const SensitivityResult& result) {
   return known;
 }
 
-/// The launches of a result, without outputs.
 SurrogateRecord launches_of(const SensitivityResult& result) {
   const Study& study = result.study.study;
   const auto& own = settings_of<SensitivitySettings>(study);
   const int held_out = is_by_fit(study) ? own.held_out : own.samples;
   SurrogateRecord record{.scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
+                         .keys = of_each(study.axes, [](const study::Axis& axis) { return axis.key.name; }),
                          .inputs = uncertain_inputs(study),
                          .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
   scene::clear_remarks(record.scene);
-  for (const study::Axis& axis : study.axes) record.keys.push_back(axis.key.name);
   for (const std::size_t evaluation : known_evaluations(result)) {
     const std::vector<double> point = math::point_of_row(result.points, evaluation, study.axes.size());
     record.points.insert(record.points.end(), point.begin(), point.end());
@@ -42,19 +42,15 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
 }
 
 SurrogateOutput unfitted(const SensitivityResult& result, const OutputSensitivity& output) {
-  SurrogateOutput known{.name = shown_output(output.output).column.name,
-                        .gap = result.study.study.gaps.front(),
-                        .inert = output.inert};
-  for (const std::size_t evaluation : known_evaluations(result))
-    known.values.push_back(output.values[evaluation]);
-  return known;
+  return {
+      .name = shown_output(output.output).column.name,
+      .gap = result.study.study.gaps.front(),
+      .inert = output.inert,
+      .values = of_each(known_evaluations(result), [&](std::size_t each) { return output.values[each]; })};
 }
 
-/// How many axes each input has.
 std::vector<std::size_t> columns_of(const Study& study) {
-  std::vector<std::size_t> columns;
-  for (const SensitivityInput& input : inputs_of(study)) columns.push_back(input.count);
-  return columns;
+  return of_each(inputs_of(study), &SensitivityInput::count);
 }
 
 /// By differences, as of launches, of as many predictions as it takes.
@@ -77,8 +73,7 @@ double asked_error(const Study& study, SensitivityOutput output) {
   return output == SensitivityOutput::critical_gap ? own.critical_gap_error : study::not_a_number;
 }
 
-/// The output whose error is the most times what is asked, with launches that would lessen it; none where all
-/// are reached or nothing is predicted.
+/// Launches that would lessen the error that is most times what is asked; none where all are reached.
 std::vector<double> next_points(const SensitivityResult& result, std::size_t count) {
   const Study& study = result.study.study;
   const SurrogateRecord record = launches_of(result);
@@ -107,17 +102,15 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
                const study::StudyOptions& options) {
   const study::UncertainInputs inputs = uncertain_inputs(result.study.study);
   const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study);
   const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
   study::StudyFile round = result.study;
   round.cases = {};
-  const study::Fault fault = add_varied_cases(
-      round, points.size() / axes,
-      [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
-      [&](std::size_t row, const study::StudyCase&) {
-        return fmt::format("added {}", known - designed + row + 1);
-      });
-  if (fault) return false;
+  if (add_varied_cases(
+          round, points.size() / axes,
+          [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
+          [&](std::size_t row, const auto&) { return fmt::format("added {}", known - designed + row + 1); }))
+    return false;
   study::StudyOptions of_round = options;
   if (options.progress)
     of_round.progress = [&](study::Progress progress) {
@@ -126,10 +119,9 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points,
       options.progress(progress);
     };
   const std::vector<study::CaseAnswer> answers = answer_cases(round, of_round, result.timing);
-  const bool missing = std::ranges::any_of(answers, [](const study::CaseAnswer& answer) {
-    return answer.outcome == study::RunOutcome::not_stored;
-  });
-  if (missing || stop_requested(options)) return false;
+  if (std::ranges::count(answers, study::RunOutcome::not_stored, &study::CaseAnswer::outcome) > 0 ||
+      stop_requested(options))
+    return false;
   for (std::size_t row = 0; row < answers.size(); ++row) {
     result.study.cases.add(round.cases.label(row), round.cases.coordinates(row));
     result.answers.push_back(answers[row]);
@@ -174,15 +166,12 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
   const SurrogateOutput& fit = output.fit.emplace(fit_of(result, output));
   output.reason = fit.reason;
   if (!output.reason.empty()) return;
-  const math::SobolOptions options{
-      .level = own.confidence, .resamples = static_cast<std::size_t>(own.resamples), .seed = own.seed};
-  std::vector<std::size_t> begins;
-  for (const SensitivityInput& input : inputs_of(study)) begins.push_back(input.first);
+  std::vector<std::size_t> begins = of_each(inputs_of(study), &SensitivityInput::first);
   begins.push_back(study.axes.size());
   const math::FiniteRows rows = record.fitted_rows(fit.values);
   output.sobol = fit.fit.by_process()
-                     ? process_indices(study, Surrogate(record, fit), options)
-                     : math::chaos_indices(fit.fit.chaos, rows.points, rows.values, begins, options);
+                     ? process_indices(study, Surrogate(record, fit), own.bootstrap())
+                     : math::chaos_indices(fit.fit.chaos, rows.points, rows.values, begins, own.bootstrap());
   output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)
     for (math::Estimate* estimate : {&each.first, &each.total}) {
@@ -193,12 +182,11 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
 
 void add_launches(SensitivityResult& result, const study::StudyOptions& options) {
   constexpr std::size_t round = 8;
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study);
   if (!options.shard.whole()) return;
   for (;;) {
     const std::size_t fitted = result.answers.size() - static_cast<std::size_t>(own.held_out);
-    const std::size_t left = static_cast<std::size_t>(own.most_samples) -
-                             std::min(fitted, static_cast<std::size_t>(own.most_samples));
+    const auto most = static_cast<std::size_t>(own.most_samples), left = most - std::min(fitted, most);
     if (left == 0 || stop_requested(options)) return;
     const std::vector<double> points = next_points(result, std::min(round, left));
     if (points.empty() || !add_round(result, points, options)) return;

@@ -18,21 +18,8 @@ struct ShownOutput {
 };
 const ShownOutput& shown_output(SensitivityOutput output);
 
-/// An input as people read it.
-struct ShownInput {
-  std::string name;          ///< "peak pressure"
-  std::string distribution;  ///< "uniform from 400 to 600 MPa"
-};
-std::vector<ShownInput> shown_inputs(const study::Study& study);
-
 /// " at a gap of 0.02 cm", for outputs that belong to the study's gap.
 std::string at_gap(const study::Study& study, SensitivityOutput output);
-
-/// "0.52 [0.4, 0.63]".
-std::string estimate_text(const math::Estimate& estimate);
-
-/// Method, design, N, evaluations, seed and confidence in a sentence or two.
-std::string method_text(const SensitivityResult& result);
 
 /// Points of the unit cube of the axes, row by row: those of a Saltelli design, or those that are fitted and
 /// then independent ones that are held out.
@@ -63,11 +50,10 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result);
 /// The same as a sentence, with the lower quantile of the critical gap.
 std::string samples_text(const SensitivityResult& result);
 
-/// A row for every share, with the quantile of critical gap and T max.
+/// The quantiles of critical gap and T max; how many draws every interval of an output has, and how many have
+/// no number; that as steps, without panels where no output has two different numbers.
 report::Table quantile_table(const SensitivityResult& result);
-/// A row for every interval of an output with the number of its draws, and rows for those without a number.
 report::Table histogram_table(const SensitivityResult& result);
-/// The histograms as steps; without panels where no output has two different numbers.
 report::Plot histogram_plot(const SensitivityResult& result);
 
 }  // namespace launchsafe::kinds

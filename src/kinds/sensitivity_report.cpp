@@ -1,4 +1,4 @@
-// The answer, the page and the files of a sensitivity study.
+// The answer, the tables, the pictures, the page and the files of a sensitivity study.
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
@@ -7,15 +7,46 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cctype>
 #include <numeric>
+#include <span>
 
 namespace launchsafe::kinds {
 
-using keys::percent;
-using report::ReportTable, report::Row, report::Shown, report::shown_value, report::significant,
-    report::Statement;
+using keys::count, keys::fixed, keys::percent, keys::significant, keys::text;
+using report::Column, report::Quantities, report::ReportTable, report::Row, report::Series, report::Shown,
+    report::shown_value, report::Table, report::table_of;
 
 namespace {
+
+/// An input as people read it.
+struct ShownInput {
+  std::string name;          ///< "peak pressure"
+  std::string distribution;  ///< "uniform from 400 to 600 MPa"
+};
+
+std::vector<ShownInput> shown_inputs(const study::Study& study) {
+  const auto keys = report::shown_axes(study);
+  std::vector<ShownInput> inputs;
+  for (const SensitivityInput& input : inputs_of(study)) {
+    const auto text = [&](std::size_t axis) {
+      return distribution_text(keys[axis], *study.axes[axis].distribution);
+    };
+    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
+    if (input.count == 1) continue;
+    shown = {"constants of the calibration", "together"};
+    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
+      shown.distribution +=
+          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
+  }
+  return inputs;
+}
+
+/// "0.52 [0.4, 0.63]".
+std::string estimate_text(const math::Estimate& estimate) {
+  return fmt::format("{} [{}, {}]", report::significant(estimate.value, 3),
+                     report::significant(estimate.lower, 3), report::significant(estimate.upper, 3));
+}
 
 std::string text_of(math::Design design) {
   constexpr std::array names{"independent random points", "a Latin hypercube", "a scrambled Sobol sequence"};
@@ -24,14 +55,13 @@ std::string text_of(math::Design design) {
 
 /// Launches besides those of the design of a fit.
 std::size_t added_launches(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study);
   const std::size_t launches = own.method == SensitivityMethod::sobol ? 0 : result.answers.size();
   return launches - std::min(launches, static_cast<std::size_t>(own.samples + own.held_out));
 }
 
-/// How indices are found.
 Row method_facts(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
+  const auto& own = settings_of<SensitivitySettings>(result.study);
   return {{"name", own.method == SensitivityMethod::sobol ? "sobol" : "polynomial-chaos"},
           {"text", ""},
           {"N", own.samples},
@@ -41,13 +71,27 @@ Row method_facts(const SensitivityResult& result) {
           {"confidence", own.confidence}};
 }
 
+/// Method, design, N, evaluations, seed and confidence in a sentence or two.
+std::string method_text(const SensitivityResult& result) {
+  const auto& own = settings_of<SensitivitySettings>(result.study);
+  Row facts = method_facts(result);
+  facts.update({{"is_fit", is_by_fit(result.study.study)},
+                {"held_out", own.held_out},
+                {"added", added_launches(result)},
+                {"design", text_of(own.design)},
+                {"confidence_percent", shown_value(own.confidence, significant(6, percent))},
+                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
+                {"correlated", own.correlated.has_value()}});
+  return said("sensitivity.method", facts).front();
+}
+
 /// Below this share of the variance with all interactions an input does not matter.
 constexpr double negligible_share = 0.05;
 
 using Groups = std::vector<std::vector<std::size_t>>;
 
-/// Inputs by falling total order in groups: all intervals of a group lie above all of the following groups;
-/// within a group the intervals overlap, and its order means nothing.
+/// Inputs by falling total order in groups, whose intervals lie above all of the following groups; within one
+/// they overlap, and its order means nothing.
 Groups ranked(const std::vector<math::InputIndices>& inputs) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   std::vector<std::size_t> order(inputs.size());
@@ -60,28 +104,26 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
   const auto lower = [&](std::size_t i) {
     return std::isfinite(inputs[i].total.lower) ? inputs[i].total.lower : -infinite;
   };
-  std::vector<double> highest_behind(order.size() + 1, -infinite);
-  for (std::size_t k = order.size(); k-- > 0;) {
-    const double upper = inputs[order[k]].total.upper;
-    highest_behind[k] = std::max(highest_behind[k + 1], std::isfinite(upper) ? upper : infinite);
-  }
+  const auto upper = [&](std::size_t i) {
+    return std::isfinite(inputs[i].total.upper) ? inputs[i].total.upper : infinite;
+  };
   Groups groups;
   double lowest_before = infinite;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k == 0 || lowest_before > highest_behind[k]) groups.emplace_back();
+    const double highest_behind = std::ranges::max(of_each(std::span(order).subspan(k), upper));
+    if (k == 0 || lowest_before > highest_behind) groups.emplace_back();
     groups.back().push_back(order[k]);
     lowest_before = std::min(lowest_before, lower(order[k]));
   }
   return groups;
 }
 
-/// What is said of one output: inputs by their influence, what the intervals do not tell apart, and inputs
-/// whose whole interval is small.
+/// Inputs by their influence, what the intervals do not tell apart, and whose whole interval is small.
 std::string output_text(const SensitivityResult& result, const OutputSensitivity& output) {
   const std::vector<ShownInput> inputs = shown_inputs(result.study.study);
   Row facts{{"reason", output.reason},
-            {"rows", settings_of<SensitivitySettings>(result.study.study).samples},
-            {"negligible_percent", shown_value(negligible_share, keys::significant(6, percent))}};
+            {"rows", settings_of<SensitivitySettings>(result.study).samples},
+            {"negligible_percent", shown_value(negligible_share, significant(6, percent))}};
   const Groups groups = output.reason.empty() ? ranked(output.sobol.inputs) : Groups{};
   for (const auto& group : groups) {
     Row names, named;
@@ -103,53 +145,163 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
 
 /// What became of the errors that are asked of the fit.
 std::vector<std::string> asked_text(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
-  std::vector<std::string> lines;
-  for (const AskedError& error : asked_errors(result)) {
+  const auto& own = settings_of<SensitivitySettings>(result.study);
+  const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
+  return of_each(asked_errors(result), [&](const AskedError& error) {
     const ShownOutput& shown = shown_output(error.output);
-    const keys::Form form = keys::significant(3, {shown.column.form.dimension, shown.column.form.unit});
-    const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
+    const keys::Form form = significant(3, {shown.column.form.dimension, shown.column.form.unit});
     Row facts{
         {"output", shown.phrase},     {"asked", report::in_words(error.asked, form)},
         {"reached", error.reached()}, {"fitted", fitted},
         {"most", own.most_samples},   {"used_up", fitted >= static_cast<std::size_t>(own.most_samples)}};
     if (std::isfinite(error.found)) facts["found"] = report::in_words(error.found, form);
-    lines.push_back(said("sensitivity.asked", facts).front());
-  }
-  return lines;
+    return said("sensitivity.asked", facts).front();
+  });
 }
 
 bool has_fit(const SensitivityResult& result) {
-  return is_by_fit(result.study.study) || settings_of<SensitivitySettings>(result.study.study).surrogate;
+  return is_by_fit(result.study.study) || settings_of<SensitivitySettings>(result.study).surrogate;
+}
+
+// --- tables ---
+
+struct IndexRow {
+  const OutputSensitivity* output;
+  ShownInput input;
+  std::size_t place;  ///< among the inputs
+
+  const math::InputIndices* indices() const {
+    return output->reason.empty() ? &output->sobol.inputs[place] : nullptr;
+  }
+};
+
+std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSensitivity& output) {
+  std::vector<IndexRow> rows;
+  for (ShownInput& input : shown_inputs(result.study.study))
+    rows.push_back({&output, std::move(input), rows.size()});
+  return rows;
+}
+
+/// An index with the ends of its interval.
+Quantities<IndexRow> interval_quantities(const std::string& name, const std::string& heading,
+                                         math::Estimate math::InputIndices::*index, const char* meaning) {
+  const auto of = [index](double math::Estimate::*member) {
+    return [=](const IndexRow& row) {
+      return row.indices() != nullptr ? std::optional(row.indices()->*index.*member) : std::nullopt;
+    };
+  };
+  return {{{name, heading, fixed(3), meaning}, of(&math::Estimate::value)},
+          {name + "_lower", "from", fixed(3), "Lower end of its interval.", of(&math::Estimate::lower)},
+          {name + "_upper", "to", fixed(3), "Upper end of its interval.", of(&math::Estimate::upper)}};
+}
+
+Quantities<IndexRow> index_quantities() {
+  const auto of_rows = [](auto count) {
+    return [count](const IndexRow& row) {
+      return row.indices() != nullptr ? std::optional(count(row.output->sobol)) : std::nullopt;
+    };
+  };
+  return keys::joined<IndexRow>(
+      {{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
+        {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
+       interval_quantities("first_order", "first", &math::InputIndices::first,
+                           "Share of the variance by the input alone."),
+       interval_quantities("total_order", "total", &math::InputIndices::total,
+                           "Share of the variance with its interactions."),
+       {{"used", "rows used", count(), "Rows of the design that the indices rest on.",
+         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used; })},
+        {"of", "of", count(), "Rows of the design.",
+         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; })}}});
+}
+
+/// The same below each other for all outputs.
+const Quantities<IndexRow> all_index_quantities = keys::joined<IndexRow>(
+    {{{quantity::output, [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
+      {quantity::unit, [](const IndexRow&) { return ""; }},
+      {quantity::reason, &IndexRow::output, &OutputSensitivity::reason}},
+     index_quantities()});
+
+Quantities<OutputSensitivity> output_quantities() {
+  const auto shown = [](double OutputSensitivity::*member) {
+    return [member](const OutputSensitivity& row) { return shown_output(row.output).value(row.*member); };
+  };
+  return keys::joined<OutputSensitivity>(
+      {{{quantity::output, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::name},
+        {quantity::unit, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::form,
+         &keys::Form::unit},
+        {"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs.",
+         shown(&OutputSensitivity::mean)},
+        {"standard_deviation", "standard deviation", significant(3), "Standard deviation over them.",
+         shown(&OutputSensitivity::deviation)},
+        {"missing", "without a number", count(), "Evaluations without a number.",
+         &OutputSensitivity::missing},
+        {"bounds", "bounds", count(), "Of these, critical gaps that are bounds.",
+         &OutputSensitivity::bounds}},
+       of_part<OutputSensitivity>(fit_quantities(), &OutputSensitivity::fit),
+       {{quantity::reason, &OutputSensitivity::reason}}});
+}
+
+Quantities<AnsweredCase> evaluation_quantities(const study::Study& study,
+                                               const std::vector<OutputSensitivity>& outputs) {
+  Quantities<AnsweredCase> of_outputs;
+  for (const OutputSensitivity& output : outputs)
+    of_outputs.emplace_back(shown_output(output.output).column,
+                            [&output](const AnsweredCase& row) { return output.values[row.index]; });
+  return keys::joined<AnsweredCase>(
+      {{{"number", "number", count(), "Number of the evaluation.",
+         [](const AnsweredCase& row) { return row.index + 1; }},
+        {"evaluation", "evaluation", text(), "Its place in the design.", &AnsweredCase::label}},
+       answered_axes(study),
+       of_outputs,
+       {{for_programs(quantity::critical_gap_kind), &AnsweredCase::answer, &study::CaseAnswer::critical,
+         &study::CriticalGap::kind},
+        {quantity::critical_gap_reads_as,
+         [](const AnsweredCase& row) { return report::reads_as(row.answer->critical); }},
+        {quantity::status, [](const AnsweredCase& row) { return status_of(*row.answer); }},
+        {headed("failure", quantity::reason), &AnsweredCase::answer, &study::CaseAnswer::failure}}});
+}
+
+/// Whether the estimates of an input contradict each other: no true total order is below the first.
+bool total_below_first(const math::InputIndices& indices) {
+  return indices.total.value < indices.first.value;
+}
+
+std::vector<std::string> notes_of(const SensitivityResult& result, const OutputSensitivity& output) {
+  const ShownOutput& shown = shown_output(output.output);
+  const std::string& unit = shown.column.form.unit;
+  Row facts{{"reason", output.reason},
+            {"mean", report::number(shown.value(output.mean))},
+            {"deviation", shown.value(output.deviation)},
+            {"unit", unit.empty() ? "" : " " + unit},
+            {"missing", output.missing},
+            {"evaluations", output.values.size()},
+            {"bounds", output.bounds},
+            {"method", method_text(result)},
+            {"inert", output.inert},
+            {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},
+            {"apart", false}};
+  // Inputs that show sampling error by their estimates, with their intervals.
+  const auto inputs = shown_inputs(result.study.study);
+  for (std::size_t i = 0; i < output.sobol.inputs.size(); ++i) {
+    const auto& [first, total] = output.sobol.inputs[i];
+    if (!total_below_first(output.sobol.inputs[i])) continue;
+    facts["contradictory"].push_back(
+        fmt::format("{} (total {}, first {})", inputs[i].name, estimate_text(total), estimate_text(first)));
+    if (total.upper < first.lower) facts["apart"] = true;
+  }
+  return said("sensitivity.note", facts);
 }
 
 }  // namespace
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", keys::significant(6, keys::kelvin), quantity::temperature_max.meaning},
+      {{{"temperature_max", "T max", significant(6, keys::kelvin), quantity::temperature_max.meaning},
         "T max"},
        {quantity::critical_gap, "the critical gap"},
-       {{"margin", "margin", keys::significant(6, keys::kelvin), "Ignition temperature less T max."},
+       {{"margin", "margin", significant(6, keys::kelvin), "Ignition temperature less T max."},
         "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
-}
-
-std::vector<ShownInput> shown_inputs(const study::Study& study) {
-  const auto keys = report::shown_axes(study);
-  std::vector<ShownInput> inputs;
-  for (const SensitivityInput& input : inputs_of(study)) {
-    const auto text = [&](std::size_t axis) {
-      return distribution_text(keys[axis], *study.axes[axis].distribution);
-    };
-    ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
-    if (input.count == 1) continue;
-    shown = {"constants of the calibration", "together"};
-    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
-      shown.distribution +=
-          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
-  }
-  return inputs;
 }
 
 std::string at_gap(const study::Study& study, SensitivityOutput output) {
@@ -157,39 +309,21 @@ std::string at_gap(const study::Study& study, SensitivityOutput output) {
   return " at a gap of " + report::centimetres(study.gaps.front());
 }
 
-std::string estimate_text(const math::Estimate& estimate) {
-  return fmt::format("{} [{}, {}]", significant(estimate.value, 3), significant(estimate.lower, 3),
-                     significant(estimate.upper, 3));
-}
-
-std::string method_text(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study.study);
-  Row facts = method_facts(result);
-  facts.update({{"is_fit", is_by_fit(result.study.study)},
-                {"held_out", own.held_out},
-                {"added", added_launches(result)},
-                {"design", text_of(own.design)},
-                {"confidence_percent", shown_value(own.confidence, keys::significant(6, percent))},
-                {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
-                {"correlated", own.correlated.has_value()}});
-  return said("sensitivity.method", facts).front();
-}
-
 std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
-  for (std::string& line : asked_text(result)) lines.push_back(std::move(line));
+  std::ranges::move(asked_text(result), std::back_inserter(lines));
   lines.push_back(samples_text(result));
-  const std::size_t all = result.answers.size(), failed = counts_of(result.answers).failed;
+  const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
   const double share = static_cast<double>(failed) / static_cast<double>(all);
-  for (std::string& line :
-       said("sensitivity.failed", {{"all", all},
-                                   {"failed", failed},
-                                   {"percent", shown_value(share, keys::fixed(1, percent))},
-                                   {"failures", failures_list({}, result.study, result.answers)}}))
-    lines.push_back(std::move(line));
-  lines.push_back(limited_text(counts_of(result.answers), "evaluation"));
+  std::ranges::move(
+      said("sensitivity.failed", {{"all", all},
+                                  {"failed", failed},
+                                  {"percent", shown_value(share, fixed(1, percent))},
+                                  {"failures", failures_list({}, result.study, result.answers)}}),
+      std::back_inserter(lines));
+  lines.push_back(limited_text(result.answers, "evaluation"));
   return answer_of(std::move(lines), result.study);
 }
 
@@ -223,9 +357,88 @@ report::Report report_of(const SensitivityResult& result) {
                             {"gap_cm", report::number(report::shown_gap(result.study.study.gaps.front()))},
                             {"inputs", report::axes_json(result.study.study)},
                             {"ignition", ignition_json(result)},
-                            {"failed", counts_of(result.answers).failed},
+                            {"failed", count_failed(result.answers)},
                             {"notes", report::mesh_notes(result.study)}});
   return report;
+}
+
+Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output) {
+  return table_of(
+      "Sensitivity of " + shown_output(output.output).phrase + at_gap(result.study.study, output.output),
+      index_quantities(), index_rows(result, output), notes_of(result, output));
+}
+
+Table sensitivity_table(const SensitivityResult& result) {
+  std::vector<IndexRow> rows;
+  for (const OutputSensitivity& output : result.outputs)
+    for (IndexRow& row : index_rows(result, output)) rows.push_back(std::move(row));
+  return table_of("Sensitivity", all_index_quantities, rows, {method_text(result)});
+}
+
+Table output_table(const SensitivityResult& result) {
+  return table_of("Outputs", output_quantities(), result.outputs);
+}
+
+Table evaluation_table(const SensitivityResult& result) {
+  return table_of("Evaluations", evaluation_quantities(result.study.study, result.outputs),
+                  answered(result.study, result.answers));
+}
+
+std::vector<report::ReportTable> sensitivity_results() {
+  std::vector<OutputSensitivity> outputs(3);
+  outputs[0].output = SensitivityOutput::maximum_temperature;
+  outputs[1].output = SensitivityOutput::critical_gap;
+  outputs[2].output = SensitivityOutput::margin;
+  return {{table_of({}, all_index_quantities, {}), "sensitivity.csv", "indices"},
+          {table_of({}, output_quantities(), {}), "", "outputs"},
+          {quantile_table({}), "quantiles.csv", "quantiles"},
+          {histogram_table({}), "histogram.csv", "histogram"},
+          {table_of({}, evaluation_quantities({}, outputs), {}), "evaluations.csv", "evaluations"}};
+}
+
+// Inputs below each other, the one with the largest total order at the top.
+report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
+  constexpr int blue = 0, orange = 1, black = 6;
+  const auto shown = shown_inputs(result.study.study);
+  const study::Study& study = result.study.study;
+  std::vector<std::size_t> order(shown.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](std::size_t i) { return output.sobol.inputs[i].total.value; });
+  report::Plot plot;
+  plot.title =
+      fmt::format("{} makes {} % of the variance of {}", report::plain_words(shown[order.front()].name),
+                  report::fixed(100.0 * output.sobol.inputs[order.front()].total.value, 0),
+                  shown_output(output.output).phrase + at_gap(study, output.output));
+  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
+  plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);
+  plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
+  Series bars{.label = "total: with interactions", .style = report::Style::filled_bars, .colour = blue};
+  Series total{.label = "its interval",
+               .style = report::Style::horizontal_bars,
+               .colour = black,
+               .mark = report::Mark::square};
+  Series first{.label = "first: by the input alone",
+               .style = report::Style::horizontal_bars,
+               .colour = orange,
+               .mark = report::Mark::diamond};
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    const double y = static_cast<double>(order.size() - place);
+    const math::InputIndices& indices = output.sobol.inputs[order[place]];
+    const bool contradictory = total_below_first(indices);
+    if (contradictory)
+      plot.subtitle +=
+          "; * total below first is sampling error: no true total order is below the first order";
+    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name) + (contradictory ? " *" : "")});
+    bars.add(indices.total.value, y, 0.0, indices.total.value);
+    total.add(indices.total.value, y - 0.1, indices.total.lower, indices.total.upper);
+    first.add(indices.first.value, y + 0.1, indices.first.lower, indices.first.upper);
+  }
+  plot.y.minimum = 0.4;
+  plot.y.maximum = static_cast<double>(order.size()) + 0.6;
+  plot.series = {std::move(bars), std::move(total), std::move(first)};
+  plot.height = std::min(180 + 56 * static_cast<int>(order.size()), 1600);
+  return plot;
 }
 
 }  // namespace launchsafe::kinds

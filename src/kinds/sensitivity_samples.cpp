@@ -25,7 +25,6 @@ double ranked(const OutputSensitivity& output, const study::CaseAnswer& answer, 
   return answer.critical.kind == study::CriticalGapKind::all_safe ? infinite : value;
 }
 
-/// The draws of one output.
 struct OutputSample {
   /// SI, ascending. A critical gap that is no number is minus infinity where the launch ignites without a
   /// gap, and infinity where nothing ignites up to the end of the search: it has a rank and no value.
@@ -63,8 +62,7 @@ OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity&
 }
 
 const OutputSensitivity* output_of(const SensitivityResult& result, SensitivityOutput which) {
-  const auto found =
-      std::ranges::find_if(result.outputs, [which](const auto& each) { return each.output == which; });
+  const auto found = std::ranges::find(result.outputs, which, &OutputSensitivity::output);
   return found == result.outputs.end() ? nullptr : &*found;
 }
 
@@ -88,17 +86,16 @@ std::string title_of(const SensitivityResult& result, const OutputSensitivity& o
          at_gap(result.study.study, output.output);
 }
 
-/// What is to be known of the numbers of an output; empty for nothing.
+/// What is to be known of the numbers of an output.
 std::string sample_note(const SensitivityResult& result, const OutputSensitivity& output) {
   const OutputSample sample = sample_of(result, output);
-  std::string note = fmt::format("{}: {} draws", title_of(result, output), sample.values.size());
-  if (const std::size_t count = sample.ignites_at_zero())
-    note += fmt::format(", of which {} ignite without a gap", count);
-  if (const std::size_t count = sample.none_ignites())
-    note += fmt::format(", of which {} ignite at no gap up to {}", count,
-                        centimetres(result.study.study.largest_gap));
-  if (sample.missing > 0) note += fmt::format("; {} more are not known", sample.missing);
-  return note + ".";
+  return said("sensitivity.sample", {{"title", title_of(result, output)},
+                                     {"draws", sample.values.size()},
+                                     {"at_zero", sample.ignites_at_zero()},
+                                     {"none", sample.none_ignites()},
+                                     {"largest", centimetres(result.study.study.largest_gap)},
+                                     {"missing", sample.missing}})
+      .front();
 }
 
 // --- histogram ---
@@ -119,12 +116,11 @@ Histogram histogram_of(const OutputSample& sample, const ShownOutput& shown) {
   if (values.empty() || !(values.back() > values.front())) return histogram;
   histogram.width = report::round_distance((values.back() - values.front()) / most_intervals);
   histogram.first = std::floor(values.front() / histogram.width);
-  for (const double value : values) {
-    const double steps = std::max(0.0, std::floor(value / histogram.width) - histogram.first);
-    const auto place = static_cast<std::size_t>(steps);
-    if (place >= histogram.counts.size()) histogram.counts.resize(place + 1, 0);
-    ++histogram.counts[place];
-  }
+  const auto place_of = [&](double value) {
+    return static_cast<std::size_t>(std::max(0.0, std::floor(value / histogram.width) - histogram.first));
+  };
+  histogram.counts.resize(place_of(values.back()) + 1, 0);
+  for (const double value : values) ++histogram.counts[place_of(value)];
   return histogram;
 }
 
@@ -238,7 +234,7 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
     const study::CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
     ++(answer.completed() ? completed : failed);
-    if (answer.completed() && answer.verdicts.front().ignition) ++igniting;
+    igniting += answer.completed() && answer.verdicts.front().ignition;
   }
   const std::size_t all = completed + failed;
   const auto interval = [&](std::size_t count) {
@@ -284,12 +280,10 @@ Table quantile_table(const SensitivityResult& result) {
     rows.push_back(
         {share, critical, quantile_text(result, critical), sample_of(result, *temperature).quantile(share)});
   }
-  Table table = report::table_of("Quantiles over the draws from the inputs", quantile_quantities, rows);
-  if (rows.empty()) return table;
-  for (const OutputSensitivity* output : {gap, temperature})
-    table.notes.push_back(sample_note(result, *output));
-  table.notes.push_back(said("sensitivity.draws", {{"is_fit", is_by_fit(result.study.study)}}).front());
-  return table;
+  std::vector<std::string> notes = said("sensitivity.draws", {{"is_fit", is_by_fit(result.study.study)}});
+  if (!rows.empty())
+    notes.insert(notes.begin(), {sample_note(result, *gap), sample_note(result, *temperature)});
+  return report::table_of("Quantiles over the draws from the inputs", quantile_quantities, rows, notes);
 }
 
 Table histogram_table(const SensitivityResult& result) {

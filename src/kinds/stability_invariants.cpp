@@ -69,8 +69,7 @@ void check_masses(const CompletedRun& run, Sentences& violations) {
   }
 }
 
-/// Impulse of the load until a time, N s, and how far sums over single steps may be off it: they take the
-/// pressure at the begin of every step.
+/// N s, of the load until a time; sums over steps may be off it, as they take the pressure at their begin.
 struct Impulse {
   double value = 0, error = 0;
 };
@@ -117,8 +116,7 @@ double largest_energy(const std::vector<MonitorSample>& monitor) {
   return largest;
 }
 
-/// Against the largest energy of the run, or the least one that balances are judged on. With what burnt the
-/// run itself has the drift.
+/// Against the largest energy, or the least that balances are judged on. With what burnt the run has it.
 void check_energy(const CompletedRun& run, Sentences& violations) {
   const std::vector<MonitorSample>& monitor = run.mechanics.monitor;
   double drift = 0;
@@ -151,14 +149,13 @@ void check_dissipation(const CompletedRun& run, Sentences& violations) {
 void check_friction(const CompletedRun& run, Sentences& violations) {
   const trace::BottomTrace& trace = run.mechanics.trace;
   const std::size_t stations = trace.stations.size();
-  for (const auto& friction : trace.friction) {
+  for (const auto& friction : trace.friction)
     for (std::size_t i = stations; stations > 0 && i < friction.size(); ++i) {
       if (friction[i] >= friction[i - stations]) continue;
       violations.push_back(
           fmt::format("friction heat falls at station {}", trace.stations[i % stations].name));
       return;
     }
-  }
 }
 
 void check_skin(const CompletedRun& run, Sentences& violations) {

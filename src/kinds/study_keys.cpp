@@ -8,9 +8,11 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault, study::Reference, study::Study, study::StudyFile;
+using study::Reference, study::Study, study::StudyFile;
 
 namespace {
+
+using scene::flag_key, scene::number_key, scene::required, scene::text_key;
 
 using scene::above_to, scene::any_number, scene::at_least, scene::between;
 using scene::Dimension, scene::Key, scene::plausibly, scene::Standing;
@@ -18,8 +20,8 @@ using scene::Dimension, scene::Key, scene::plausibly, scene::Standing;
 template <class Number>
 Key<Study> study_number(std::string name, Dimension dimension, scene::Limits limits, std::string sentence,
                         Number Study::*member) {
-  return scene::number_key<Study>(std::move(name), dimension, limits, Standing::assumed, std::move(sentence),
-                                  member);
+  return number_key<Study>(std::move(name), dimension, limits, Standing::assumed, std::move(sentence),
+                           member);
 }
 
 constexpr const char *value_part = ".value", *because_part = ".because";
@@ -45,7 +47,14 @@ StudyKeys stated_uncertainty(const std::string& name, std::string sentence, doub
           because_key(name, member)};
 }
 
-/// The kind by its name.
+/// The uncertainties that are stated by hand among some keys.
+std::vector<std::string> uncertainties_in(const StudyKeys& keys) {
+  std::vector<std::string> names;
+  for (const Key<Study>& key : keys)
+    if (key.name.ends_with(because_part)) names.push_back(key.name.substr(0, key.name.rfind('.')));
+  return names;
+}
+
 Key<Study> kind_key() {
   Key<Study> key{{.name = "kind", .kind = scene::KeyKind::word, .standing = Standing::input}, {}, {}};
   key.sentence = "What is asked.";
@@ -60,22 +69,20 @@ Key<Study> kind_key() {
 
 Key<Reference> reference_number(std::string name, Dimension dimension, std::string sentence,
                                 double Reference::*member) {
-  return scene::number_key<Reference>(std::move(name), dimension, at_least(0), Standing::paper,
-                                      std::move(sentence), member);
+  return number_key<Reference>(std::move(name), dimension, at_least(0), Standing::paper, std::move(sentence),
+                               member);
 }
 
 const std::vector<Key<Reference>> published_row_keys{
-    reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap) |
-        scene::required(),
+    reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap) | required(),
     reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                      &Reference::maximum_temperature),
-    scene::text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
-                    &Reference::point),
+    text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
+             &Reference::point),
     reference_number("early_temperature", Dimension::temperature, "Its highest temperature at early_time.",
                      &Reference::early_temperature),
-    scene::text_key("early_point", Standing::paper,
-                    "Observation point of the highest temperature at early_time.", "G13",
-                    &Reference::early_point),
+    text_key("early_point", Standing::paper, "Observation point of the highest temperature at early_time.",
+             "G13", &Reference::early_point),
     reference_number("spread", Dimension::temperature_difference,
                      "Highest minus lowest published temperature of the bottom at the end of the launch.",
                      &Reference::spread),
@@ -86,53 +93,46 @@ const std::vector<Key<Reference>> published_row_keys{
     reference_number("rise_begins", Dimension::time, "From when on its highest temperature rises fast.",
                      &Reference::rise_begins),
     reference_number("rise_ends", Dimension::time, "Until when it rises fast.", &Reference::rise_ends),
-    scene::flag_key("calibrated", Standing::input,
-                    "True where constants, and a load that is fitted, are fitted to it.",
-                    &Reference::calibrated),
-    scene::flag_key("selection", Standing::input,
-                    "True where its other numbers were seen when a form of the model was picked; they are "
-                    "held out if not.",
-                    &Reference::selection),
+    flag_key("calibrated", Standing::input,
+             "True where constants, and a load that is fitted, are fitted to it.", &Reference::calibrated),
+    flag_key("selection", Standing::input,
+             "True where its other numbers were seen when a form of the model was picked; they are "
+             "held out if not.",
+             &Reference::selection),
 };
 
 /// Reads the file of references that a study names, which several may share.
-Fault read_shared_references(const StudySource& source, StudyFile& study) {
+void read_shared_references(const StudySource& source, StudyFile& study) {
   constexpr const char *key = "references", *table_name = "reference", *tables = "[[reference]]";
   const std::string& name = study.study.references_file;
-  if (name.empty()) return std::nullopt;
+  if (name.empty()) return;
   if (source.root.contains(table_name))
-    return fault_at(study, key, fmt::format("a file of references beside {}", tables), "one of both");
-  const auto text = read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables));
-  if (!text) return text.error();
-  study.records.push_back(store::sha256(*text));
+    refuse_at(study, key, fmt::format("a file of references beside {}", tables), "one of both");
+  const std::string text =
+      taken(read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables)));
+  study.records.push_back(store::sha256(text));
   const std::string file = (source.folder / name).string();
-  const auto table = scene::parse_toml(*text, file);
-  if (!table) return table.error();
-  for (const auto& [each, node] : *table) {
-    if (each.str() != table_name) {
-      return scene::error_at(scene::place_of(node, file), std::string(each.str()),
-                             "a key of another kind of file", fmt::format("only {}", tables));
-    }
-  }
-  return study::read_rows(*table, table_name, published_row_keys, file, study, study.study.references);
+  const toml::table table = taken(scene::parse_toml(text, file));
+  for (const auto& [each, node] : table)
+    if (each.str() != table_name)
+      refuse_if(scene::error_at(scene::place_of(node, file), std::string(each.str()),
+                                "a key of another kind of file", fmt::format("only {}", tables)));
+  refuse_if(study::read_rows(table, table_name, published_row_keys, file, study, study.study.references));
 }
 
-Fault check_references(const StudyFile& study) {
+void check_references(const StudyFile& study) {
   const auto& references = study.study.references;
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (std::abs(references[i].gap - references[j].gap) > 1e-9) continue;
-      return fault_at(study, fmt::format("reference.{}.gap", i),
-                      scene::format_quantity(references[i].gap, Dimension::length) + " twice",
-                      "each gap once");
-    }
-  }
+  for (std::size_t i = 0; i < references.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(references[i].gap - references[j].gap) <= 1e-9)
+        refuse_at(study, fmt::format("reference.{}.gap", i),
+                  scene::format_quantity(references[i].gap, Dimension::length) + " twice", "each gap once");
   const study::ReferenceLine& line = study.study.reference_line;
-  if (std::isnan(line.slope) == std::isnan(line.intercept)) return std::nullopt;
+  if (std::isnan(line.slope) == std::isnan(line.intercept)) return;
   const bool slope = !std::isnan(line.slope);
-  return fault_at(study, slope ? "reference_line.slope" : "reference_line.intercept",
-                  slope ? "a slope without an intercept" : "an intercept without a slope",
-                  "both reference_line.slope and reference_line.intercept");
+  refuse_at(study, slope ? "reference_line.slope" : "reference_line.intercept",
+            slope ? "a slope without an intercept" : "an intercept without a slope",
+            "both reference_line.slope and reference_line.intercept");
 }
 
 }  // namespace
@@ -140,16 +140,16 @@ Fault check_references(const StudyFile& study) {
 const StudyKeys& common_keys() {
   static const StudyKeys keys{
       kind_key(),
-      scene::text_key("title", Standing::input,
-                      "What this study is, for reports; the scene's title where there is none.",
-                      "Critical gap of the 155 mm shell", &Study::title),
-      scene::text_key("scene", Standing::input, "Path of the scene from the study file's folder.",
-                      "scene_155mm.toml", &Study::scene) |
-          scene::required(),
-      scene::flag_key("demonstration", Standing::input,
-                      "True where the shell, its launch or its firings are invented: every verdict and every "
-                      "page says so, of studies that rest on such firings too.",
-                      &Study::demonstration),
+      text_key("title", Standing::input,
+               "What this study is, for reports; the scene's title where there is none.",
+               "Critical gap of the 155 mm shell", &Study::title),
+      text_key("scene", Standing::input, "Path of the scene from the study file's folder.",
+               "scene_155mm.toml", &Study::scene) |
+          required(),
+      flag_key("demonstration", Standing::input,
+               "True where the shell, its launch or its firings are invented: every verdict and every "
+               "page says so, of studies that rest on such firings too.",
+               &Study::demonstration),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
   };
@@ -182,7 +182,7 @@ StudyKeys judging_keys() {
 }
 
 StudyKeys calibration_record_keys() {
-  return {scene::text_key(
+  return {text_key(
       "calibration", Standing::input,
       "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
       "constants replace the scene's, and hold where the calibrated launch is the study's.",
@@ -191,19 +191,19 @@ StudyKeys calibration_record_keys() {
 
 StudyKeys uncertainty_keys() {
   const StudyKeys records{
-      scene::text_key("accuracy", Standing::input,
-                      "Path of the record of an accuracy study, accuracy.json, from the study file's folder; "
-                      "it gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that "
-                      "which was made of such a scene; one of gaps that close is of them alone.",
-                      "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
+      text_key("accuracy", Standing::input,
+               "Path of the record of an accuracy study, accuracy.json, from the study file's folder; "
+               "it gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that "
+               "which was made of such a scene; one of gaps that close is of them alone.",
+               "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
       study_number("setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
                    "Replaces the scene's numerics by the cheapest setting of the record that knows the "
                    "maximum temperature to this; on the command line --tolerance.",
                    &Study::setting_tolerance),
-      scene::text_key("model_form", Standing::input,
-                      "Path of the record of other models, model_form.json, from the study file's folder; it "
-                      "says how far they move the critical gap towards ignition.",
-                      "../reports/model_form/model_form.json", &Study::model_form_record),
+      text_key("model_form", Standing::input,
+               "Path of the record of other models, model_form.json, from the study file's folder; it "
+               "says how far they move the critical gap towards ignition.",
+               "../reports/model_form/model_form.json", &Study::model_form_record),
   };
   return joined(
       {records,
@@ -225,15 +225,14 @@ StudyKeys uncertainty_keys() {
 
 StudyKeys reference_keys() {
   return {
-      scene::text_key(
-          "references", Standing::input,
-          "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
-          "table8.toml", &Study::references_file),
-      scene::number_key<Study>(
+      text_key("references", Standing::input,
+               "Path of a file that holds the published rows, [[reference]], from the study file's folder.",
+               "table8.toml", &Study::references_file),
+      number_key<Study>(
           "reference_line.slope", Dimension::number, any_number(), Standing::paper,
           "Slope of a published line of maximum temperature against gap, K per cm.",
           [](auto& s) -> auto& { return s.reference_line.slope; }),
-      scene::number_key<Study>(
+      number_key<Study>(
           "reference_line.intercept", Dimension::temperature, at_least(0), Standing::paper,
           "Its value at gap 0.", [](auto& s) -> auto& { return s.reference_line.intercept; }),
   };
@@ -251,43 +250,38 @@ StudyTable reference_table() { return study_table_of("reference", published_row_
 
 StudyTable cited_limit_table() { return study_table_of("cited_limit", study::cited_limit_keys()); }
 
-Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
-  for (const auto& key : keys) {
-    if (!key.name.ends_with(because_part)) continue;
-    const std::string name = key.name.substr(0, key.name.rfind('.'));
+void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file) {
+  for (const std::string& name : uncertainties_in(keys)) {
     const toml::node* node = root.get(name);
     if (node == nullptr || (node->is_table() && !node->as_table()->empty())) continue;
     const std::string value = node->is_string() ? scene::found_text(*node) : "\"1 K\"";
-    return scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node) + " without a source",
-                           "a value with where it comes from, in words",
-                           fmt::format("{{ value = {}, because = \"...\" }}", value));
+    refuse_if(scene::error_at(scene::place_of(*node, file), name,
+                              scene::found_text(*node) + " without a source",
+                              "a value with where it comes from, in words",
+                              fmt::format("{{ value = {}, because = \"...\" }}", value)));
   }
-  return std::nullopt;
 }
 
-Fault check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) {
+void check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) {
   const auto has = [&](const std::string& key) { return study.places.contains(key); };
-  for (const auto& key : keys) {
-    if (!key.name.ends_with(because_part)) continue;
-    const std::string name = key.name.substr(0, key.name.rfind('.'));
-    if (has(name + value_part) == has(key.name)) continue;
-    return fault_at(study, has(key.name) ? key.name : name + value_part,
-                    has(key.name) ? "a source without a value" : "a value without a source",
-                    fmt::format("{} = {{ value = \"1 K\", because = \"...\" }}", name));
+  for (const std::string& name : uncertainties_in(keys)) {
+    const std::string value = name + value_part, because = name + because_part;
+    if (has(value) != has(because))
+      refuse_at(study, has(because) ? because : value,
+                has(because) ? "a source without a value" : "a value without a source",
+                fmt::format("{} = {{ value = \"1 K\", because = \"...\" }}", name));
   }
   for (const study::StatedUncertainty& each : study.study.stated) {
     const std::string key = each.key + because_part;
-    if (Fault fault = scene::check_reason(each.because, place_of_key(study, key), key)) return fault;
+    refuse_if(scene::check_reason(each.because, place_of_key(study, key), key));
   }
-  return std::nullopt;
 }
 
-Fault read_references(const StudySource& source, StudyFile& study) {
-  if (Fault fault = study::read_rows(source.root, "reference", published_row_keys, study.file, study,
-                                     study.study.references))
-    return fault;
-  if (Fault fault = read_shared_references(source, study)) return fault;
-  return check_references(study);
+void read_references(const StudySource& source, StudyFile& study) {
+  refuse_if(study::read_rows(source.root, "reference", published_row_keys, study.file, study,
+                             study.study.references));
+  read_shared_references(source, study);
+  check_references(study);
 }
 
 scene::Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
@@ -295,7 +289,11 @@ scene::Expected<std::vector<Reference>> read_references(const std::filesystem::p
   if (const auto text = scene::read_text_file(file); !text) return text.error();
   StudyFile study;
   study.study.references_file = file.string();
-  if (Fault fault = read_references({toml::table(), {}, {}, {}}, study)) return *fault;
+  try {
+    read_references({toml::table(), {}, {}, {}}, study);
+  } catch (const Refusal& refusal) {
+    return refusal.error;
+  }
   return study.study.references;
 }
 

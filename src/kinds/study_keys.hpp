@@ -9,25 +9,35 @@ namespace launchsafe::kinds {
 
 using StudyKeys = std::vector<scene::Key<study::Study>>;
 
+/// What is wrong with a study file. Its readers throw it; `read_study_table` and `read_references` give it
+/// back as a value.
+struct Refusal {
+  scene::InputError error;
+};
+inline void refuse_if(const study::Fault& fault) {
+  if (fault) throw Refusal{*fault};
+}
+[[noreturn]] inline void refuse_at(const study::StudyFile& study, const std::string& key, std::string found,
+                                   std::string allowed, std::string suggestion = {}) {
+  throw Refusal{fault_at(study, key, std::move(found), std::move(allowed), std::move(suggestion))};
+}
+/// What was read, or else refused; `table`: of the study file, in which it stands.
+template <class Read>
+Read taken(scene::Expected<Read> read, const std::string& table = {}) {
+  if (!read) throw Refusal{table.empty() ? read.error() : scene::within(table, read.error())};
+  return std::move(*read);
+}
+
 /// Keys of every kind, with the kind itself.
 const StudyKeys& common_keys();
-/// Gaps to judge, as a list.
-StudyKeys gaps_keys();
-/// Of every kind that seeks the critical gap.
-StudyKeys search_keys();
-/// Of every kind that judges gaps besides.
-StudyKeys judging_keys();
-/// Where the constants of a study come from.
-StudyKeys calibration_record_keys();
-/// What the uncertainty of a verdict is made of, besides the mesh.
-StudyKeys uncertainty_keys();
-/// The fault of an uncertainty that is stated by hand as a bare number, "1 K"; none without one.
-study::Fault check_bare_uncertainties(const toml::table& root, const StudyKeys& keys,
-                                      const std::string& file);
-/// The fault of one without a source in words, or of a source without its value.
-study::Fault check_stated_uncertainties(const StudyKeys& keys, const study::StudyFile& study);
-/// A file of published rows, and a published line.
-StudyKeys reference_keys();
+/// Gaps to judge; how the critical gap is sought, and gaps are judged besides; where the constants come from;
+/// what the uncertainty of a verdict is made of, besides the mesh; a file of published rows, and a line.
+StudyKeys gaps_keys(), search_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
+    reference_keys();
+/// Refuses an uncertainty that is stated by hand as a bare number, "1 K".
+void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file);
+/// Likewise one without a source in words, and a source without its value.
+void check_stated_uncertainties(const StudyKeys& keys, const study::StudyFile& study);
 
 using keys::joined;
 
@@ -61,12 +71,11 @@ StudyTable study_table_of(const std::string& name, const std::vector<scene::Key<
   return table;
 }
 
-/// [[reference]] and [[cited_limit]].
-StudyTable reference_table();
-StudyTable cited_limit_table();
+/// [[reference]], [[cited_limit]] and [[vary]].
+StudyTable reference_table(), cited_limit_table(), vary_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
-study::Fault read_references(const StudySource& source, study::StudyFile& study);
+void read_references(const StudySource& source, study::StudyFile& study);
 
 /// Scene keys with other values than the scene has: a table of the study file, by its name there. No node:
 /// none.
@@ -75,32 +84,27 @@ struct OverrideTable {
   const toml::node* node = nullptr;
 };
 
-/// Reads and validates a study and its scene from its table; `file` is named in errors. A study with more
-/// cases is refused. Nothing is computed.
+/// kinds::read_study of a table; `file` is named in errors.
 scene::Expected<study::StudyFile> read_study_table(const StudySource& source, const std::string& file,
                                                    std::size_t most_cases);
 
 /// Reads a scene by its path from the study file's folder; the fault of a missing one is at `key`.
-scene::Expected<scene::SceneFile> read_named_scene(const std::string& name,
-                                                   const std::filesystem::path& folder,
-                                                   const std::string& key, const scene::Place& place);
+scene::SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
+                                  const std::string& key, const scene::Place& place);
 
 /// Reads the scene that the study names, then the overrides, in their order, then the constants of a
-/// calibration, then the numerics that a tolerance (K, of T max) picks from an accuracy record. `record`
-/// becomes that of the study, if it names one.
-study::Fault settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                          study::StudyFile& study, study::AccuracyRecords& records);
+/// calibration, then the numerics that a tolerance (K, of T max) picks from the accuracy records that the
+/// study names, which are returned.
+study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
+                                    study::StudyFile& study);
 
 /// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
 /// it states. Needs the overrides.
-study::Fault settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
-
-/// The keys of all entries, for documentation.
-StudyTable vary_table();
+void settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
 
 /// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
-/// kind does not admit is a fault.
-study::Fault read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study);
+/// kind does not admit is refused.
+void read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study);
 
 /// One of the variants of an entry as read, without its tables.
 struct VariantText {
@@ -108,8 +112,7 @@ struct VariantText {
 };
 std::vector<scene::Key<VariantText>> variant_keys();
 
-/// The tables of the entry with variants; none is a fault.
-scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
-                                                             const study::StudyFile& study);
+/// The tables of the entry with variants.
+std::vector<const toml::table*> variants_in(const StudySource& source, const study::StudyFile& study);
 
 }  // namespace launchsafe::kinds

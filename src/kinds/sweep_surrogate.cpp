@@ -1,12 +1,13 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
+#include "study_keys.hpp"
 
 #include <fmt/format.h>
 
 namespace launchsafe::kinds {
 
 using report::number, report::Row, report::shown_value;
-using study::Axis, study::Fault, study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
+using study::Axis, study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
 
 namespace {
 
@@ -98,50 +99,49 @@ math::Distribution range_of_axis(const Axis& axis) {
                                                 : math::Distribution::uniform(lower, upper);
 }
 
-Fault check_axis(const StudyFile& study, const Axis& axis) {
+void check_axis(const StudyFile& study, const Axis& axis) {
   if (axis.key.dimension == scene::Dimension::count)
-    return fault_at(study, axis.study_key,
-                    axis.key.name + ", a whole number, in a study with surrogate = true",
-                    "a key that may take any number between two");
+    refuse_at(study, axis.study_key, axis.key.name + ", a whole number, in a study with surrogate = true",
+              "a key that may take any number between two");
   // What a launch may change by a leap with.
   const keys::Part part = axis.key.role().part;
   if (part == keys::Part::setting || part == keys::Part::minor_setting ||
       axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction")
-    return fault_at(
-        study, axis.study_key,
-        axis.key.name + ", with which launches may change by leaps, in a study with surrogate = true",
-        "keys with which they change smoothly: pressures, times, temperatures, sizes");
+    refuse_at(study, axis.study_key,
+              axis.key.name + ", with which launches may change by leaps, in a study with surrogate = true",
+              "keys with which they change smoothly: pressures, times, temperatures, sizes");
   if (axis.values.size() < fewest_values)
-    return fault_at(study, axis.values_key,
-                    fmt::format("{} values in a study with surrogate = true", axis.values.size()),
-                    fmt::format("at least {}: one between others is held out", fewest_values));
-  return std::nullopt;
+    refuse_at(study, axis.values_key,
+              fmt::format("{} values in a study with surrogate = true", axis.values.size()),
+              fmt::format("at least {}: one between others is held out", fewest_values));
 }
 
 SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t gap) {
   const std::vector<double>& gaps = result.study.study.gaps;
-  SurrogateOutput output{
-      .name = quantity::temperature_max.name, .gap = gaps[gap], .inert = any_ignites(result.answers, gap)};
+  const bool inert = any_ignites(result.answers, gap);
+  SurrogateOutput output{.name = quantity::temperature_max.name,
+                         .gap = gaps[gap],
+                         .inert = inert,
+                         .values = of_each(result.answers, [&](const auto& answer) {
+                           return temperature_of(answer, gap, inert);
+                         })};
   if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", report::shown_gap(gaps[gap]));
-  for (const study::CaseAnswer& answer : result.answers)
-    output.values.push_back(temperature_of(answer, gap, output.inert));
   return output;
 }
 
 SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
-  SurrogateOutput output{.name = quantity::critical_gap.name};
-  for (const study::CaseAnswer& answer : result.answers)
-    output.values.push_back(answer.completed() ? answer.critical.value : study::not_a_number);
+  SurrogateOutput output{.name = quantity::critical_gap.name,
+                         .values = of_each(result.answers, critical_gap_number)};
   if (const auto bounds = std::ranges::count_if(result.answers, is_bound))
     output.reason = bounds_reason(static_cast<std::size_t>(bounds), result.answers.size());
   return output;
 }
 
-const report::Quantities<FitRow> surrogate_quantities =
-    keys::joined<FitRow>({{{quantity::output, [](const FitRow& row) { return row.shown.name; }},
-                           {quantity::unit, [](const FitRow& row) { return row.shown.form.unit; }}},
-                          fit_quantities(),
-                          {{quantity::reason, [](const FitRow& row) { return row.fit->reason; }}}});
+const report::Quantities<SurrogateOutput> surrogate_quantities = keys::joined<SurrogateOutput>(
+    {{{quantity::output, &SurrogateOutput::name},
+      {quantity::unit, [](const SurrogateOutput& output) { return shown(output).form.unit; }}},
+     fit_quantities(),
+     {{quantity::reason, &SurrogateOutput::reason}}});
 
 }  // namespace
 
@@ -153,26 +153,23 @@ report::Column shown(const SurrogateOutput& output) {
   return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
 }
 
-report::Quantities<FitRow> fit_quantities() {
+report::Quantities<SurrogateOutput> fit_quantities() {
   using keys::count, keys::significant, keys::text;
-  const auto is_fitted = [](const FitRow& row) { return row.fit && row.fit->fit.chaos.points > 0; };
-  const auto of_fit = [=](auto get) {
-    return [=](const FitRow& row) {
-      return is_fitted(row) ? std::optional(std::invoke(get, *row.fit)) : std::nullopt;
+  const auto of_fit = [](auto get) {
+    return [=](const SurrogateOutput& output) {
+      return output.fit.chaos.points > 0 ? std::optional(get(output)) : std::nullopt;
     };
   };
   const auto error_of = [=](auto get) {
-    return [=](const FitRow& row) {
-      return is_fitted(row) ? shown_value(std::invoke(get, *row.fit), row.shown.form) : study::not_a_number;
-    };
+    return of_fit(
+        [=](const SurrogateOutput& output) { return shown_value(get(output), shown(output).form); });
   };
   return {{"fitted", "fitted", count(), "Evaluations that were fitted.",
            of_fit([](const SurrogateOutput& output) { return output.fit.chaos.points; })},
           {"fit", "fit", text(), "What predicts: the one with the smaller leave-one-out error.",
-           [=](const FitRow& row) {
-             if (!is_fitted(row)) return "";
-             return row.fit->fit.by_process() ? "Gaussian process" : "polynomial";
-           }},
+           of_fit([](const SurrogateOutput& output) {
+             return output.fit.by_process() ? "Gaussian process" : "polynomial";
+           })},
           {"terms", "terms", count(), "Terms of the polynomial.",
            of_fit([](const SurrogateOutput& output) { return output.fit.chaos.terms.size(); })},
           {"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the polynomial.",
@@ -198,31 +195,29 @@ std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, con
   return {{"surrogate.json", to_json_text(record)}, {"ask.html", ask_page(record, study)}};
 }
 
-Fault check_sweep_surrogate(const StudyFile& study) {
+void check_sweep_surrogate(const StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
   if (study.study.gaps_by_cooling)
-    return fault_at(study, "surrogate", "true with gap.opens_by_cooling",
-                    "surrogate = false, or gap.thickness");
+    refuse_at(study, "surrogate", "true with gap.opens_by_cooling", "surrogate = false, or gap.thickness");
   // A fit over what the reservoir says would answer for gaps of which it is not the model.
   if (study.scene.scene.surface.model != scene::GapModel::reservoir)
-    return fault_at(study, "surrogate", "true for a gap that closes",
-                    "surrogate = false, or gap.model = \"reservoir\"");
+    refuse_at(study, "surrogate", "true for a gap that closes",
+              "surrogate = false, or gap.model = \"reservoir\"");
   if (axes.empty())
-    return fault_at(study, "surrogate", "nothing that varies", "a [[vary]] for every input of the fit");
-  for (const Axis& axis : axes)
-    if (Fault fault = check_axis(study, axis)) return fault;
+    refuse_at(study, "surrogate", "nothing that varies", "a [[vary]] for every input of the fit");
   std::size_t all = 1, fitted = 1;
   for (const Axis& axis : axes) {
+    check_axis(study, axis);
     all *= axis.values.size();
     fitted *= axis.values.size() - held_out_values(axis).size();
   }
   const std::size_t fewest = math::fewest_chaos_points(axes.size());
-  if (all - fitted >= fewest_held_out && fitted >= fewest && all <= most_launches) return std::nullopt;
-  return fault_at(
-      study, "surrogate",
-      fmt::format("{} cases, {} to be fitted and {} between these to be held out", all, fitted, all - fitted),
-      fmt::format("up to {} cases, at least {} of them fitted and {} held out", most_launches, fewest,
-                  fewest_held_out));
+  if (all - fitted < fewest_held_out || fitted < fewest || all > most_launches)
+    refuse_at(study, "surrogate",
+              fmt::format("{} cases, {} to be fitted and {} between these to be held out", all, fitted,
+                          all - fitted),
+              fmt::format("up to {} cases, at least {} of them fitted and {} held out", most_launches, fewest,
+                          fewest_held_out));
 }
 
 SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
@@ -253,9 +248,7 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
 }
 
 report::Table surrogate_table(const SurrogateRecord& record) {
-  std::vector<FitRow> rows;
-  for (const SurrogateOutput& output : record.outputs) rows.push_back({shown(output), &output});
-  return report::table_of("What the fit of these cases misses", surrogate_quantities, rows,
+  return report::table_of("What the fit of these cases misses", surrogate_quantities, record.outputs,
                           said("critical_gap.surrogate"));
 }
 

@@ -11,8 +11,6 @@
 
 namespace launchsafe::kinds {
 
-using study::Fault;
-
 namespace {
 
 using math::Distribution;
@@ -20,7 +18,6 @@ using scene::Dimension, scene::KeyDescription, scene::Place;
 
 constexpr const char *table_name = "vary", *variants_key = "variants", *calibration_key = "calibration";
 
-/// One entry as read.
 struct VaryText {
   std::string name;
   scene::KeyDescription key;   ///< of the scene
@@ -92,15 +89,16 @@ struct VaryReader {
   std::string study_key(const std::string& key) const {
     return fmt::format("{}.{}.{}", table_name, index, key);
   }
-  scene::InputError fault(const std::string& key, std::string found, std::string allowed,
-                          std::string suggestion = {}) const {
-    return scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
-                           std::move(suggestion));
+  [[noreturn]] void refuse(const std::string& key, std::string found, std::string allowed,
+                           std::string suggestion = {}) const {
+    throw Refusal{scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
+                                  std::move(suggestion))};
   }
-  /// The fault of a key that is missing and that an entry such as `what` needs.
-  scene::InputError missing(const std::string& key, const std::string& what) const {
-    return fault(key, fmt::format("nothing; {} needs it", what),
-                 scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
+  /// Refuses an entry such as `what`, which needs this key, without it.
+  void need(const std::string& key, const std::string& what) const {
+    if (!given(key))
+      refuse(key, fmt::format("nothing; {} needs it", what),
+             scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
   }
 };
 
@@ -109,25 +107,18 @@ struct VaryReader {
 /// Deviations of a normal that is not cut off which must lie within the limits of its key.
 constexpr double deviations_within_limits = 4.0;
 
-std::string to_string(Distribution::Kind kind) {
-  constexpr std::array words{"uniform", "log-uniform", "normal"};
-  return words.at(static_cast<std::size_t>(kind));
-}
-
 /// Keys that the distribution needs, and those that would silently do nothing.
-Fault check_given(const VaryReader& reader) {
+void check_given(const VaryReader& reader) {
   const bool normal = reader.text.distribution.kind == Distribution::Kind::normal;
-  const std::string what = fmt::format("a {} distribution", to_string(reader.text.distribution.kind));
-  if (!normal && !reader.given("range")) return reader.missing("range", what);
+  const auto word = scene::find_key(distribution_keys({}), "distribution")->get(reader.text.distribution);
+  const std::string kind = std::get<std::string>(word), what = "a " + kind + " distribution";
+  if (!normal) reader.need("range", what);
   for (const char* key : {"mean", "deviation"}) {
-    if (normal && !reader.given(key)) return reader.missing(key, what);
-    if (!normal && reader.given(key)) {
-      return reader.fault(
-          key, "a key of distribution \"normal\"",
-          fmt::format("range alone for distribution \"{}\"", to_string(reader.text.distribution.kind)));
-    }
+    if (normal) reader.need(key, what);
+    if (!normal && reader.given(key))
+      reader.refuse(key, "a key of distribution \"normal\"",
+                    fmt::format("range alone for distribution \"{}\"", kind));
   }
-  return std::nullopt;
 }
 
 std::string range_text(double lower, double upper, Dimension dimension) {
@@ -137,196 +128,179 @@ std::string range_text(double lower, double upper, Dimension dimension) {
 
 /// A normal without a range must in practice stay within the limits of its key. The range to write for one
 /// that does not is suggested, unless the limits leave none.
-Fault check_reach(const VaryReader& reader) {
+void check_reach(const VaryReader& reader) {
   const KeyDescription& key = reader.text.key;
   const Distribution& normal = reader.text.distribution;
-  if (normal.kind != Distribution::Kind::normal || reader.given("range")) return std::nullopt;
+  if (normal.kind != Distribution::Kind::normal || reader.given("range")) return;
   const double reach = deviations_within_limits * normal.deviation;
   const double lower = normal.centre - reach, upper = normal.centre + reach;
   const auto may_be = [&](double value) { return key.limits.contain(value); };
-  if (may_be(lower) && may_be(upper)) return std::nullopt;
+  if (may_be(lower) && may_be(upper)) return;
   const double from = std::max(lower, key.limits.lowest), to = std::min(upper, key.limits.highest);
-  return reader.fault(
-      "deviation",
-      fmt::format("values of {} within {:g} deviations, outside the limits of {}",
-                  range_text(lower, upper, key.dimension), deviations_within_limits, key.name),
-      "a range that cuts the normal off: " + scene::allowed_text(key),
-      from < to && may_be(from) && may_be(to)
-          ? fmt::format("range = \"{}\"", range_text(from, to, key.dimension))
-          : "");
+  reader.refuse("deviation",
+                fmt::format("values of {} within {:g} deviations, outside the limits of {}",
+                            range_text(lower, upper, key.dimension), deviations_within_limits, key.name),
+                "a range that cuts the normal off: " + scene::allowed_text(key),
+                from < to && may_be(from) && may_be(to)
+                    ? fmt::format("range = \"{}\"", range_text(from, to, key.dimension))
+                    : "");
 }
 
 /// Whether the distribution of an entry is whole and possible.
-Fault check_distribution(const VaryReader& reader) {
-  if (Fault fault = check_given(reader)) return fault;
+void check_distribution(const VaryReader& reader) {
+  check_given(reader);
   const Dimension dimension = reader.text.key.dimension;
   const Distribution& of = reader.text.distribution;
   const std::string range = range_text(of.lower, of.upper, dimension);
   if (of.kind == Distribution::Kind::log_uniform && !(of.lower > 0.0))
-    return reader.fault("range", range + ", whose lower end has no logarithm",
-                        "a range above 0 for distribution \"log-uniform\"");
-  if (Fault fault = check_reach(reader)) return fault;
-  if (math::is_valid(of)) return std::nullopt;
-  return reader.fault("range",
-                      fmt::format("{}, where a normal of mean {} and deviation {} has no share", range,
-                                  scene::format_quantity(of.centre, dimension),
-                                  scene::format_quantity(of.deviation, scene::difference_of(dimension))),
-                      "a range near the mean");
+    reader.refuse("range", range + ", whose lower end has no logarithm",
+                  "a range above 0 for distribution \"log-uniform\"");
+  check_reach(reader);
+  if (!math::is_valid(of))
+    reader.refuse("range",
+                  fmt::format("{}, where a normal of mean {} and deviation {} has no share", range,
+                              scene::format_quantity(of.centre, dimension),
+                              scene::format_quantity(of.deviation, scene::difference_of(dimension))),
+                  "a range near the mean");
 }
 
 // --- entries ---
 
 /// The scene key that an entry names, which the dimension of its other keys follows from.
-scene::Expected<KeyDescription> read_scene_key(VaryReader& reader, const Varied& admitted) {
+KeyDescription read_scene_key(VaryReader& reader, const Varied& admitted) {
   const toml::node* node = reader.table.get("key");
   const KeyDescription description = *scene::find_key(vary_keys({}), "key");
-  if (!node) return reader.fault("key", "nothing; the key is missing", scene::allowed_text(description));
-  const auto value = scene::read_value(*node, description, reader.study.file);
-  if (!value) return scene::within(table_name, value.error());
-  const std::string& name = std::get<std::string>(*value);
+  if (!node) reader.refuse("key", "nothing; the key is missing", scene::allowed_text(description));
+  const std::string name =
+      std::get<std::string>(taken(scene::read_value(*node, description, reader.study.file), table_name));
   const Place place = scene::place_of(*node, reader.study.file);
   reader.places["key"] = place;
   if (name == "gap" || name == "gap.thickness")
-    return reader.fault("key", name + ", which all cases share",
-                        "a scene key that takes one number; the gaps are the study's key gaps");
-  auto key = varied_key(reader.study, name, "vary.key", place);
-  if (key && admitted.distributions && key->dimension == Dimension::count)
-    return reader.fault("key", name + ", a whole number", "a key that may take any number between two");
+    reader.refuse("key", name + ", which all cases share",
+                  "a scene key that takes one number; the gaps are the study's key gaps");
+  KeyDescription key = taken(varied_key(reader.study, name, "vary.key", place));
+  if (admitted.distributions && key.dimension == Dimension::count)
+    reader.refuse("key", name + ", a whole number", "a key that may take any number between two");
   return key;
 }
 
 /// The values of an entry without a distribution: those that it lists, or so many in a range, evenly spaced.
-Fault settle_values(VaryReader& reader) {
+void settle_values(VaryReader& reader) {
   VaryText& text = reader.text;
   for (const char* key : {"distribution", "mean", "deviation"})
     if (reader.given(key))
-      return reader.fault(key, "a distribution in a study of kind " + reader.study.study.kind.name,
-                          "values, or a range with a count");
+      reader.refuse(key, "a distribution in a study of kind " + reader.study.study.kind.name,
+                    "values, or a range with a count");
   if (reader.given("values")) {
     for (const char* key : {"range", "count"})
       if (reader.given(key))
-        return reader.fault(key, std::string(key) + " beside values", "values, or a range with a count");
-    return std::nullopt;
+        reader.refuse(key, std::string(key) + " beside values", "values, or a range with a count");
+    return;
   }
-  if (!reader.given("range")) return reader.missing("values", "an entry without a range");
-  if (!reader.given("count")) return reader.missing("count", "a range without a distribution");
+  if (!reader.given("range")) reader.need("values", "an entry without a range");
+  reader.need("count", "a range without a distribution");
   const double step = (text.distribution.upper - text.distribution.lower) / (text.count - 1);
   for (int i = 0; i + 1 < text.count; ++i) text.values.push_back(text.distribution.lower + step * i);
   text.values.push_back(text.distribution.upper);
   for (const double value : text.values)
     if (text.key.dimension == Dimension::count && value != std::round(value))
-      return reader.fault("count", fmt::format("{} values, one of which is {:g}", text.count, value),
-                          "a count that leaves whole numbers");
-  return std::nullopt;
+      reader.refuse("count", fmt::format("{} values, one of which is {:g}", text.count, value),
+                    "a count that leaves whole numbers");
 }
 
-Fault read_entry(VaryReader& reader, const Varied& admitted) {
-  const auto key = read_scene_key(reader, admitted);
-  if (!key) return key.error();
-  reader.text.key = *key;
-  auto read = scene::read_table(reader.table, vary_keys(*key), {}, reader.study.file, reader.text);
-  if (!read) return scene::within(table_name, read.error());
-  reader.places = std::move(*read);
+void read_entry(VaryReader& reader, const Varied& admitted) {
+  const KeyDescription key = reader.text.key = read_scene_key(reader, admitted);
+  reader.places =
+      taken(scene::read_table(reader.table, vary_keys(key), {}, reader.study.file, reader.text), table_name);
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
-  if (Fault fault = check_free(reader.study, key->name, reader.place_of("key"), "vary.key")) return fault;
-  study::Axis axis{study::name_of_axis(key->name), reader.study_key("key"), *key, {}};
+  refuse_if(check_free(reader.study, key.name, reader.place_of("key"), "vary.key"));
+  study::Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};
   if (admitted.distributions) {
     for (const char* given : {"values", "count"})
       if (reader.given(given))
-        return reader.fault(given, std::string(given) + " in a study of kind " + reader.study.study.kind.name,
-                            "a distribution");
-    if (!reader.given("distribution")) return reader.missing("distribution", "an entry of this kind");
-    if (Fault fault = check_distribution(reader)) return fault;
+        reader.refuse(given, std::string(given) + " in a study of kind " + reader.study.study.kind.name,
+                      "a distribution");
+    reader.need("distribution", "an entry of this kind");
+    check_distribution(reader);
     axis.distribution = reader.text.distribution;
     axis.values_key = reader.study_key(reader.given("range") ? "range" : "deviation");
   } else {
-    if (Fault fault = settle_values(reader)) return fault;
+    settle_values(reader);
     axis.values_key = reader.study_key(reader.given("values") ? "values" : "range");
-    if (Fault fault = check_twice(reader.study, axis.values_key, key->dimension, reader.text.values))
-      return fault;
+    refuse_if(check_twice(reader.study, axis.values_key, key.dimension, reader.text.values));
     axis.values = std::move(reader.text.values);
   }
   reader.study.study.axes.push_back(std::move(axis));
-  return std::nullopt;
 }
 
 /// Entries of other forms have no other key.
-Fault check_variants(const VaryReader& reader, const Varied& admitted) {
+void check_variants(const VaryReader& reader, const Varied& admitted) {
   if (!admitted.variants)
-    return scene::error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file),
-                           "vary.variants", "variants in a study of kind " + reader.study.study.kind.name,
-                           "a key of the scene; variants are compared by kind comparison");
-  auto read = scene::read_described(reader.table, {}, {variants_key}, reader.study.file);
-  if (!read) return scene::within(table_name, read.error());
-  return std::nullopt;
+    refuse_if(scene::error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file),
+                              "vary.variants", "variants in a study of kind " + reader.study.study.kind.name,
+                              "a key of the scene; variants are compared by kind comparison"));
+  taken(scene::read_described(reader.table, {}, {variants_key}, reader.study.file), table_name);
 }
 
 // --- the constants of a calibration, together ---
 
 /// Whether the study's scene and keys allow constants of a record to vary.
-Fault check_place_of_record(const VaryReader& reader) {
+void check_place_of_record(const VaryReader& reader) {
   const study::StudyFile& study = reader.study;
   if (settings_of<SensitivitySettings>(study.study).correlated)
-    return reader.fault("calibration", "a second calibration", "one calibration among what varies");
+    reader.refuse("calibration", "a second calibration", "one calibration among what varies");
   if (!study.study.calibration_record.empty())
-    return reader.fault("calibration", "a calibration beside that of the study",
-                        "one of both: the constants vary around those of the record that [[vary]] names",
-                        "leave out calibration = \"" + study.study.calibration_record + "\"");
+    reader.refuse("calibration", "a calibration beside that of the study",
+                  "one of both: the constants vary around those of the record that [[vary]] names",
+                  "leave out calibration = \"" + study.study.calibration_record + "\"");
   const scene::Load& load = study.scene.scene.load;
-  if (load.curve_time.empty() && load.shape == scene::LoadShape::bell) return std::nullopt;
-  return reader.fault("calibration",
-                      fmt::format("constants of a bell for a scene whose load is {}",
-                                  load.curve_time.empty() ? '"' + scene::word_of(load.shape) + '"'
-                                                          : std::string("a measured curve")),
-                      "a scene with load.shape = \"bell\"");
+  if (!load.curve_time.empty() || load.shape != scene::LoadShape::bell)
+    reader.refuse("calibration",
+                  fmt::format("constants of a bell for a scene whose load is {}",
+                              load.curve_time.empty() ? '"' + scene::word_of(load.shape) + '"'
+                                                      : std::string("a measured curve")),
+                  "a scene with load.shape = \"bell\"");
 }
 
 /// The record, with a covariance.
-scene::Expected<study::CalibrationRecord> read_covariance(VaryReader& reader,
-                                                          const std::filesystem::path& folder) {
+study::CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
   const std::string& name = reader.text.name;
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
-  const auto text =
-      study::read_named_file(reader.study, folder, reader.study_key("calibration"), name, wanted);
-  if (!text) return text.error();
-  auto record = study::parse_calibration_record(*text, (folder / name).string());
-  if (!record) return record;
-  reader.study.records.push_back(store::sha256(*text));
-  if (!record->failure.empty())
-    return reader.fault("calibration", "a record without constants: " + record->failure, wanted);
-  if (record->covariance.empty())
-    return reader.fault("calibration", "a record without a covariance: its load was not fitted", wanted);
+  const std::string text =
+      taken(study::read_named_file(reader.study, folder, reader.study_key("calibration"), name, wanted));
+  auto record = taken(study::parse_calibration_record(text, (folder / name).string()));
+  reader.study.records.push_back(store::sha256(text));
+  if (!record.failure.empty())
+    reader.refuse("calibration", "a record without constants: " + record.failure, wanted);
+  if (record.covariance.empty())
+    reader.refuse("calibration", "a record without a covariance: its load was not fitted", wanted);
   return record;
 }
 
-Fault read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
-  auto read = scene::read_table(reader.table, vary_record_keys, {}, reader.study.file, reader.text);
-  if (!read) return scene::within("vary", read.error());
-  reader.places = std::move(*read);
+void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
+  reader.places = taken(scene::read_table(reader.table, vary_record_keys, {}, reader.study.file, reader.text),
+                        table_name);
   const Place place = reader.place_of("calibration");
   const std::string study_key = reader.study_key("calibration");
   reader.study.places[study_key] = place;
-  if (Fault fault = check_place_of_record(reader)) return fault;
-  const auto record = read_covariance(reader, folder);
-  if (!record) return record.error();
+  check_place_of_record(reader);
+  const study::CalibrationRecord record = read_covariance(reader, folder);
   constexpr std::size_t count = study::fitted_keys.size();
-  auto factor = math::covariance_factor(record->covariance, count);
+  auto factor = math::covariance_factor(record.covariance, count);
   if (!factor)
-    return reader.fault("calibration", "a record whose covariance is not positive definite",
-                        "the record of a calibration whose fit is not singular");
+    reader.refuse("calibration", "a record whose covariance is not positive definite",
+                  "the record of a calibration whose fit is not singular");
   study::Study& study = reader.study.study;
   settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
   for (std::size_t i = 0; i < count; ++i) {
     const std::string key_name = study::fitted_keys[i];
-    if (Fault fault = check_free(reader.study, key_name, place, "vary.calibration")) return fault;
-    const auto key = varied_key(reader.study, key_name, "vary.calibration", place);
-    if (!key) return key.error();
+    refuse_if(check_free(reader.study, key_name, place, "vary.calibration"));
+    const KeyDescription key = taken(varied_key(reader.study, key_name, "vary.calibration", place));
     const double median =
-        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record->calibration.scene));
-    const double deviation = std::sqrt(record->covariance[i * count + i]);
-    study.axes.push_back({key_name, study_key, *key, {}, Distribution::log_normal(median, deviation)});
+        std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record.calibration.scene));
+    const double deviation = std::sqrt(record.covariance[i * count + i]);
+    study.axes.push_back({key_name, study_key, key, {}, Distribution::log_normal(median, deviation)});
   }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -356,40 +330,36 @@ StudyTable vary_table() {
   return table;
 }
 
-Fault read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study) {
-  const auto tables = admitted.needed.empty()
-                          ? study::tables_of(source.root, table_name, study.file)
-                          : some_tables_of(source.root, table_name, study, admitted.needed);
-  if (!tables) return tables.error();
-  std::size_t index = 0;
-  for (const toml::table* table : *tables) {
+void read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study) {
+  const auto tables =
+      taken(admitted.needed.empty() ? study::tables_of(source.root, table_name, study.file)
+                                    : some_tables_of(source.root, table_name, study, admitted.needed));
+  for (std::size_t index = 0; const toml::table* table : tables) {
     VaryReader reader{study, *table, index++};
-    const bool calibrated = admitted.distributions && table->contains(calibration_key);
-    Fault fault = table->contains(variants_key) ? check_variants(reader, admitted)
-                  : calibrated                  ? read_calibrated(reader, source.folder)
-                                                : read_entry(reader, admitted);
-    if (fault) return fault;
+    if (table->contains(variants_key))
+      check_variants(reader, admitted);
+    else if (admitted.distributions && table->contains(calibration_key))
+      read_calibrated(reader, source.folder);
+    else
+      read_entry(reader, admitted);
   }
-  return std::nullopt;
 }
 
-scene::Expected<std::vector<const toml::table*>> variants_in(const StudySource& source,
-                                                             const study::StudyFile& study) {
+std::vector<const toml::table*> variants_in(const StudySource& source, const study::StudyFile& study) {
   const toml::node* entries = source.root.get(table_name);
   std::vector<const toml::table*> variants;
   for (const toml::node& entry : *entries->as_array()) {
     const toml::table& table = *entry.as_table();
     if (!table.contains(variants_key)) continue;
     if (!variants.empty())
-      return scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                             "all variants in one [[vary]]");
-    auto found = study::tables_of(table, variants_key, study.file);
-    if (!found) return scene::within(table_name, found.error());
-    variants = std::move(*found);
+      refuse_if(scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
+                                "all variants in one [[vary]]"));
+    variants = taken(study::tables_of(table, variants_key, study.file), table_name);
   }
-  if (!variants.empty()) return variants;
-  return scene::error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
-                         "a [[vary]] with variants, each with a name and what it changes");
+  if (variants.empty())
+    refuse_if(scene::error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
+                              "a [[vary]] with variants, each with a name and what it changes"));
+  return variants;
 }
 
 }  // namespace launchsafe::kinds

@@ -55,8 +55,8 @@ TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
   EXPECT_GT(total.calibrated.constants.ignition_temperature, total.calibrated.ignition_lowest);
   EXPECT_LT(total.calibrated.constants.ignition_temperature, total.calibrated.ignition_highest);
   EXPECT_LT(total.root_mean_square, 1e-5);
-  ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
-  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::total_strain_rate);
+  ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
+  EXPECT_EQ(result.rows[*result.recommended_row].closure, scene::FrictionClosure::total_strain_rate);
 }
 
 TEST(Calibration, FitsNothingButItsThreeRows) {
@@ -97,7 +97,7 @@ TEST(Calibration, ATraceWithoutFrictionSaysSoAndRecommendsNothing) {
   const CalibrationResult result = run_calibration(
       study_of(calibration_text + published({951.0, 4.2e-4, 0}, trace) + synthetic_constants), options);
   EXPECT_NE(result.rows[0].failure.find("no localisation"), std::string::npos) << result.rows[0].failure;
-  EXPECT_FALSE(result.recommendation.row.has_value());
+  EXPECT_FALSE(result.recommended_row.has_value());
 }
 
 /// Where the reaction runs away by itself, the middle of a safe and a burning temperature is none to ignite
@@ -110,7 +110,7 @@ TEST(Calibration, ARunawayGivesNoIgnitionTemperature) {
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + rows + synthetic_constants), synthetic_options());
   EXPECT_NE(result.rows[0].failure.find("runs away by itself"), std::string::npos) << result.rows[0].failure;
-  EXPECT_FALSE(result.recommendation.row.has_value());
+  EXPECT_FALSE(result.recommended_row.has_value());
 }
 
 TEST(Calibration, AFailedMeshIsItsOwnFailure) {
@@ -129,7 +129,7 @@ TEST(Calibration, AFailedMeshIsItsOwnFailure) {
   ASSERT_EQ(result.rows.size(), 6u);
   EXPECT_TRUE(result.rows[0].failure.empty());
   EXPECT_NE(result.rows[3].failure.find("non-finite"), std::string::npos);
-  EXPECT_FALSE(result.recommendation.row.has_value());
+  EXPECT_FALSE(result.recommended_row.has_value());
 }
 
 TEST(Calibration, MeasuresTheChangeBetweenMeshes) {
@@ -144,8 +144,8 @@ TEST(Calibration, MeasuresTheChangeBetweenMeshes) {
                       options);
   ASSERT_EQ(result.convergence.size(), 2u);
   EXPECT_NEAR(result.convergence[0].localisation_change, -0.25, 1e-6);
-  ASSERT_TRUE(result.recommendation.row.has_value());
-  EXPECT_EQ(result.rows[*result.recommendation.row].cell_size, 1.25e-3);  // the scene's mesh
+  ASSERT_TRUE(result.recommended_row.has_value());
+  EXPECT_EQ(result.rows[*result.recommended_row].cell_size, 1.25e-3);  // the scene's mesh
 }
 
 TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
@@ -165,10 +165,10 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
   rows.replace(rows.find(key) + key.size(), 1, "9");  // a misfit that both share
   const CalibrationResult result =
       run_calibration(study_of(calibration_text + rows + synthetic_constants), options);
-  ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
-  EXPECT_EQ(result.rows[*result.recommendation.row].closure, scene::FrictionClosure::total_strain_rate);
-  EXPECT_NE(result.recommendation.reason.find("does not separate them"), std::string::npos)
-      << result.recommendation.reason;
+  ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
+  EXPECT_EQ(result.rows[*result.recommended_row].closure, scene::FrictionClosure::total_strain_rate);
+  EXPECT_NE(result.reason.find("does not separate them"), std::string::npos)
+      << result.reason;
 }
 
 // --- the load ---
@@ -238,7 +238,7 @@ TEST(CalibrationOfLoad, RecoversLoadAndConstantsOfASyntheticTruth) {
   EXPECT_NEAR(result.load->bell->peak_time, truth.scene.load.peak_time, 1e-3 * truth.scene.load.peak_time);
   EXPECT_NEAR(result.load->bell->width, truth.scene.load.width, 3e-3 * truth.scene.load.width);
   EXPECT_NEAR(result.load->bell->steepness, truth.scene.load.steepness, 3e-3 * truth.scene.load.steepness);
-  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  ASSERT_TRUE(result.recommended()) << result.reason;
   const surface::SurfaceConstants& constants = result.recommended()->calibrated.constants;
   EXPECT_NEAR(constants.localisation, truth.localisation, 1e-3 * truth.localisation);
   EXPECT_NEAR(constants.exchange_time, truth.exchange_time, 3e-3 * truth.exchange_time);
@@ -247,7 +247,7 @@ TEST(CalibrationOfLoad, RecoversLoadAndConstantsOfASyntheticTruth) {
 TEST(CalibrationOfLoad, SaysWhatEachPublishedNumberIsUsedFor) {
   const CalibrationResult result =
       run_calibration(study_of(load_text + "references = \"table8.toml\"\n"), squared_pressure_options());
-  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  ASSERT_TRUE(result.recommended()) << result.reason;
   const CalibrationRow& row = *result.recommended();
   std::map<Use, std::size_t> uses;
   for (const ComparedNumber& each : row.compared) {
@@ -265,7 +265,7 @@ TEST(CalibrationOfLoad, SaysWhatEachPublishedNumberIsUsedFor) {
 TEST(CalibrationOfLoad, PutsAStraightLineBesideTheModel) {
   const CalibrationResult result =
       run_calibration(study_of(load_text + "references = \"table8.toml\"\n"), squared_pressure_options());
-  ASSERT_TRUE(result.recommended()) << result.recommendation.reason;
+  ASSERT_TRUE(result.recommended()) << result.reason;
   int compared = 0;
   for (const ComparedNumber& each : result.recommended()->compared) {
     if (each.quantity != "T max" || each.use == Use::fitted) continue;
@@ -282,7 +282,7 @@ TEST(CalibrationOfLoad, ASingularFitRecommendsNothing) {
   ASSERT_TRUE(result.load);
   EXPECT_NE(result.load->failure.find("do not determine"), std::string::npos) << result.load->failure;
   EXPECT_FALSE(result.recommended());
-  EXPECT_NE(result.recommendation.reason.find("no load is recommended"), std::string::npos);
+  EXPECT_NE(result.reason.find("no load is recommended"), std::string::npos);
 }
 
 TEST(CalibrationOfLoad, NeedsABellAndAsManyNumbersAsUnknowns) {

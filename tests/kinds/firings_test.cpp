@@ -44,15 +44,15 @@ TEST(Firings, GiveConstantsAndTheLaunchesThatWereFired) {
   EXPECT_DOUBLE_EQ(firings.firings[0].pressure, 496e6);  // the scene's
   EXPECT_EQ(result.conditions.size(), 1u);
   // 0 of 60 rounds: at most 1 - 0.05^(1/60) (Clopper and Pearson).
-  EXPECT_NEAR(result.rows[1].shown_highest, 1.0 - std::pow(0.05, 1.0 / 60.0), 1e-9);
+  EXPECT_NEAR(result.rows[1].shown.upper, 1.0 - std::pow(0.05, 1.0 / 60.0), 1e-9);
   EXPECT_NE(answer(result).find("a bound, not a fit"), std::string::npos) << answer(result);
 }
 
 TEST(Firings, MoreRoundsWithoutIgnitionLeaveALowerProbability) {
   const FiringResult few = fire(firing("no ignition", 2, "0.4 mm")),
                      many = fire(firing("no ignition", 50, "0.4 mm"));
-  EXPECT_LT(many.rows[0].predicted.mean, few.rows[0].predicted.mean);
-  EXPECT_LT(many.rows[0].predicted.highest, few.rows[0].predicted.highest);
+  EXPECT_LT(many.rows[0].predicted.value, few.rows[0].predicted.value);
+  EXPECT_LT(many.rows[0].predicted.upper, few.rows[0].predicted.upper);
 }
 
 TEST(Firings, ThatContradictEachOtherGiveNoRecord) {

@@ -272,7 +272,7 @@ TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   EXPECT_GE(json["calibrations"].size(), 6u);
   EXPECT_FALSE(json["compared"].empty());
   EXPECT_FALSE(json["placements"].empty());
-  ASSERT_TRUE(result.recommendation.row.has_value()) << result.recommendation.reason;
+  ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
   EXPECT_FALSE(kinds::constants_table(result).rows.empty());
   const std::string page = report::to_markdown(kinds::report_of(result));
   EXPECT_NE(page.find("The scene should hold"), std::string::npos);

@@ -105,28 +105,21 @@ void mark_front(std::vector<AccuracyRow>& rows);
 /// int q^2 dt.
 double relative_difference(const PressureTrace& p, const PressureTrace& q);
 
-/// Runs a study of kind accuracy.
 AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options = {});
-
-/// The answer in a few lines: how wrong the own setting of the first variant is, what the cheapest good
-/// settings are.
+/// How wrong the own setting of the first variant is, what the cheapest good settings are.
 std::string answer(const AccuracyResult& result);
+report::Report report_of(const AccuracyResult& result);
 
-/// A row for every variant: how wrong its own setting is, and why believe it.
+/// A row for every variant: how wrong its own setting is.
 report::Table variant_table(const AccuracyResult& result);
-/// A row for every setting: cost and errors. Like those that follow of all variants that have a reference,
-/// with their names in front where there are several.
+/// A row for every setting, for every compared quantity, and for the T max of every station: of all variants
+/// that have a reference, with their names in front where there are several.
 report::Table setting_table(const AccuracyResult& result);
-/// A row for every compared quantity: its values on the reference meshes, order, limit and uncertainty.
 report::Table reference_table(const AccuracyResult& result);
-/// The same for every station: T max.
 report::Table point_table(const AccuracyResult& result);
 
 /// Error of T max against processor time: bound and distance, and the front of the settings that no other one
 /// beats, which alone are named.
 report::Plot error_plot(const VariantAccuracy& variant);
-
-/// The whole report, with what is printed on a terminal and every file.
-report::Report report_of(const AccuracyResult& result);
 
 }  // namespace launchsafe::kinds

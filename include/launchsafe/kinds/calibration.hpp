@@ -2,9 +2,11 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/run_cases.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
 namespace launchsafe::kinds {
@@ -26,11 +28,11 @@ struct CalibrationRun {
   run::MechanicsResult mechanics = {};
   study::RunOutcome outcome = study::RunOutcome::ran;
   std::string failure = {};  ///< why it is no evidence, with no mechanics to calibrate on; empty where it is
-};
-
-/// The probability that a round ignites by the posterior: its mean, and where its middle 90 % lie.
-struct IgnitionProbability {
-  double mean = study::not_a_number, lowest = study::not_a_number, highest = study::not_a_number;
+  void take(const study::FinishedRun& run) {
+    outcome = run.outcome;
+    failure = run.failure;
+    mechanics = run.result.mechanics;
+  }
 };
 
 /// One firing beside what is computed of it.
@@ -41,8 +43,9 @@ struct FiringRow {
   int rounds = 0, ignited = 0;  ///< of this pressure, temperature and gap, in this and other firings
   /// With 95 % each the probability of a round is above and below these, by the rounds of this pressure,
   /// temperature and gap alone (Clopper and Pearson).
-  double shown_lowest = 0, shown_highest = 1;
-  IgnitionProbability predicted;
+  math::Interval shown{0, 1};
+  /// Likewise by the posterior: its mean, and where its middle 90 % lie.
+  math::Estimate predicted = math::no_estimate;
 };
 
 /// A constant before and after the firings: geometric mean and middle 90 %, SI.
@@ -75,17 +78,12 @@ struct FiringResult : StudyResult {
   bool any_indeterminate() const { return !record; }
 };
 
-/// Of every firing, the place of its pressure and temperature among those that differ, in their order.
-std::vector<std::size_t> conditions_of(const std::vector<study::Firing>& firings);
-
 /// One mechanical run a pressure and temperature; then boundaries of ignition on their traces, and the
 /// posterior.
 FiringResult run_firings(const study::StudyFile& study, const study::StudyOptions& options = {});
 
 std::string answer(const FiringResult& result);
 report::Report report_of(const FiringResult& result);
-/// What the tables of the report hold.
-std::vector<report::ReportTable> firing_results();
 
 /// What a study file of this kind says besides.
 struct CalibrationSettings {
@@ -113,8 +111,6 @@ struct CalibrationTargets {
   bool load_fitted = false;
   double early_time = 10e-3;  ///< s
 };
-/// The targets among a study's references, or what is missing.
-scene::Expected<CalibrationTargets> calibration_targets(const study::StudyFile& study);
 
 /// Constants with how well they meet the rows they were fitted to.
 struct CalibratedConstants {
@@ -204,10 +200,6 @@ struct MisfitBound {
 };
 MisfitBound misfit_bound(const CalibrationRow& row);
 
-/// Fills the compared numbers, the placements and the root mean squares of a row.
-void compare(const study::Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
-             CalibrationRow& row);
-
 /// How much a constant moves from the coarsest to the finest mesh.
 struct Convergence {
   scene::FrictionClosure closure = scene::FrictionClosure::total_strain_rate;
@@ -216,24 +208,17 @@ struct Convergence {
   double exchange_time_change = study::not_a_number;
 };
 
-/// What the evidence says.
-struct Recommendation {
-  std::optional<std::size_t> row;  ///< of `rows`: closure that misses least, on the mesh of the scene
-  std::string reason;
-};
-
 struct CalibrationResult : StudyResult {
   std::vector<CalibrationRun> runs;
   std::optional<FittedLoad> load;      ///< where the study asks for one; all runs are under it
   study::StationConvergence stations;  ///< around the recommended row
   std::vector<CalibrationRow> rows;    ///< mesh by mesh, closure by closure, kinetics by kinetics
   std::vector<Convergence> convergence;
-  Recommendation recommendation;
-  surface::SurfaceConstants in_scene;  ///< what the scene file holds now
+  std::optional<std::size_t> recommended_row;  ///< closure that misses least, on the mesh of the scene
+  std::string reason;                          ///< what the evidence says
+  surface::SurfaceConstants in_scene;          ///< what the scene file holds now
   /// The recommended row; nullptr without one.
-  const CalibrationRow* recommended() const {
-    return recommendation.row ? &rows[*recommendation.row] : nullptr;
-  }
+  const CalibrationRow* recommended() const { return recommended_row ? &rows[*recommended_row] : nullptr; }
 };
 
 /// Runs a study of kind calibration: one mechanical run a mesh, some more to fit the load, everything else on
@@ -245,11 +230,9 @@ std::optional<study::CalibrationRecord> record_of(const CalibrationResult& resul
 
 /// What the evidence supports, and which constants the scene should hold.
 std::string answer(const CalibrationResult& result);
+report::Report report_of(const CalibrationResult& result);
 
 /// The recommended constants beside those of the scene file.
 report::Table constants_table(const CalibrationResult& result);
-
-/// The whole report, with what is printed on a terminal and every file.
-report::Report report_of(const CalibrationResult& result);
 
 }  // namespace launchsafe::kinds

@@ -52,16 +52,13 @@ struct ComparisonResult : StudyResult {
 /// on the study alone.
 ComparisonResult run_comparison(const study::StudyFile& study, const study::StudyOptions& options = {});
 
-/// The answer in a few lines: the scene's critical gap, and how far the variants move it.
+/// The scene's critical gap, and how far the variants move it.
 std::string answer(const ComparisonResult& result);
-/// The whole report, with what is printed on a terminal and every file.
 report::Report report_of(const ComparisonResult& result);
 
 /// What is said, tabled, drawn and written of other models; nothing where a comparison is of no calibrated
-/// models.
+/// models. Then what its tables hold, but for the pressures of a study.
 void add_model_form(const ComparisonResult& result, report::Report& report);
-
-/// What its tables hold, but for the pressures of a study.
 std::vector<report::ReportTable> model_form_results();
 
 }  // namespace launchsafe::kinds

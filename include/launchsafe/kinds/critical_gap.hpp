@@ -28,6 +28,8 @@ CriticalGapResult run_critical_gap(const study::StudyFile& study, const study::S
 /// The answer in a few lines. In detail, of every case: "Critical gap 0.0395 cm ...", a bound, or why there
 /// is none; otherwise values and bounds, the smallest critical gap and where it is, verdicts, failures.
 std::string answer(const CriticalGapResult& result);
+/// Of a study that is not in detail nothing in it differs between two runs: no times, rates, dates or hosts.
+report::Report report_of(const CriticalGapResult& result);
 
 /// A row for every gap of every case.
 report::Table verdict_table(const CriticalGapResult& result);
@@ -51,9 +53,5 @@ struct GapPictures {
   std::vector<std::string> remarks;  ///< combinations that have no picture
 };
 GapPictures gap_pictures(const CriticalGapResult& result);
-
-/// The whole report. Of a study that is not in detail nothing in it differs between two runs: no times,
-/// rates, dates or hosts.
-report::Report report_of(const CriticalGapResult& result);
 
 }  // namespace launchsafe::kinds

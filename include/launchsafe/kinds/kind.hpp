@@ -59,9 +59,10 @@ struct Kind {
   std::vector<StudyTable> tables;
   Varied varies = {};  ///< of what becomes Study::axes; with none there is no [[vary]]
   /// Reads its own tables; null where it has none but [[vary]]. The study has its scene with the overrides.
-  study::Fault (*read)(const StudySource& source, study::StudyFile& study) = nullptr;
-  /// Fills StudyFile::cases. All else is known, the gaps to judge too.
-  study::Fault (*make_cases)(const StudySource& source, study::StudyFile& study);
+  /// Throws what is wrong with them (src/kinds/study_keys.hpp).
+  void (*read)(const StudySource& source, study::StudyFile& study) = nullptr;
+  /// Fills StudyFile::cases. All else is known, the gaps to judge too. Throws likewise.
+  void (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
   /// Of its reports, besides report.md, study.json and those of tables: names, with "*" for what the study
   /// decides.
@@ -78,6 +79,10 @@ const Settings& settings_of(const study::Study& study) {
   return study.settings ? std::any_cast<const Settings&>(*study.settings) : defaults;
 }
 template <class Settings>
+const Settings& settings_of(const study::StudyFile& study) {
+  return settings_of<Settings>(study.study);
+}
+template <class Settings>
 Settings& settings_of(study::Study& study) {
   if (study.settings.use_count() != 1)
     study.settings = std::make_shared<std::any>(settings_of<Settings>(std::as_const(study)));
@@ -86,18 +91,6 @@ Settings& settings_of(study::Study& study) {
 
 /// Every kind of study there is: each is a row, with what its tables hold but for what a study asks.
 const std::vector<Kind>& kinds();
-Kind critical_gap_kind();
-std::vector<report::ReportTable> critical_gap_results();
-Kind calibration_kind();
-std::vector<report::ReportTable> calibration_results();
-Kind sensitivity_kind();
-std::vector<report::ReportTable> sensitivity_results();
-Kind accuracy_kind();
-std::vector<report::ReportTable> accuracy_results();
-Kind stability_kind();
-std::vector<report::ReportTable> stability_results();
-Kind comparison_kind();
-std::vector<report::ReportTable> comparison_results();
 /// The kind of a study that was read.
 const Kind& kind_of(const study::Study& study);
 /// The kind of that name; a name that no kind has is a programming error.

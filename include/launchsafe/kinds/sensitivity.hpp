@@ -30,6 +30,7 @@ struct SensitivitySettings {
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
   std::optional<study::CorrelatedInputs> correlated = {};  ///< of Study::axes
+  math::SobolOptions bootstrap() const { return {confidence, static_cast<std::size_t>(resamples), seed}; }
 };
 
 /// What has indices of its own: an axis, or those that vary together, since indices need independent inputs.
@@ -100,21 +101,19 @@ SensitivityResult run_sensitivity(const study::StudyFile& study, const study::St
 
 /// Which inputs matter, as far as the intervals tell them apart; what cannot be told; what failed.
 std::string answer(const SensitivityResult& result);
+/// Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
+report::Report report_of(const SensitivityResult& result);
 
 /// A row for every input: its distribution, and indices with their intervals. Method, N, design, seed and
-/// confidence are in the notes; so is the reason where an output has no indices.
+/// confidence are in the notes; so is the reason where an output has no indices. The second has all outputs
+/// below each other, for other programs.
 report::Table sensitivity_table(const SensitivityResult& result, const OutputSensitivity& output);
-/// All outputs below each other, for other programs.
 report::Table sensitivity_table(const SensitivityResult& result);
-/// A row for every output: its mean and standard deviation, and why it has no indices where it has none.
+/// A row for every output, and for every evaluation: its inputs, outputs and failure.
 report::Table output_table(const SensitivityResult& result);
-/// A row for every evaluation: its inputs, outputs and failure.
 report::Table evaluation_table(const SensitivityResult& result);
 
 /// First and total order of every input with their intervals.
 report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output);
-
-/// The whole report. Nothing in it differs between two runs of a study: no times, rates, dates or hosts.
-report::Report report_of(const SensitivityResult& result);
 
 }  // namespace launchsafe::kinds

@@ -10,12 +10,8 @@ namespace launchsafe::kinds {
 /// "T max at a gap of 0.2 mm, without reaction" in K, or "critical gap" in cm.
 report::Column shown(const study::SurrogateOutput& output);
 
-/// An output in a table with its fit; null where it has none.
-struct FitRow {
-  report::Column shown;
-  const study::SurrogateOutput* fit = nullptr;
-};
-report::Quantities<FitRow> fit_quantities();
+/// How good the fit of an output is; nothing where it has none.
+report::Quantities<study::SurrogateOutput> fit_quantities();
 
 /// Why nothing is fitted to critical gaps of which so many are bounds.
 std::string bounds_reason(std::size_t bounds, std::size_t all);

@@ -103,9 +103,8 @@ StabilityResult run_stability(const study::StudyFile& study, const study::StudyO
 /// How many cases came out how; and every one that is WRONG, not as expected or not computed, by name.
 std::string answer(const StabilityResult& result);
 
-/// The whole report; its file stability.csv has a row for every gap of every case: what must hold, what
-/// became of it, why, and the numbers behind it. Nothing in it differs between two runs of a study: no times,
-/// rates, dates or hosts.
+/// Its file stability.csv has a row for every gap of every case. Nothing in it differs between two runs of a
+/// study: no times, rates, dates or hosts.
 report::Report report_of(const StabilityResult& result);
 
 }  // namespace launchsafe::kinds
