@@ -1,5 +1,7 @@
 #include "launchsafe/report/gap_criterion.hpp"
 
+#include "launchsafe/scene/toml_reader.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -167,8 +167,7 @@ TEST(Calibration, SaysWhenTheEvidenceDoesNotTellTheClosuresApart) {
       run_calibration(study_of(calibration_text + rows + synthetic_constants), options);
   ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
   EXPECT_EQ(result.rows[*result.recommended_row].closure, scene::FrictionClosure::total_strain_rate);
-  EXPECT_NE(result.reason.find("does not separate them"), std::string::npos)
-      << result.reason;
+  EXPECT_NE(result.reason.find("does not separate them"), std::string::npos) << result.reason;
 }
 
 // --- the load ---

@@ -1,7 +1,6 @@
 // Sweeps over the peak pressure whose raised loads are interpolated between neighbouring cases. The launch is
 // one whose friction heats with the cube of the peak pressure, so that the interpolation has an error.
 #include "launchsafe/study/run_cases.hpp"
-
 #include "made_sweeps.hpp"
 
 namespace launchsafe::study {

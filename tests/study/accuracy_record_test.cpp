@@ -421,4 +421,13 @@ TEST_F(RecordedStudy, RefusesWhatIsNoRecord) {
   EXPECT_EQ(both.error().key, "numerical_uncertainty.value");
 }
 
+// What is not known is not forgotten for something known that comes after it: stations of a calibration once
+// passed as converged so.
+TEST(AccuracyRecord, TheLargerBoundIsNoneWhereOneOfThemIs) {
+  EXPECT_TRUE(std::isnan(larger_bound(not_a_number, 1.0)));
+  EXPECT_TRUE(std::isnan(larger_bound(1.0, not_a_number)));
+  EXPECT_EQ(larger_bound(1.0, 2.0), 2.0);
+  EXPECT_EQ(larger_bound(2.0, 1.0), 2.0);
+}
+
 }  // namespace
