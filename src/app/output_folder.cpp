@@ -1,6 +1,5 @@
 #include "output_folder.hpp"
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/sha256.hpp"

@@ -2,7 +2,6 @@
 // and against each other.
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "safety_facts.hpp"

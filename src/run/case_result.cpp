@@ -47,9 +47,6 @@ double mass_of(const MechanicsResult& mechanics, std::string_view material) {
   return 0.0;
 }
 
-namespace {
-
-/// The largest of a value of nodes on the end of the charge at `bottom` (m); NaN where one is.
 double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
                          std::vector<double> InterfaceResult::*values) {
   constexpr double touching = 1e-9;  // m
@@ -63,6 +60,8 @@ double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
   }
   return most;
 }
+
+namespace {
 
 /// Pa. A hundredth of an atmosphere: it heats nothing.
 constexpr double least_pressure = 1e3;
@@ -111,14 +110,6 @@ std::vector<SnapshotField> all_fields() {
 }
 
 }  // namespace
-
-double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom) {
-  return largest_at_bottom(mechanics, bottom, &InterfaceResult::friction_heat);
-}
-
-double opening_at_bottom(const MechanicsResult& mechanics, double bottom) {
-  return largest_at_bottom(mechanics, bottom, &InterfaceResult::largest_gap);
-}
 
 double largest_energy_drift(const MechanicsResult& mechanics) {
   double largest = math::not_a_number, scale = 0;

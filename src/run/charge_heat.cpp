@@ -14,10 +14,6 @@ Interval overlap(const std::vector<double>& edges, int index, double begin, doub
   return {std::max(edges[i], begin), std::min(edges[i + 1], end)};
 }
 
-bool contains(const mpm::Lattice& lattice, double x, double r) {
-  return x >= lattice.x_begin() && x <= lattice.x_end() && r >= lattice.r_begin() && r <= lattice.r_end();
-}
-
 /// Makes the weights of some sum to 1.
 template <class Shares>
 void normalise(Shares& shares) {
@@ -104,7 +100,9 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
 
 void TraceRecorder::add_observation_point(const scene::ObservationPoint& point) {
   for (const Charge* charge : charges_) {
-    if (!contains(charge->particles.lattice, point.x, point.r)) continue;
+    const mpm::Lattice& lattice = charge->particles.lattice;
+    if (point.x < lattice.x_begin() || point.x > lattice.x_end()) continue;
+    if (point.r < lattice.r_begin() || point.r > lattice.r_end()) continue;
     trace_.stations.push_back({point.name, point.x, point.r, 0.0, true});
     shares_.push_back(shares_at(*charge, point.x, point.r));
     return;
@@ -199,7 +197,8 @@ void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder
     if (had_ignited || !point.ignited) continue;
     unburnt.temperature = std::min(model_.kinetics.ignition_temperature, model_.kinetics.burnt_temperature);
     unburnt.ignited = false;
-    note_ignition(recorder, s, simulation.time() - dt + point.ignition_time);
+    if (!history_.ignition && !recorder.trace().stations[s].observation)
+      history_.note_ignition(s, simulation.time() - dt + point.ignition_time, point.chemical_share);
   }
 }
 
@@ -219,13 +218,6 @@ double SteppedSkin::heating(const TraceRecorder& recorder, std::size_t station, 
   friction_[station] = recorder.friction(closure_, station);
   return (friction_[station] - before) * model_.surface.localisation /
          (model_.charge_density * model_.specific_heat * dt);
-}
-
-void SteppedSkin::note_ignition(const TraceRecorder& recorder, std::size_t station, double time) {
-  const double share = points_[station].chemical_share;
-  const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
-  if (!recorder.trace().stations[station].observation && !history_.ignition)
-    history_.ignition = surface::Ignition{time, station, cause, share};
 }
 
 BulkHeat::BulkHeat(mpm::Simulation& simulation)

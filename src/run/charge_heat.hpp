@@ -110,9 +110,8 @@ class SteppedSkin {
   bool ignited(std::size_t station) const { return points_[station].ignited; }
   /// Temperature (K) of what has not burnt of a station's skin: T2 where all of it has.
   double unburnt_temperature(std::size_t station) const { return unburnt_[station].temperature; }
-  double temperature(std::size_t station) const {
-    return points_[station].temperature;
-  }  ///< K, with the burnt part
+  /// K, with the burnt part.
+  double temperature(std::size_t station) const { return points_[station].temperature; }
   const surface::SkinModel& model() const { return model_; }
 
   surface::SkinHistory take() { return std::move(history_); }
@@ -120,7 +119,6 @@ class SteppedSkin {
  private:
   double pressure_of(const TraceRecorder& recorder, double chamber) const;
   double heating(const TraceRecorder& recorder, std::size_t station, double dt);
-  void note_ignition(const TraceRecorder& recorder, std::size_t station, double time);
 
   surface::SkinModel model_;
   surface::SkinModel after_ignition_;  ///< of what has not burnt

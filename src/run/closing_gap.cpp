@@ -90,11 +90,11 @@ std::vector<ClosingGap::Node> ClosingGap::nodes_of_bottom(mpm::Simulation& simul
         node.friction_before = friction_of(node, recorder);
         nodes.push_back(node);
       }
-      const auto largest = std::max_element(nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.end(),
-                                            [](const Node& a, const Node& b) { return a.area < b.area; });
-      if (largest == nodes.end()) continue;
+      const std::span own(nodes.begin() + static_cast<std::ptrdiff_t>(first), nodes.end());
+      const auto largest = std::ranges::max_element(own, {}, &Node::area);
+      if (largest == own.end()) continue;
       largest->states_gas = true;
-      std::iter_swap(nodes.begin() + static_cast<std::ptrdiff_t>(first), largest);
+      std::iter_swap(own.begin(), largest);
     }
   }
   return nodes;
@@ -127,7 +127,7 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
   const double mean_opening = shares_air_ ? contact.mean_opening() : 0.0;
   double moved = 0.0, volume = 0.0;      // m3 per radian or metre
   const bool follows = !skin_.ignition;  // else at samples alone: how the other columns fare decides nothing
-  longest_step_ = std::numeric_limits<double>::infinity();
+  longest_step_ = math::infinity;
   for (std::size_t column = 0; column < nodes_.size(); ++column) {
     Node& node = nodes_[column];
     const mpm::GapGas& gas = shares_air_ ? contact.common_gas() : contact.gas(node.face, node.node);
@@ -136,11 +136,10 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
                  pressure = node.pressure_ratio * gas.at(shares_air_ ? mean_opening : opening);
     node.closing_speed = (node.opening - opening) / dt;
     node.opening = opening;
-    if (!(opening > covolume) ||
-        !std::isfinite(pressure)) {  // faces that were paired anew may leave the air no volume
-      failed_ = true;
-      return;
-    }
+    // Faces that were paired anew may leave the air no volume.
+    const bool has_volume = opening > covolume && std::isfinite(pressure);
+    failed_ = failed_ || !has_volume;
+    if (!has_volume) return;
     if (node.closing_speed > 0.0)
       longest_step_ =
           std::min(longest_step_, most_closed / often_ * (opening - covolume) / node.closing_speed);
@@ -183,7 +182,8 @@ void ClosingGap::follow_heat(std::size_t column, const TraceRecorder& recorder, 
   node.hottest = std::max(node.hottest, columns_[column].hottest());
   history_.largest_gas_temperature = std::max(history_.largest_gas_temperature, columns_[column].mean_air());
   if (columns_[column].ignited() && !was_ignited)
-    note_ignition(column, node.begin + columns_[column].ignition_time());
+    skin_.note_ignition(node.station, node.begin + columns_[column].ignition_time(),
+                        columns_[column].chemical_share());
   node.friction_before = friction;
 }
 
@@ -230,13 +230,6 @@ void ClosingGap::share_air(mpm::Contact& contact, double time) {
     node.begin = time;
   }
   contact.set_common_gas(gas_of(air, covolume));
-}
-
-void ClosingGap::note_ignition(std::size_t column, double time) {
-  const double share = columns_[column].chemical_share();
-  const auto cause = share > 0.5 ? surface::IgnitionCause::arrhenius : surface::IgnitionCause::trigger;
-  if (!skin_.ignition || time < skin_.ignition->time)
-    skin_.ignition = surface::Ignition{time, nodes_[column].station, cause, share};
 }
 
 void ClosingGap::note_motion(bool touches, double time) {

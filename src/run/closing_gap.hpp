@@ -82,7 +82,6 @@ class ClosingGap {
   void start_interval(std::size_t column, mpm::Contact& contact, double time);
   void share_air(mpm::Contact& contact, double time);
   mpm::GapGas gas_of(const surface::EnclosedAir& air, double covolume) const;
-  void note_ignition(std::size_t column, double time);
   void note_motion(bool touches, double time);
 
   surface::SkinModel model_;
@@ -94,7 +93,7 @@ class ClosingGap {
   surface::GapColumns columns_;
   surface::SkinHistory skin_;
   ClosingHistory history_;
-  double longest_step_ = std::numeric_limits<double>::infinity();
+  double longest_step_ = math::infinity;
   bool touched_ = false, failed_ = false;
 };
 

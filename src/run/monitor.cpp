@@ -69,17 +69,18 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_shell(simulation);
   const mpm::EnergyTotals& totals = simulation.energy();
-  const double damping = whole * (totals.damping - totals.step_change);
-  return {whole * totals.kinetic,
-          whole * totals.internal,
-          whole * totals.external,
-          whole * totals.body_force,
-          damping,
-          whole * totals.contact,
-          whole * totals.plastic,
-          whole * totals.viscous,
-          whole * totals.crack,
-          whole * totals.hourglass};
+  EnergyBalance balance{totals.kinetic,
+                        totals.internal,
+                        totals.external,
+                        totals.body_force,
+                        totals.damping - totals.step_change,
+                        totals.contact,
+                        totals.plastic,
+                        totals.viscous,
+                        totals.crack,
+                        totals.hourglass};
+  for (const auto& term : energy_terms) balance.*term.member *= whole;
+  return balance;
 }
 
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step) {

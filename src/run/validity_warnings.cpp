@@ -75,9 +75,8 @@ constexpr double largest_homologous_temperature = 0.9;
 constexpr double largest_rise_in_a_transit = 0.5;
 
 bool is_finite(const MonitorSample& sample) {
-  const EnergyBalance& energy = sample.energy;
-  return std::isfinite(energy.kinetic + energy.internal + energy.external + energy.body_force +
-                       energy.damping + energy.contact + energy.plastic + energy.viscous + energy.crack) &&
+  const auto has_energy = [&](const auto& term) { return std::isfinite(sample.energy.*term.member); };
+  return std::ranges::all_of(energy_terms, has_energy) &&
          std::isfinite(sample.time + sample.largest_plastic_strain + sample.largest_crack_radius +
                        sample.momentum);
 }
@@ -91,7 +90,7 @@ double largest(const MechanicsResult& mechanics, Number number) {
   return most;
 }
 
-void check_history(const MechanicsResult& mechanics, Warnings& warnings) {
+void check_history(const Scene&, const MechanicsResult& mechanics, Warnings& warnings) {
   if (mechanics.monitor.size() < 2) {
     warnings.add("the run has no monitor history, so that its stability is not known");
     return;
@@ -119,7 +118,7 @@ void check_inertia(const Scene& scene, const MechanicsResult& mechanics, Warning
       scaling, 100.0 * share, 100.0 * largest_scaled_share);
 }
 
-void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
+void check_sliding_inertia(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   if (scene::sliding_interfaces(scene).empty()) return;
   const double all = scene.numerics.inertial_scaling, selective = scene.numerics.selective_inertia;
   const bool measured = all <= largest_scaling_when_sliding &&
@@ -132,7 +131,7 @@ void check_sliding_inertia(const Scene& scene, Warnings& warnings) {
       all, selective, largest_scaling_when_sliding, largest_selective_inertia_when_sliding);
 }
 
-void check_samples(const MechanicsResult& mechanics, Warnings& warnings) {
+void check_samples(const Scene&, const MechanicsResult& mechanics, Warnings& warnings) {
   const std::size_t samples = mechanics.trace.samples();
   if (samples > fewest_intervals) return;
   warnings.add(
@@ -168,7 +167,7 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
   if (crack > room) warn(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
 }
 
-void check_rise(const Scene& scene, Warnings& warnings) {
+void check_rise(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   const double peak = scene::PressureHistory(scene.load).peak();
   if (!(peak > 0.0)) return;
   const double transit = scene::transit_time(scene);
@@ -183,7 +182,7 @@ void check_rise(const Scene& scene, Warnings& warnings) {
 /// Inertia that is scaled moves the shell's own frequencies away from, or to, that of a ring. On the 155 mm
 /// shell a ring of 1.5 % of the peak at 2.4 kHz ignites without a gap; with steps four times as long T max is
 /// 416 K, at 4.8 kHz the other way round.
-void check_measured_curve(const Scene& scene, Warnings& warnings) {
+void check_measured_curve(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   if (scene.load.curve_time.empty()) return;
   const double selective = scene.numerics.selective_inertia, all = scene.numerics.inertial_scaling;
   if (selective > 1.0)
@@ -198,7 +197,7 @@ void check_measured_curve(const Scene& scene, Warnings& warnings) {
         ring, all);
 }
 
-void check_selective_rise(const Scene& scene, Warnings& warnings) {
+void check_selective_rise(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   if (!(scene.numerics.selective_inertia > 1.0)) return;
   if (!scene::changes_too_fast_for_selective_inertia(scene)) return;
   warnings.add(
@@ -219,7 +218,7 @@ double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
 
 /// The skin is that of the charge's rearmost face. A part of the charge that ends before it, by however
 /// little, has a face of its own that nobody looks at, unless more charge lies behind all of it.
-void check_bottom(const Scene& scene, Warnings& warnings) {
+void check_bottom(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   constexpr double touching = 1e-9;  // m
   const auto is_charge = [&scene](const scene::Body& body) { return scene::is_charge(scene, body); };
   const double bottom = scene::charge_extent(scene).x_end;
@@ -268,7 +267,8 @@ double static_pressure_on_bottom(const Scene& scene, double chamber_pressure) {
   return mass * scene::rigid_acceleration(scene, chamber_pressure) / area;
 }
 
-void check_bearing(const Scene& scene, const trace::BottomTrace& trace, Warnings& warnings) {
+void check_bearing(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
+  const trace::BottomTrace& trace = mechanics.trace;
   if (trace.samples() == 0) return;
   const auto peak = std::ranges::max_element(trace.chamber_pressure);
   const double asked = static_pressure_on_bottom(scene, *peak);
@@ -286,7 +286,7 @@ void check_bearing(const Scene& scene, const trace::BottomTrace& trace, Warnings
 
 /// Averages over less than two cells are those of single cells. Measured on the 155 mm shell, station beside
 /// the wall, change from cells of 2.5 mm: 3 mm, -1.3 K; 3.6 mm, -0.8 K; 4.2 mm, 0.8 K; 5 mm, 7 K.
-void check_stations(const Scene& scene, Warnings& warnings) {
+void check_stations(const Scene& scene, const MechanicsResult&, Warnings& warnings) {
   constexpr double fewest_in_corner = 2.0 - 1e-9, fewest = 1.0 - 1e-9;
   const scene::StationCells cells = scene::cells_in_stations(scene);
   if (!(cells.corner_x >= fewest_in_corner && cells.corner_r >= fewest_in_corner))
@@ -299,7 +299,7 @@ void check_stations(const Scene& scene, Warnings& warnings) {
 /// Where a bond that breaks stops depends on cells: stresses at its tip have no limit, and no toughness is
 /// known. Measured on the 155 mm shell, 2 MPa of tension and 30 MPa of shear: 409, 412 and 420 K on cells
 /// of 2.5, 1.25 and 0.834 mm.
-void check_bonds(const MechanicsResult& mechanics, Warnings& warnings) {
+void check_bonds(const Scene&, const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
     const auto held = std::ranges::count(faces.bonded, 1.0);
     const auto nodes = std::ssize(faces.bonded);
@@ -384,25 +384,16 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
 
 std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
   Warnings warnings;
-  check_history(mechanics, warnings);
-  check_flight(scene, mechanics, warnings);
-  check_inertia(scene, mechanics, warnings);
-  check_sliding_inertia(scene, warnings);
+  const auto hold = [&](std::initializer_list<decltype(&check_history)> checks) {
+    for (const auto check : checks) check(scene, mechanics, warnings);
+  };
+  hold({check_history, check_flight, check_inertia, check_sliding_inertia});
   for (std::string& each : uncovered_load(scene.load)) warnings.all.push_back(std::move(each));
-  check_samples(mechanics, warnings);
-  if (scene::has_charge(scene)) {
-    check_cracks(scene, mechanics, warnings);
-    check_rise(scene, warnings);
-    check_selective_rise(scene, warnings);
-    check_measured_curve(scene, warnings);
-    check_charge(scene, mechanics, warnings);
-    check_bottom(scene, warnings);
-    check_bearing(scene, mechanics.trace, warnings);
-    check_stations(scene, warnings);
-  }
-  check_faces(scene, mechanics, warnings);
-  check_bonds(mechanics, warnings);
-  check_steel(scene, mechanics, warnings);
+  hold({check_samples});
+  if (scene::has_charge(scene))
+    hold({check_cracks, check_rise, check_selective_rise, check_measured_curve, check_charge, check_bottom,
+          check_bearing, check_stations});
+  hold({check_faces, check_bonds, check_steel});
   return std::move(warnings.all);
 }
 

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <system_error>
 
 namespace launchsafe::store {
 namespace {
@@ -56,14 +55,8 @@ Result<std::string_view> checked_image(std::string_view file) {
 
 // --- the parts that only writing knows ---
 
-constexpr std::array symmetry_names{
-    Named{scene::Symmetry::axisymmetric, "axisymmetric"},
-    Named{scene::Symmetry::plane_strain, "plane_strain"},
-};
-constexpr std::array frame_names{
-    Named{scene::Frame::co_moving, "co_moving"},
-    Named{scene::Frame::lab, "lab"},
-};
+constexpr std::array<std::string_view, 2> symmetry_words{"axisymmetric", "plane_strain"};
+constexpr std::array<std::string_view, 2> frame_words{"co_moving", "lab"};
 
 void write_bodies(Hdf5Writer& writer, const std::vector<scene::Body>& bodies) {
   using scene::Body;
@@ -79,8 +72,8 @@ void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
   using scene::ObservationPoint;
   writer.group("scene", "What was simulated; complete in manifest/input", [&] {
     writer.value("title", scene.title, {"none", "title"});
-    choice(writer, "symmetry", scene.symmetry, symmetry_names, {"none", "symmetry"});
-    choice(writer, "frame", scene.frame, frame_names, {"none", "frame of reference"});
+    choice(writer, "symmetry", scene.symmetry, symmetry_words, {"none", "symmetry"});
+    choice(writer, "frame", scene.frame, frame_words, {"none", "frame of reference"});
     writer.value("initial_temperature", scene.initial_temperature, {"K", "initial temperature"});
     writer.value("peak_pressure", scene::PressureHistory(scene.load).stated_peak(),
                  {"Pa", "peak chamber pressure"});

@@ -1,11 +1,8 @@
 #include "case_store_files.hpp"
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/store_status.hpp"
 
-#include <array>
 #include <cerrno>
-#include <tuple>
 
 namespace launchsafe::store {
 namespace {

@@ -4,8 +4,6 @@
 #include "launchsafe/store/case_store.hpp"
 #include "posix_file.hpp"
 
-#include <system_error>
-
 namespace launchsafe::store {
 
 /// The hashes of what has the name of a case file in a store, in order.

@@ -6,8 +6,6 @@
 
 #include <sqlite3.h>
 
-#include <system_error>
-
 namespace launchsafe::store {
 namespace {
 

@@ -22,7 +22,6 @@
 #include <CLI/Version.hpp>
 #endif
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/version.hpp"
 

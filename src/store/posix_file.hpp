@@ -6,8 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdint>
-#include <filesystem>
 #include <functional>
 
 namespace launchsafe::store {

@@ -6,19 +6,11 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/hdf5.hpp"
 
-#include <algorithm>
-#include <functional>
+#include <fmt/format.h>
+
 #include <numeric>
-#include <type_traits>
 
 namespace launchsafe::store {
-
-/// An enumerator and its word in files.
-template <class Enumeration>
-struct Named {
-  Enumeration value;
-  const char* name;
-};
 
 /// A number of any integral type.
 template <class Archive, class Number>
@@ -31,20 +23,17 @@ void integer(Archive& archive, const std::string& name, Number& value, const Lab
   }
 }
 
-/// An enumerator by its name.
-template <class Archive, class Value, class Names>
-void choice(Archive& archive, const std::string& name, Value& value, const Names& names, const Label& label) {
+/// An enumerator by its word; `words` are in the order of the enumeration.
+template <class Archive, class Value, class Words>
+void choice(Archive& archive, const std::string& name, Value& value, const Words& words, const Label& label) {
   std::string text;
-  for (const auto& each : names)
-    if (each.value == value) text = each.name;
+  if constexpr (!Archive::reading) text = words.at(static_cast<std::size_t>(value));
   archive.value(name, text, label);
   if constexpr (Archive::reading) {
-    for (const auto& each : names)
-      if (text == each.name) {
-        value = each.value;
-        return;
-      }
-    archive.fail(name + " is '" + text + "', which this program does not know");
+    const auto found = std::ranges::find(words, text);
+    if (found == words.end())
+      return archive.fail(name + " is '" + text + "', which this program does not know");
+    value = static_cast<Value>(found - words.begin());
   }
 }
 
@@ -82,17 +71,46 @@ void history(Archive& archive, const std::string& name, Values& values, std::siz
   if (!values.empty() && values.size() != length) archive.fail(name + " has another length than its times");
 }
 
+/// Whether to lay out what older files, or some results, lack: written where there is any, read where it is.
+template <class Archive>
+bool is_there(Archive& archive, const std::string& name, bool any = true) {
+  if constexpr (Archive::reading) return archive.has(name);
+  return any;
+}
+
+/// The members of a result that a list describes; histories among them are as long as the first one, or
+/// empty.
+template <class Archive, class Object, class Members>
+void lay_out_members(Archive& archive, Object& object, const Members& members) {
+  std::optional<std::size_t> length;
+  const auto lay_out = [&](const auto& each) {
+    auto& value = object.*each.member;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    const Label label{each.unit, each.meaning};
+    if (each.newer && !is_there(archive, each.name)) return;
+    if constexpr (std::is_enum_v<Value>) {
+      choice(archive, each.name, value, stored_words(value), label);
+    } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+      if (!length) archive.array(each.name, value, label);
+      if (length) history(archive, each.name, value, *length, label);
+      if (!length) length = value.size();
+    } else if constexpr (std::is_same_v<Value, bool> || std::is_same_v<Value, int>) {
+      integer(archive, each.name, value, label);
+    } else {
+      archive.value(each.name, value, label);
+    }
+  };
+  std::apply([&](const auto&... each) { (lay_out(each), ...); }, members);
+}
+
 /// Groups "0000", "0001", ... one for each element.
 template <class Archive, class Elements, class Body>
 void list(Archive& archive, const std::string& name, const std::string& description, Elements& elements,
           Body body) {
   archive.group(name, description, [&] {
     if constexpr (Archive::reading) elements.resize(archive.size());
-    for (std::size_t i = 0; i < elements.size() && !archive.failed(); ++i) {
-      const std::string digits = std::to_string(i);
-      const std::string group = std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
-      archive.group(group, description, [&] { body(elements[i]); });
-    }
+    for (std::size_t i = 0; i < elements.size() && !archive.failed(); ++i)
+      archive.group(fmt::format("{:04}", i), description, [&] { body(elements[i]); });
   });
 }
 
@@ -121,13 +139,6 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
       across.push_back(rows[i + 1]);
     }
   }
-}
-
-/// Whether to lay out what older files, or some results, lack: written where there is any, read where it is.
-template <class Archive>
-bool is_there(Archive& archive, const std::string& name, bool any = true) {
-  if constexpr (Archive::reading) return archive.has(name);
-  return any;
 }
 
 /// Whether snapshots hold the cells of their particles.

@@ -7,8 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <system_error>
-
 namespace launchsafe::store {
 namespace {
 

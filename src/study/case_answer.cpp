@@ -1,6 +1,5 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "launchsafe/run/model_version.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/closing_gaps.hpp"

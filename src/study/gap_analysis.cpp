@@ -263,14 +263,15 @@ double friction_share(const CaseOutcome& outcome) {
   const double capacity = charge.density * charge.specific_heat;  // J/(m3 K)
   const double diffused =
       0.5 * std::sqrt(std::numbers::pi * charge.conductivity * scene::read_time(scene.load) / capacity);
-  const double heat =
-      run::friction_heat_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end);
+  const double heat = run::largest_at_bottom(outcome.result.mechanics, scene::charge_extent(scene).x_end,
+                                             &run::InterfaceResult::friction_heat);
   return heat / (capacity * std::min(scene.surface.skin_thickness, diffused));
 }
 
 double opening_at_base(const CaseOutcome& outcome) {
-  return run::opening_at_bottom(outcome.result.mechanics,
-                                scene::charge_extent(outcome.input.scene.scene).x_end);
+  return run::largest_at_bottom(outcome.result.mechanics,
+                                scene::charge_extent(outcome.input.scene.scene).x_end,
+                                &run::InterfaceResult::largest_gap);
 }
 
 double largest_gap(const Study& study) {

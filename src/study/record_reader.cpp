@@ -1,7 +1,7 @@
 #include "launchsafe/study/record_reader.hpp"
 
 #include "launchsafe/math/numbers.hpp"
-#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>

@@ -3,11 +3,7 @@
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace launchsafe::surface {
-
 namespace {
 
 /// Heat (K of the skin) that neither friction nor reaction brought to one station.

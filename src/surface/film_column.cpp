@@ -1,12 +1,6 @@
-#include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/surface/film_station.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace launchsafe::surface::detail {
-
 namespace {
 
 // TR-BDF2 as a Runge-Kutta method: weights of the three stages, the last also the implicit one's own.
@@ -210,7 +204,7 @@ double FilmColumn::error_of(double h) {
   for (std::size_t i = 0; i < error_.size(); ++i) {
     const double share = std::abs(error_[i]) / (reference_ + excess_[i]);
     if (!(share <= most)) most = share;
-    if (!(share >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
+    if (!(share >= 0.0)) return math::not_a_number;
   }
   return most;
 }
@@ -272,12 +266,18 @@ double FilmColumn::air_volume() const {
 
 double FilmColumn::covolume() const { return air_share_ * grid_->mass * air_.covolume; }
 
-double FilmColumn::air_heat_capacity() const {
+/// Over the cells of air as they are, with the heat capacities that the grid has.
+template <class OfAir>
+double FilmColumn::sum_of_air(OfAir of_air) const {
   const double now = factor(now_.pressure);
-  double capacity = 0.0;
+  double sum = 0.0;
   for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
-    capacity += grid_->capacity[i] * grid_->isentropes.at(now_.cells[i] * now).capacity_ratio;
-  return air_share_ * capacity;
+    sum += grid_->capacity[i] * of_air(grid_->isentropes.at(now_.cells[i] * now));
+  return sum;
+}
+
+double FilmColumn::air_heat_capacity() const {
+  return air_share_ * sum_of_air([](const materials::CompressedAir& air) { return air.capacity_ratio; });
 }
 
 /// Every cell keeps its entropy, so that its volume falls by V/p (1 - R/c_p) dp.
@@ -293,11 +293,8 @@ double FilmColumn::exponent() const {
 }
 
 double FilmColumn::mean_air() const {
-  const double now = factor(now_.pressure);
-  double sum = 0.0;
-  for (std::size_t i = grid_->air_begin; i < grid_->base_begin; ++i)
-    sum += grid_->capacity[i] * grid_->isentropes.at(now_.cells[i] * now).temperature;
-  return sum / (air_.specific_heat * grid_->mass);
+  return sum_of_air([](const materials::CompressedAir& air) { return air.temperature; }) /
+         (air_.specific_heat * grid_->mass);
 }
 
 double FilmColumn::heat_between(std::size_t begin, std::size_t end) const {

@@ -1,14 +1,9 @@
 #include "launchsafe/surface/film_station.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-namespace launchsafe::surface::detail {
-
+namespace launchsafe::surface {
+namespace detail {
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// Shortest step as a share of an interval; a step that is still not exact enough is then taken as it is.
 constexpr double shortest_share = 1e-7;
 /// Largest ratio of pressures in a step. A thin film only follows the walls: its temperature says nothing of
@@ -115,7 +110,7 @@ void FilmStation::react(double time, double h) {
     const double growth = h * rate * model_->kinetics.activation_temperature / (before * before);
     SkinPoint point{before + h * rate * (1.0 + 0.5 * growth)};
     if (!(growth < mild) || !(point.temperature < trigger_.temperature)) {
-      point = detail::advance(*model_, SkinEquation{}, SkinPoint{before}, h);
+      point = surface::detail::advance(*model_, SkinEquation{}, SkinPoint{before}, h);
       point.chemical_share = surface::detail::chemical_share(*model_, trigger_.temperature, warmed_[i]);
     }
     column_.set_temperature(i, point.temperature);
@@ -180,7 +175,7 @@ void FilmStation::close_account() {
 }
 
 double FilmStation::surface() const {
-  if (failed_) return not_a_number;
+  if (failed_) return math::not_a_number;
   return point_.ignited ? std::max(point_.temperature, model_->kinetics.burnt_temperature)
                         : column_.charge_surface();
 }
@@ -192,6 +187,75 @@ double FilmStation::hottest_depth() const {
   return hottest;
 }
 
-double FilmStation::mean_air() const { return failed_ ? not_a_number : column_.mean_air(); }
+double FilmStation::mean_air() const { return failed_ ? math::not_a_number : column_.mean_air(); }
 
-}  // namespace launchsafe::surface::detail
+}  // namespace detail
+
+namespace {
+
+/// Area shares of the stations, summing to 1; equal shares where no station has an area.
+std::vector<double> area_shares(const trace::BottomTrace& trace) {
+  double total = 0.0;
+  for (const trace::Station& station : trace.stations) total += station.area;
+  std::vector<double> shares;
+  for (const trace::Station& station : trace.stations)
+    shares.push_back(total > 0.0 ? station.area / total : 1.0 / static_cast<double>(trace.stations.size()));
+  return shares;
+}
+
+void record(const std::vector<detail::FilmStation>& stations, const std::vector<double>& shares,
+            SkinHistory& history) {
+  double air = 0.0;
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    history.temperature.push_back(stations[s].surface());
+    // A station without area does not count, whatever it has.
+    if (!(shares[s] > 0.0)) continue;
+    air += shares[s] * stations[s].mean_air();
+    history.hottest_depth = std::max(history.hottest_depth, stations[s].hottest());
+  }
+  history.air_temperature.push_back(air);
+}
+
+}  // namespace
+
+double FilmEnergy::residual() const {
+  const double magnitudes = std::abs(charge) + std::abs(base) + std::abs(gas) + std::abs(work) +
+                            std::abs(friction) + std::abs(reaction) + std::abs(inflow);
+  const double made = charge + base + gas - work - friction - reaction - inflow;
+  return magnitudes > 0.0 ? std::abs(made) / magnitudes : 0.0;
+}
+
+FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& trace, double gap,
+                           const FilmNumerics& numerics) {
+  FilmHistory result;
+  result.skin.gap = gap;
+  result.skin.time = trace.time;
+  if (trace.samples() == 0) return result;
+  const detail::Intervals intervals(model, trace, gap);
+  const auto grid = detail::film_grid(model, gap, trace.time.back() - trace.time.front(), numerics);
+  const std::vector<double> shares = area_shares(trace);
+  std::vector<detail::FilmStation> stations(
+      trace.stations.size(), detail::FilmStation(model, grid, numerics, intervals.pressure_at(0),
+                                                 model.surface.air.initial_pressure));
+  record(stations, shares, result.skin);
+  // Before anything conducts the surface is as warm as the charge, whatever air it then meets.
+  std::ranges::fill(result.skin.temperature, model.initial_temperature);
+  for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
+    const detail::IntervalPressure pressure = intervals.pressure(interval);
+    for (std::size_t s = 0; s < stations.size(); ++s) {
+      const bool was_ignited = stations[s].ignited();
+      stations[s].advance(pressure, intervals.length(interval), intervals.friction_heating(interval, s));
+      if (stations[s].ignited() && !was_ignited && !trace.stations[s].observation)
+        result.skin.note_ignition(s, trace.time[interval] + stations[s].ignition_time(),
+                                  stations[s].chemical_share());
+    }
+    record(stations, shares, result.skin);
+  }
+  for (const detail::FilmStation& station : stations) {
+    result.energy.push_back(station.energy());
+    result.skin.energy_residual = std::fmax(result.skin.energy_residual, station.energy().residual());
+  }
+  return result;
+}
+
+}  // namespace launchsafe::surface

@@ -1,14 +1,8 @@
 #include "launchsafe/surface/gap_columns.hpp"
 
-#include "launchsafe/materials/ideal_gas.hpp"
-
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <vector>
 
 namespace launchsafe::surface {
-
 namespace {
 
 /// Of the pressure at rest: air stretched further counts as it is there.

@@ -5,11 +5,7 @@
 #include <boost/math/interpolators/pchip.hpp>
 // clang-format on
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
-#include <cstddef>
-#include <utility>
 
 namespace launchsafe::surface {
 namespace {

@@ -5,12 +5,7 @@
 #include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <span>
-#include <utility>
 
 namespace launchsafe::surface {
 
@@ -66,6 +61,25 @@ std::vector<std::size_t> hottest_stations(const detail::Intervals& intervals,
   return stations;
 }
 
+// --- maxima: a temperature that is not a number is never passed over, it becomes the maximum ---
+
+/// Replaces `most` by a higher temperature, or by the first one that is not a number.
+void raise(std::optional<Maximum>& most, const Maximum& other) {
+  if (!most || (!std::isnan(most->temperature) && !(other.temperature <= most->temperature))) most = other;
+}
+
+/// Over the samples up to a time (s), of the observation points or of all other stations.
+std::optional<Maximum> highest(const SkinHistory& history, const trace::BottomTrace& trace, bool observation,
+                               double until = math::infinity) {
+  const std::size_t stations = history.time.empty() ? 0 : history.temperature.size() / history.time.size();
+  std::optional<Maximum> most;
+  for (std::size_t sample = 0; sample < history.time.size() && !(history.time[sample] > until); ++sample)
+    for (std::size_t s = 0; s < stations; ++s)
+      if (trace.stations[s].observation == observation)
+        raise(most, {history.temperature[sample * stations + s], history.time[sample], s});
+  return most;
+}
+
 /// Every station by itself under the given air (AirModel::reservoir).
 SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
   const detail::Intervals intervals(model, trace, gap);
@@ -86,9 +100,8 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
     for (std::size_t station = 0; station < stations; ++station) {
       const SkinPoint& point = points[station];
       history.temperature[(interval + 1) * stations + station] = point.temperature;
-      if (point.ignited && !was_ignited[station])
-        detail::note_ignition(history, trace, station, trace.time[interval] + point.ignition_time,
-                              point.chemical_share);
+      if (point.ignited && !was_ignited[station] && !trace.stations[station].observation)
+        history.note_ignition(station, trace.time[interval] + point.ignition_time, point.chemical_share);
       was_ignited[station] = point.ignited;
     }
   }
@@ -127,9 +140,8 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
   SkinHistory history;
   const double open = model.surface.model == scene::GapModel::closing ? 0.0 : gap;
   if (scene::closes(model.surface, gap)) {
-    constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
-    history.air_temperature.assign(trace.samples(), not_known);
-    history.temperature.assign(trace.samples() * trace.stations.size(), not_known);
+    history.air_temperature.assign(trace.samples(), math::not_a_number);
+    history.temperature.assign(trace.samples() * trace.stations.size(), math::not_a_number);
   } else if (open > 0.0 && model.surface.air_model == scene::AirModel::film) {
     history = integrate_film(model, trace, open).skin;
   } else {
@@ -137,9 +149,7 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
   }
   history.gap = gap;
   history.time = trace.time;
-  if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) {
-    history.ignition.reset();
-  }
+  if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) history.ignition.reset();
   return history;
 }
 
@@ -196,6 +206,51 @@ SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, doub
   equation.air_slope = (air_end - air_begin) / dt;
   equation.heating = friction_heating;
   return detail::advance(model, equation, point, dt);
+}
+
+void SkinHistory::note_ignition(std::size_t station, double at, double chemical_share) {
+  const IgnitionCause cause = chemical_share > 0.5 ? IgnitionCause::arrhenius : IgnitionCause::trigger;
+  if (!ignition || at < ignition->time) ignition = Ignition{at, station, cause, chemical_share};
+}
+
+double temperature_at_time(const SkinHistory& history, const trace::BottomTrace& trace, std::size_t station,
+                           double time) {
+  std::vector<double> values;
+  for (std::size_t sample = 0; sample < history.time.size(); ++sample)
+    values.push_back(history.temperature[sample * trace.stations.size() + station]);
+  return trace::interpolate(history.time, values, time);
+}
+
+Maximum maximum_at_stations(const SkinHistory& history, const trace::BottomTrace& trace) {
+  return highest(history, trace, false).value_or(Maximum{math::not_a_number});
+}
+
+Maximum maximum_at_observation_points(const SkinHistory& history, const trace::BottomTrace& trace) {
+  return highest(history, trace, true).value_or(Maximum{math::not_a_number});
+}
+
+Maximum maximum_until(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
+  std::optional<Maximum> most = highest(history, trace, false, time);
+  raise(most, maximum_at_time(history, trace, time));
+  return *most;
+}
+
+Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
+  std::optional<Maximum> most;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station)
+    if (!trace.stations[station].observation)
+      raise(most, {temperature_at_time(history, trace, station, time), time, station});
+  return most.value_or(Maximum{math::not_a_number, time});
+}
+
+double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time) {
+  double least = math::not_a_number;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    if (trace.stations[station].observation) continue;
+    const double value = temperature_at_time(history, trace, station, time);
+    if (!(least <= value)) least = value;
+  }
+  return maximum_at_time(history, trace, time).temperature - least;
 }
 
 }  // namespace launchsafe::surface

@@ -2,15 +2,10 @@
 
 #include "launchsafe/math/phi.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace launchsafe::surface::detail {
-
 namespace {
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+using math::infinity, math::not_a_number;
 
 enum class Phase { solid, reacting, burnt };
 
@@ -210,7 +205,6 @@ SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoin
     return point;
   }
   const Trigger trigger = trigger_of(model);
-  const double infinity = std::numeric_limits<double>::infinity();
   Arrival at{0.0, point.temperature, false};
   // At the trigger heating and cooling have the same sign in both phases, so that a few changes are many.
   constexpr int most_changes = 1000;
@@ -292,9 +286,7 @@ LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure
   const double mean = curved < air.initial_temperature ? air.initial_temperature : curved;
   // Not steeper than keeps both ends at or above the initial temperature.
   const double steepest = mean - air.initial_temperature;
-  double half = 0.5 * (end - begin);
-  if (half > steepest) half = steepest;
-  if (half < -steepest) half = -steepest;
+  const double half = std::clamp(0.5 * (end - begin), -steepest, steepest);
   return {mean - half, mean + half};
 }
 
@@ -312,16 +304,15 @@ IntervalPressure Intervals::pressure(std::size_t interval) const {
 }
 
 double Intervals::exchange_rate(std::size_t interval) const {
-  if (model_.surface.exchange == scene::Exchange::per_step) {
+  if (model_.surface.exchange == scene::Exchange::per_step)
     return rate_of_step_ * (trace_.steps[interval + 1] - trace_.steps[interval]) / length(interval);
-  }
   return ratio_ / model_.surface.exchange_time;
 }
 
 double Intervals::friction_heating(std::size_t interval, std::size_t station) const {
   if (friction_ == nullptr) return 0.0;
   const std::size_t stations = trace_.stations.size();
-  if (friction_->size() != stations * trace_.samples()) return std::numeric_limits<double>::quiet_NaN();
+  if (friction_->size() != stations * trace_.samples()) return not_a_number;
   const double energy =
       (*friction_)[(interval + 1) * stations + station] - (*friction_)[interval * stations + station];
   return energy * model_.surface.localisation /
@@ -330,24 +321,6 @@ double Intervals::friction_heating(std::size_t interval, std::size_t station) co
 
 double per_step_rate(double ratio, double steps, double length) {
   return -std::log1p(-ratio) * steps / length;
-}
-
-std::vector<double> area_shares(const trace::BottomTrace& trace) {
-  double total = 0.0;
-  for (const trace::Station& station : trace.stations) total += station.area;
-  std::vector<double> shares;
-  for (const trace::Station& station : trace.stations) {
-    shares.push_back(total > 0.0 ? station.area / total : 1.0 / static_cast<double>(trace.stations.size()));
-  }
-  return shares;
-}
-
-void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
-                   double chemical_share) {
-  const IgnitionCause cause = chemical_share > 0.5 ? IgnitionCause::arrhenius : IgnitionCause::trigger;
-  if (trace.stations[station].observation) return;
-  if (!history.ignition || time < history.ignition->time)
-    history.ignition = Ignition{time, station, cause, chemical_share};
 }
 
 }  // namespace launchsafe::surface::detail

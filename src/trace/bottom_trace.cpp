@@ -1,13 +1,11 @@
 #include "launchsafe/trace/bottom_trace.hpp"
 
+#include "launchsafe/math/numbers.hpp"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace launchsafe::trace {
-
 namespace {
 
 /// Means over the longer intervals: the old means weighted by their lengths.
@@ -15,15 +13,11 @@ std::vector<double> combined_means(const std::vector<double>& time, const std::v
                                    const std::vector<std::size_t>& kept) {
   std::vector<double> result;
   for (std::size_t k = 0; k < kept.size(); ++k) {
-    if (k == 0 || kept[k] == kept[k - 1]) {
-      result.push_back(means[kept[k]]);
-      continue;
-    }
+    const std::size_t before = k > 0 ? kept[k - 1] : kept[k];
     double weighted = 0.0;
-    for (std::size_t sample = kept[k - 1] + 1; sample <= kept[k]; ++sample) {
+    for (std::size_t sample = before + 1; sample <= kept[k]; ++sample)
       weighted += (time[sample] - time[sample - 1]) * means[sample];
-    }
-    result.push_back(weighted / (time[kept[k]] - time[kept[k - 1]]));
+    result.push_back(before == kept[k] ? means[kept[k]] : weighted / (time[kept[k]] - time[before]));
   }
   return result;
 }
@@ -49,24 +43,15 @@ BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t
   return result;
 }
 
+constexpr std::array pressures{&BottomTrace::chamber_pressure, &BottomTrace::bottom_pressure,
+                               &BottomTrace::mean_chamber_pressure, &BottomTrace::mean_bottom_pressure};
 /// All pressures and energies of a trace: so many histories, with as many values at each sample or as many a
 /// station.
-constexpr std::size_t histories = 4 + traced_closures;
+constexpr std::size_t histories = pressures.size() + traced_closures;
 
 template <class Trace>
 auto& history(Trace& trace, std::size_t index) {
-  switch (index) {
-    case 0:
-      return trace.chamber_pressure;
-    case 1:
-      return trace.bottom_pressure;
-    case 2:
-      return trace.mean_chamber_pressure;
-    case 3:
-      return trace.mean_bottom_pressure;
-    default:
-      return trace.friction[index - 4];
-  }
+  return index < pressures.size() ? trace.*pressures[index] : trace.friction[index - pressures.size()];
 }
 
 /// Whether two launches have the same stations and closures, and as many samples unless `resampled`.
@@ -108,10 +93,8 @@ BottomTrace thinned(const BottomTrace& trace) {
 }
 
 BottomTrace of_rings(BottomTrace trace) {
-  const std::vector<Station> stations = std::move(trace.stations);
-  trace.stations.clear();
-  for (const Station& station : stations)
-    if (!station.observation) trace.stations.push_back(station);
+  const std::vector<Station> stations = trace.stations;
+  std::erase_if(trace.stations, &Station::observation);
   for (std::vector<double>& energy : trace.friction) {
     const std::vector<double> whole = std::move(energy);
     energy.clear();
@@ -206,8 +189,7 @@ std::optional<BottomTrace> at_load(double load, const LoadedTrace& own, const Lo
 }
 
 double interpolate(const std::vector<double>& time, const std::vector<double>& value, double t) {
-  if (time.empty() || time.size() != value.size() || std::isnan(t))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (time.empty() || time.size() != value.size() || std::isnan(t)) return math::not_a_number;
   if (t <= time.front()) return value.front();
   if (t >= time.back()) return value.back();
   const auto after = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());

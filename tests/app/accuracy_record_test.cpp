@@ -1,5 +1,5 @@
 // Accuracy records made by one study and used, or not, by the next.
-#include "launchsafe/run/model_version.hpp"
+#include "launchsafe/run/case_result.hpp"
 #include "program.hpp"
 
 #include <vector>

@@ -7,8 +7,26 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 
 namespace launchsafe::run {
+
+/// Raised by hand whenever the same scene gives other numbers than before. It is part of what determines a
+/// stored case, so that results of different models are never mixed. The test ModelVersion.* fails when
+/// numbers change and this did not.
+inline constexpr int model_version = 7;
+
+/// A member of a result as case files have it, described once.
+template <class Member>
+struct Stored {
+  const char* name;
+  Member member;
+  const char* unit;  ///< "1" of pure numbers, "none" of text; values in memory are in SI
+  const char* meaning;
+  bool newer = false;  ///< files of earlier programs lack it
+};
+template <class Member>
+Stored(const char*, Member, const char*, const char*, bool = false) -> Stored<Member>;
 
 /// How a mechanical run ended. Everything but `completed` makes every verdict on it indeterminate.
 enum class RunStatus {
@@ -27,21 +45,30 @@ inline constexpr RunStatus last_status = RunStatus::flame_beyond_sound;
 std::string to_string(RunStatus status);
 
 /// Running sums of the energy balance, J (axisymmetric: of the whole shell; plane strain: per metre, half
-/// model).
+/// model); see `energy_terms`.
 struct EnergyBalance {
-  double kinetic = 0;     ///< of the motion relative to the frame, with the scaled inertia
-  double internal = 0;    ///< stress power integrated
-  double external = 0;    ///< work of the chamber pressure
-  double body_force = 0;  ///< work of the accelerating frame's body force (co-moving frame only)
-  double damping = 0;     ///< taken out by damping, the PIC share and FLIP's filter
-  /// Taken out by friction between bodies, where their faces close, and by gas between them.
-  double contact = 0;
-  double plastic = 0;    ///< dissipated in steel
-  double viscous = 0;    ///< dissipated in the charge's Maxwell elements
-  double crack = 0;      ///< dissipated by crack growth
-  double hourglass = 0;  ///< stored against hourglassing, part of the internal energy
+  double kinetic = 0, internal = 0, external = 0, body_force = 0, damping = 0, contact = 0;
+  double plastic = 0, viscous = 0, crack = 0, hourglass = 0;
   double scale() const;  ///< what drift is measured against, > 0
   double drift() const;  ///< (kinetic + internal + damping + contact - external - body_force)/scale
+};
+inline constexpr std::array energy_terms{
+    Stored{"kinetic_energy", &EnergyBalance::kinetic, "J",
+           "kinetic energy relative to the frame, with the scaled inertia"},
+    Stored{"internal_energy", &EnergyBalance::internal, "J", "integrated stress power"},
+    Stored{"external_work", &EnergyBalance::external, "J", "work of the chamber pressure"},
+    Stored{"body_force_work", &EnergyBalance::body_force, "J",
+           "work of the accelerating frame's body force"},  // of a frame that moves along
+    Stored{"damping_loss", &EnergyBalance::damping, "J",
+           "taken out by damping and the PIC share"},  // and FLIP's filter
+    Stored{"contact_loss", &EnergyBalance::contact, "J",
+           "taken out by friction between bodies, where their faces close, and by gas between them", true},
+    Stored{"plastic_dissipation", &EnergyBalance::plastic, "J", "dissipated in steel"},
+    Stored{"viscous_dissipation", &EnergyBalance::viscous, "J",
+           "dissipated in the charge's Maxwell elements"},
+    Stored{"crack_dissipation", &EnergyBalance::crack, "J", "dissipated by crack growth"},
+    Stored{"hourglass", &EnergyBalance::hourglass, "J",
+           "stored against hourglassing, part of the internal energy"},
 };
 
 /// Elastic energy (J) that the bodies would hold under a hundredth of the load's peak, or of an atmosphere
@@ -124,10 +151,13 @@ bool has_field(const scene::Scene& scene, const scene::Body& body, const Snapsho
 
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.
 struct LimiterCounts {
-  std::uint64_t crack_at_bound = 0;  ///< a crack was at its largest radius
-  std::uint64_t tension_cutoff = 0;  ///< the charge's tension cut-off acted
-  std::uint64_t hugoniot_guard = 0;  ///< the guard of the Hugoniot pole acted
+  std::uint64_t crack_at_bound = 0, tension_cutoff = 0, hugoniot_guard = 0;
 };
+inline constexpr std::tuple stored_limiters{
+    Stored{"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
+    Stored{"tension_cutoff", &LimiterCounts::tension_cutoff, "1",
+           "particles that reached the tension cut-off"},
+    Stored{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1", "particles at the guarded Hugoniot pole"}};
 
 /// "crack bound 12, tension cut-off 3"; empty where none acted.
 std::string to_string(const LimiterCounts& limiters);
@@ -144,15 +174,21 @@ void add_mass(std::vector<MaterialMass>& masses, const std::string& material, do
 /// face.
 struct InterfaceResult {
   std::string body;
-  bool along_x = false;               ///< a side of the charge; otherwise one of its ends
-  double face = 0;                    ///< m, at rest: r of a side, x of an end
-  double friction_work = 0;           ///< J, turned into heat (as EnergyBalance: of the whole shell)
-  std::vector<double> place;          ///< m, at rest: x along a side, r along an end
-  std::vector<double> friction_heat;  ///< J/m2, since the start
-  std::vector<double> slid;           ///< m, since the start, to and fro added up
-  std::vector<double> largest_gap;    ///< m, by which the faces parted
-  std::vector<double> overlap;        ///< m, by which they passed into each other
-  std::vector<double> bonded;         ///< 1 where the bond still holds
+  bool along_x = false;
+  double face = 0, friction_work = 0;
+  std::vector<double> place, friction_heat, slid, largest_gap, overlap, bonded;  ///< by node
+};
+inline constexpr std::tuple stored_interface{
+    Stored{"body", &InterfaceResult::body, "none", "the body that touches the charge"},
+    Stored{"along_x", &InterfaceResult::along_x, "1", "1 for a side of the charge, 0 for an end"},
+    Stored{"face", &InterfaceResult::face, "m", "initial r of a side, x of an end"},
+    Stored{"friction_work", &InterfaceResult::friction_work, "J", "work of friction, turned into heat"},
+    Stored{"place", &InterfaceResult::place, "m", "initial x along a side, r along an end"},
+    Stored{"friction_heat", &InterfaceResult::friction_heat, "J/m2", "heat of friction since the start"},
+    Stored{"slid", &InterfaceResult::slid, "m", "way slid since the start, to and fro added up"},
+    Stored{"largest_gap", &InterfaceResult::largest_gap, "m", "by which the faces parted"},
+    Stored{"overlap", &InterfaceResult::overlap, "m", "by which the faces passed into each other"},
+    Stored{"bonded", &InterfaceResult::bonded, "1", "1 where the bond still holds"},
 };
 
 /// States of a launch from which runs of single gaps go on.
@@ -184,11 +220,10 @@ struct MechanicsResult {
 /// 0 for a material without particles.
 double mass_of(const MechanicsResult& mechanics, std::string_view material);
 
-/// J/m2, the largest heat of friction on the end of the charge at `bottom` (m); 0 where nothing slides there.
-double friction_heat_at_bottom(const MechanicsResult& mechanics, double bottom);
-
-/// m, the widest gap between that end and the body it can slide on, likewise.
-double opening_at_bottom(const MechanicsResult& mechanics, double bottom);
+/// The largest of a value of nodes on the end of the charge at `bottom` (m): 0 where nothing slides there,
+/// NaN where one is.
+double largest_at_bottom(const MechanicsResult& mechanics, double bottom,
+                         std::vector<double> InterfaceResult::*values);
 
 /// Largest absolute energy drift over the monitor's history, as a share of the run's largest energy (in the
 /// first moments all energies are next to nothing); NaN without one.
@@ -200,43 +235,76 @@ enum class CombustionEnd { time, pressure, broke_off, burnt_through };
 /// What followed the ignition of a gap in a run with two-way coupling; samples are those of the trace from
 /// the one before ignition on. Of the whole shell (plane strain: per metre).
 struct CombustionHistory {
-  std::vector<double> time;             ///< s
-  std::vector<double> burnt_mass;       ///< kg
-  std::vector<double> burnt_depth;      ///< m, the largest
-  std::vector<double> gas_volume;       ///< m3
-  std::vector<double> gas_temperature;  ///< K, mean over the gas's mass
-  std::vector<double> pressure;         ///< Pa, mean over the bottom
-  /// J, of what has burnt: released by the reaction, kept back of the heat of reaction, and brought along as
-  /// heat above the initial temperature, from air, friction and slow reaction.
+  std::vector<double> time, burnt_mass, burnt_depth, gas_volume, gas_temperature, pressure;
   std::vector<double> released, kept_back, brought;
   std::vector<double> reaction_degree;  ///< of the skin, [sample * stations + station]
-  double skin_flame_speed = 0;          ///< m/s, at the first station that ignited
-  double bulk_flame_speed = 0;          ///< m/s, behind the skin there
-  double complete_time = 0;             ///< s, when the skin of some station had burnt; NaN if none had
-  /// Largest energy made or lost in burning particles, as a share of the heat of reaction of what had burnt.
+  double skin_flame_speed = 0, bulk_flame_speed = 0;
+  double complete_time = 0;  ///< NaN if no skin had burnt
   double energy_residual = 0;
   CombustionEnd end = CombustionEnd::time;
-  std::string reason;               ///< why it broke off
-  double energy_drift = 0;          ///< largest of the whole run, see `largest_energy_drift`
-  double wall_time = 0;             ///< s, of the whole run
-  std::vector<Snapshot> snapshots;  ///< from ignition on; of `run_case` only
+  std::string reason;
+  double energy_drift = 0, wall_time = 0;  ///< of the whole run, see `largest_energy_drift`
+  std::vector<Snapshot> snapshots;         ///< from ignition on; of `run_case` only
   std::size_t samples() const { return time.size(); }
+};
+inline constexpr std::tuple stored_combustion{
+    Stored{"end", &CombustionHistory::end, "none", "why the run ended"},
+    Stored{"reason", &CombustionHistory::reason, "none", "why it broke off"},
+    Stored{"energy_drift", &CombustionHistory::energy_drift, "1", "largest energy drift of the run"},
+    Stored{"wall_time", &CombustionHistory::wall_time, "s", "wall time of the run"},
+    Stored{"skin_flame_speed", &CombustionHistory::skin_flame_speed, "m/s",
+           "at the first station, through its skin"},
+    Stored{"bulk_flame_speed", &CombustionHistory::bulk_flame_speed, "m/s", "the same, behind the skin"},
+    Stored{"complete_time", &CombustionHistory::complete_time, "s",
+           "when the skin of some station had burnt"},
+    Stored{"energy_residual", &CombustionHistory::energy_residual, "1",
+           "largest energy made or lost over the heat of reaction of what had burnt"},
+    Stored{"time", &CombustionHistory::time, "s", "time"},
+    Stored{"burnt_mass", &CombustionHistory::burnt_mass, "kg", "mass of the gas"},
+    Stored{"burnt_depth", &CombustionHistory::burnt_depth, "m", "largest depth of a flame"},
+    Stored{"gas_volume", &CombustionHistory::gas_volume, "m3", "volume of the gas"},
+    Stored{"gas_temperature", &CombustionHistory::gas_temperature, "K", "mean over the gas's mass"},
+    Stored{"pressure", &CombustionHistory::pressure, "Pa", "mean over the bottom"},
+    Stored{"released", &CombustionHistory::released, "J", "heat of reaction released"},
+    Stored{"kept_back", &CombustionHistory::kept_back, "J", "heat of reaction that was not released"},
+    Stored{"brought", &CombustionHistory::brought, "J",
+           "heat above the initial temperature that the burnt part had before"},
 };
 
 /// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom.
 struct ClosingHistory {
-  double gap = 0;                            ///< m, at rest
-  std::vector<double> time;                  ///< s, those of the trace
-  std::vector<double> opening;               ///< m, mean
-  std::vector<double> gas_pressure;          ///< Pa, mean
-  double smallest_opening = 0;               ///< m, anywhere
-  double contact_time = math::not_a_number;  ///< s, when the faces first met anywhere
-  double approach_speed = 0;                 ///< m/s, the largest anywhere until then
-  int contacts = 0;                          ///< how often they met after nowhere touching
-  double largest_gas_pressure = 0;           ///< Pa, anywhere
-  double largest_gas_temperature = 0;        ///< K, mean over the air at one place
-  surface::FilmEnergy energy;                ///< J/m2, means
-  double work_on_gas = 0;  ///< J/m2, mean, that the faces did beyond the surrounding pressure
+  std::vector<double> time, opening, gas_pressure;
+  double smallest_opening = 0, approach_speed = 0;
+  double contact_time = math::not_a_number;
+  int contacts = 0;
+  double largest_gas_pressure = 0, largest_gas_temperature = 0;
+  double work_on_gas = 0;
+  surface::FilmEnergy energy;  ///< J/m2
+};
+inline constexpr std::tuple stored_closing{
+    Stored{"smallest_opening", &ClosingHistory::smallest_opening, "m", "anywhere on the bottom"},
+    Stored{"contact_time", &ClosingHistory::contact_time, "s",
+           "when the faces first met; none if they did not"},
+    Stored{"approach_speed", &ClosingHistory::approach_speed, "m/s", "largest until then"},
+    Stored{"contacts", &ClosingHistory::contacts, "1", "how often the faces met after touching nowhere"},
+    Stored{"largest_gas_pressure", &ClosingHistory::largest_gas_pressure, "Pa", "anywhere"},
+    Stored{"largest_gas_temperature", &ClosingHistory::largest_gas_temperature, "K",
+           "mean over the air at a place"},
+    Stored{"work_on_gas", &ClosingHistory::work_on_gas, "J/m2",
+           "of the faces, beyond the surrounding pressure; mean over the bottom, as below"},
+};
+inline constexpr std::tuple stored_film_energy{
+    Stored{"heat_to_charge", &surface::FilmEnergy::charge, "J/m2", "gained by the charge"},
+    Stored{"heat_to_base", &surface::FilmEnergy::base, "J/m2", "gained by the base"},
+    Stored{"gas_enthalpy", &surface::FilmEnergy::gas, "J/m2", "gained by the air"},
+    Stored{"compression", &surface::FilmEnergy::work, "J/m2", "integral of V dp over the air"},
+    Stored{"friction_heat", &surface::FilmEnergy::friction, "J/m2", "in the charge"},
+    Stored{"reaction_heat", &surface::FilmEnergy::reaction, "J/m2", "in the charge"},
+};
+inline constexpr std::tuple stored_closing_samples{
+    Stored{"time", &ClosingHistory::time, "s", "time"},  // those of the trace
+    Stored{"opening", &ClosingHistory::opening, "m", "mean over the bottom"},
+    Stored{"gas_pressure", &ClosingHistory::gas_pressure, "Pa", "mean over the bottom"},
 };
 
 /// One gap of a case.

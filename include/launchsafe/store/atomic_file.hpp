@@ -3,9 +3,6 @@
 
 #include "launchsafe/store/result.hpp"
 
-#include <filesystem>
-#include <system_error>
-
 namespace launchsafe::store {
 
 enum class IfExists { replace, refuse };

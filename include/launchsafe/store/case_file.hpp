@@ -5,11 +5,8 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/store/manifest.hpp"
 #include "launchsafe/store/result.hpp"
-
-#include <filesystem>
 
 namespace launchsafe::store {
 

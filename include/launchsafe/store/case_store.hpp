@@ -12,7 +12,6 @@
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/store/database.hpp"
 #include "launchsafe/store/manifest.hpp"
 

@@ -7,11 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
-#include <type_traits>
 #include <unordered_map>
 
 struct sqlite3;

@@ -14,7 +14,7 @@ struct LibraryVersion {
 struct Manifest {
   std::string input_text;    ///< all that determines the case, as it was read
   std::string input_sha256;  ///< of `input_text`; two results with the same one are the same question
-  int model_version = 0;     ///< of the physics, see run/model_version.hpp; 0 where it was not recorded
+  int model_version = 0;     ///< of the physics, see run::model_version; 0 where it was not recorded
   std::string program_version, commit, compiler, compiler_flags, build_type;
   std::vector<LibraryVersion> libraries;
   std::string host;

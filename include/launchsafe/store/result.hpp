@@ -3,7 +3,7 @@
 
 #include "launchsafe/scene/input_error.hpp"
 
-#include <optional>
+#include <filesystem>
 
 namespace launchsafe::store {
 

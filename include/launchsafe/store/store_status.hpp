@@ -7,9 +7,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace launchsafe::store {
 

@@ -7,8 +7,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <filesystem>
-
 namespace launchsafe::store {
 
 inline constexpr const char* manifest_name = "manifest.json";

@@ -4,26 +4,22 @@
 
 #include "launchsafe/surface/skin.hpp"
 
-#include <limits>
-
 namespace launchsafe::surface {
 
 /// Energies per area of the charge's bottom, J/m2, until the end of the history or the first ignition. NaN
 /// where nothing was computed; all are 0 without a gap.
 struct AirEnergy {
   /// Largest net heat that the exchange had brought to the skin of the hottest station at any time.
-  double taken = std::numeric_limits<double>::quiet_NaN();
+  double taken = math::not_a_number;
   /// At the most that a history of this pressure can supply: see compression_supply.
-  double supplied = std::numeric_limits<double>::quiet_NaN();
+  double supplied = math::not_a_number;
   /// m c_v (T - T0): stored in the air by adiabatic compression to the highest pressure.
-  double stored = std::numeric_limits<double>::quiet_NaN();
+  double stored = math::not_a_number;
   /// p0 h ln(p/p0): work of isothermal compression to the highest pressure.
-  double isothermal = std::numeric_limits<double>::quiet_NaN();
+  double isothermal = math::not_a_number;
   /// How many times what can be supplied was taken; above 1 the energy of the air is not conserved. NaN
   /// without a supply.
-  double ratio() const {
-    return supplied > 0.0 ? taken / supplied : std::numeric_limits<double>::quiet_NaN();
-  }
+  double ratio() const { return supplied > 0.0 ? taken / supplied : math::not_a_number; }
 };
 
 /// J/m2: rho c h_ex (T - T0) less the heats of friction and reaction, which is rho c h_ex times the integral

@@ -4,9 +4,6 @@
 
 #include "launchsafe/surface/skin.hpp"
 
-#include <cstddef>
-#include <vector>
-
 namespace launchsafe::surface {
 
 /// How finely columns are resolved. Both orders are second.

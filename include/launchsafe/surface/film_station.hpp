@@ -5,11 +5,6 @@
 #include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <vector>
-
 namespace launchsafe::surface::detail {
 
 /// Cells 0 to air_begin - 1 are charge, up to base_begin - 1 air, the rest steel. Face i lies between the
@@ -104,6 +99,8 @@ class FilmColumn {
   double excess_of(std::size_t cell) const;
   double surface_between(std::size_t in, std::size_t out, double resistance) const;
   double heat_between(std::size_t begin, std::size_t end) const;
+  template <class OfAir>
+  double sum_of_air(OfAir of_air) const;
   bool is_air(std::size_t cell) const { return cell >= grid_->air_begin && cell < grid_->base_begin; }
   void expand_at(const Cells& state, double factor);
   void find_conductances(double pressure);

@@ -3,9 +3,6 @@
 
 #include "launchsafe/surface/film_station.hpp"
 
-#include <cstddef>
-#include <vector>
-
 namespace launchsafe::surface {
 
 /// The air of a column as the motion of its faces sees it.

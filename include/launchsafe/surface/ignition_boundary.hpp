@@ -4,12 +4,6 @@
 
 #include "launchsafe/surface/skin.hpp"
 
-#include <algorithm>
-#include <functional>
-#include <limits>
-#include <optional>
-#include <vector>
-
 namespace launchsafe::surface {
 
 /// The constants of the surface that are calibrated.
@@ -24,7 +18,7 @@ SurfaceConstants constants_of(const SkinModel& model);
 
 /// From the least to the largest value.
 struct Extent {
-  double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+  double lowest = math::infinity, highest = -math::infinity;
   void include(double value) {
     lowest = std::min(lowest, value);
     highest = std::max(highest, value);

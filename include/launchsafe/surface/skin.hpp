@@ -1,11 +1,9 @@
 // Skin temperatures of the charge bottom for one gap, integrated on a bottom trace (model section 6).
 #pragma once
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/trace/bottom_trace.hpp"
-
-#include <optional>
-#include <vector>
 
 namespace launchsafe::surface {
 
@@ -36,6 +34,9 @@ struct SkinHistory {
   /// Energy made or lost by a film, relative to all that passed at the worst station (FilmEnergy::residual).
   /// 0 under AirModel::reservoir.
   double energy_residual = 0;
+
+  /// Takes in the ignition of a station that tiles the bottom, at `time` (s), if it is the first so far.
+  void note_ignition(std::size_t station, double time, double chemical_share);
 };
 
 /// All that the skin equation needs from a scene.

@@ -4,7 +4,6 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include <span>
-#include <vector>
 
 namespace launchsafe::surface::detail {
 
@@ -20,8 +19,8 @@ struct SkinEquation {
 /// Ignition temperatures of one set of kinetics.
 struct Trigger {
   double temperature = 0;  ///< K, where the solid stops being inert: T1, or T2 where T1 is not below it
-  double amplification =
-      1;  ///< between T1 and T2 all heating counts this often: 1/(1 - gain), gain = Q/(c (T2 - T1))
+  /// Between T1 and T2 all heating counts this often: 1/(1 - gain), gain = Q/(c (T2 - T1)).
+  double amplification = 1;
   bool immediate = true;  ///< gain >= 1: one release of heat feeds the next, up to T2 at once
 };
 Trigger trigger_of(const SkinModel& model);
@@ -92,12 +91,5 @@ class Intervals {
 
 /// Rate (1/s) of the printed exchange, a factor 1 - kappa h in each of `steps` steps over `length` seconds.
 double per_step_rate(double ratio, double steps, double length);
-
-/// Area shares of the stations, summing to 1; equal shares where no station has an area.
-std::vector<double> area_shares(const trace::BottomTrace& trace);
-
-/// Notes an ignition at `time` (s) if it is the first so far.
-void note_ignition(SkinHistory& history, const trace::BottomTrace& trace, std::size_t station, double time,
-                   double chemical_share);
 
 }  // namespace launchsafe::surface::detail

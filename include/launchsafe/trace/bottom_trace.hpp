@@ -3,8 +3,6 @@
 
 #include "launchsafe/materials/friction_closure.hpp"
 
-#include <array>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
