@@ -3,13 +3,8 @@
 namespace launchsafe::run {
 namespace {
 
-struct Interval {
-  double begin, end;
-  double length() const { return end - begin; }
-  double middle() const { return 0.5 * (begin + end); }
-};
-/// The part of a lattice's interval `index` between two places.
-Interval overlap(const std::vector<double>& edges, int index, double begin, double end) {
+/// Where the part of a lattice's interval `index` between two places begins and ends.
+std::pair<double, double> overlap(const std::vector<double>& edges, int index, double begin, double end) {
   const auto i = static_cast<std::size_t>(index);
   return {std::max(edges[i], begin), std::min(edges[i + 1], end)};
 }
@@ -80,12 +75,12 @@ void TraceRecorder::add_stations(const scene::Scene& scene) {
     for (const Charge* charge : charges_) {
       const mpm::Lattice& lattice = charge->particles.lattice;
       for (int i = 0; i < lattice.columns(); ++i) {
-        const double length = overlap(lattice.x_edges, i, extent.x_begin, extent.x_end).length();
+        const auto [x_begin, x_end] = overlap(lattice.x_edges, i, extent.x_begin, extent.x_end);
         for (int j = 0; j < lattice.rows(); ++j) {
-          const Interval across = overlap(lattice.r_edges, j, extent.r_begin, extent.r_end);
-          if (!(length > 0.0) || !(across.length() > 0.0)) continue;
-          shares.push_back({charge, lattice.slot(i, j),
-                            length * across.length() * (axisymmetric ? across.middle() : 1.0)});
+          const auto [r_begin, r_end] = overlap(lattice.r_edges, j, extent.r_begin, extent.r_end);
+          if (!(x_end > x_begin) || !(r_end > r_begin)) continue;
+          const double radius = axisymmetric ? 0.5 * (r_begin + r_end) : 1.0;
+          shares.push_back({charge, lattice.slot(i, j), (x_end - x_begin) * (r_end - r_begin) * radius});
         }
       }
     }
@@ -254,18 +249,14 @@ void BulkHeat::advance_to(mpm::Simulation& simulation, double time) {
   if (!(dt > 0.0)) return;
   auto energy = friction_.begin();
   for (Charge& charge : simulation.bodies_of<materials::Charge>()) {
-    if (energy != friction_.end()) add_friction(charge, *energy++);
+    if (energy != friction_.end()) {
+      for (std::size_t i = 0; i < energy->size(); ++i)
+        charge.particles.temperature[i] += (*energy)[i] / (charge_.density * charge_.specific_heat);
+      std::ranges::fill(*energy++, 0.0);
+    }
     if (reaction_) react(charge, dt);
   }
   if (conduction_) conduction_->advance(simulation, dt);
-}
-
-void BulkHeat::add_friction(Charge& charge, math::AlignedArray& energy) const {
-  const double capacity = charge_.density * charge_.specific_heat;
-  for (std::size_t i = 0; i < energy.size(); ++i) {
-    charge.particles.temperature[i] += energy[i] / capacity;
-    energy[i] = 0.0;
-  }
 }
 
 void BulkHeat::react(Charge& charge, double dt) const {

@@ -147,7 +147,6 @@ class BulkHeat {
 
  private:
   using Charge = mpm::Body<materials::Charge>;
-  void add_friction(Charge& charge, math::AlignedArray& energy) const;
   void react(Charge& charge, double dt) const;
 
   scene::Charge charge_;

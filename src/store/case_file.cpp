@@ -58,18 +58,8 @@ Result<std::string_view> checked_image(std::string_view file) {
 constexpr std::array<std::string_view, 2> symmetry_words{"axisymmetric", "plane_strain"};
 constexpr std::array<std::string_view, 2> frame_words{"co_moving", "lab"};
 
-void write_bodies(Hdf5Writer& writer, const std::vector<scene::Body>& bodies) {
-  using scene::Body;
-  column(writer, "name", bodies, &Body::name, {"none", "name"});
-  column(writer, "material", bodies, &Body::material, {"none", "material"});
-  column(writer, "x_begin", bodies, &Body::x_begin, {"m", "axial begin"});
-  column(writer, "x_end", bodies, &Body::x_end, {"m", "axial end"});
-  column(writer, "r_begin", bodies, &Body::r_begin, {"m", "radial begin"});
-  column(writer, "r_end", bodies, &Body::r_end, {"m", "radial end"});
-}
-
 void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
-  using scene::ObservationPoint;
+  using scene::Body, scene::ObservationPoint;
   writer.group("scene", "What was simulated; complete in manifest/input", [&] {
     writer.value("title", scene.title, {"none", "title"});
     choice(writer, "symmetry", scene.symmetry, symmetry_words, {"none", "symmetry"});
@@ -78,7 +68,14 @@ void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
     writer.value("peak_pressure", scene::PressureHistory(scene.load).stated_peak(),
                  {"Pa", "peak chamber pressure"});
     writer.value("cell_size", scene.numerics.cell_size, {"m", "nominal cell size"});
-    writer.group("bodies", "Bodies", [&] { write_bodies(writer, scene.bodies); });
+    writer.group("bodies", "Bodies", [&] {
+      column(writer, "name", scene.bodies, &Body::name, {"none", "name"});
+      column(writer, "material", scene.bodies, &Body::material, {"none", "material"});
+      column(writer, "x_begin", scene.bodies, &Body::x_begin, {"m", "axial begin"});
+      column(writer, "x_end", scene.bodies, &Body::x_end, {"m", "axial end"});
+      column(writer, "r_begin", scene.bodies, &Body::r_begin, {"m", "radial begin"});
+      column(writer, "r_end", scene.bodies, &Body::r_end, {"m", "radial end"});
+    });
     writer.group("observation_points", "Observation points", [&] {
       const auto& points = scene.output.observation_points;
       column(writer, "name", points, &ObservationPoint::name, {"none", "name"});

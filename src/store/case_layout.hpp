@@ -13,10 +13,7 @@ inline constexpr std::array<std::string_view, 10> run_status_words{
     "completed",   "non_finite", "energy_drift",    "time_step_collapse", "particles_left_grid",
     "interrupted", "timed_out",  "cells_distorted", "outside_gas_law",    "flame_beyond_sound"};
 inline constexpr std::array<std::string_view, 2> ignition_cause_words{"trigger", "arrhenius"};
-inline constexpr std::array<std::string_view, 4> combustion_end_words{"time", "pressure", "broke_off",
-                                                                      "burnt_through"};
 static_assert(run_status_words.size() == static_cast<std::size_t>(run::last_status) + 1);
-inline const auto& stored_words(run::CombustionEnd) { return combustion_end_words; }
 
 template <class Archive, class Value>
 void lay_out_manifest(Archive& archive, Value& manifest) {
@@ -154,16 +151,6 @@ void lay_out_combustion(Archive& archive, auto& combustion, const trace::BottomT
 }
 
 template <class Archive>
-void lay_out_closing(Archive& archive, auto& closing) {
-  optional_group(archive, "closing", "How the gap closed; absent where it does nothing to the mechanics",
-                 closing, [&](auto& c) {
-                   lay_out_members(archive, c, run::stored_closing);
-                   lay_out_members(archive, c.energy, run::stored_film_energy);
-                   lay_out_members(archive, c, run::stored_closing_samples);
-                 });
-}
-
-template <class Archive>
 void lay_out_maximum(Archive& archive, const std::string& name, const std::string& description, auto& maximum,
                      const trace::BottomTrace& trace) {
   archive.group(name, description, [&] {
@@ -194,7 +181,12 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
   lay_out_ignition(archive, skin.ignition, trace);
-  lay_out_closing(archive, gap.closing);
+  optional_group(archive, "closing", "How the gap closed; absent where it does nothing to the mechanics",
+                 gap.closing, [&](auto& closing) {
+                   lay_out_members(archive, closing, run::stored_closing);
+                   lay_out_members(archive, closing.energy, run::stored_film_energy);
+                   lay_out_members(archive, closing, run::stored_closing_samples);
+                 });
   lay_out_combustion(archive, gap.combustion, trace);
   if (is_there(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {

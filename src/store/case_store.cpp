@@ -150,8 +150,7 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
   const std::filesystem::path path = names_.case_file(hash);
   Result<StoredCase> stored = read_case_file(path);
   if (stored && !belongs_to(stored->manifest, hash)) stored = of_another_case(path);
-  if (!stored && stored.error().kind == Error::Kind::corrupt) return give_up(hash, stored.error());
-  if (!stored) return stored.error();
+  if (!stored) return give_up(hash, stored.error());
   const std::optional<RunRecord> record = record_of(hash);
   if (record && record->state == CaseState::done) {
     stored->result.mechanics.wall_time = record->wall_time;
@@ -162,9 +161,8 @@ Result<run::CaseResult> CaseStore::load(const std::string& hash) {
 
 Result<std::string> CaseStore::input_of(const std::string& hash) {
   Result<Manifest> manifest = read_checked(names_.case_file(hash), hash);
-  if (manifest) return std::move(manifest->input_text);
-  if (manifest.error().kind != Error::Kind::corrupt) return manifest.error();
-  return give_up(hash, manifest.error());
+  if (!manifest) return give_up(hash, manifest.error());
+  return std::move(manifest->input_text);
 }
 
 void CaseStore::save(const CaseIdentity& identity, const scene::Scene& scene, run::CaseResult result,

@@ -31,19 +31,19 @@ constexpr const char* make_table =
     "STRICT, "
     "WITHOUT ROWID";
 /// The members of a record in the order of its columns.
-constexpr std::tuple members{&RunRecord::hash,           &RunRecord::state,
-                             &RunRecord::label,          &RunRecord::reason,
-                             &RunRecord::model_version,  &RunRecord::wall_time,
-                             &RunRecord::processor_time, &RunRecord::predicted_updates,
-                             &RunRecord::time_limit,     &RunRecord::host,
-                             &RunRecord::end_time,       &RunRecord::file_size,
-                             &RunRecord::file_time};
-constexpr std::size_t columns = std::tuple_size_v<decltype(members)>;
+constexpr std::tuple record_members{&RunRecord::hash,           &RunRecord::state,
+                                    &RunRecord::label,          &RunRecord::reason,
+                                    &RunRecord::model_version,  &RunRecord::wall_time,
+                                    &RunRecord::processor_time, &RunRecord::predicted_updates,
+                                    &RunRecord::time_limit,     &RunRecord::host,
+                                    &RunRecord::end_time,       &RunRecord::file_size,
+                                    &RunRecord::file_time};
+constexpr std::size_t columns = std::tuple_size_v<decltype(record_members)>;
 constexpr std::size_t host_column = 9;  ///< of texts that repeat
 
 MaybeError put_record(Database& database, const RunRecord& record) {
   SqlRow row;
-  std::apply([&](auto... member) { (row.push_back(to_sql(record.*member)), ...); }, members);
+  std::apply([&](auto... member) { (row.push_back(to_sql(record.*member)), ...); }, record_members);
   const auto host = database.number_of_text(record.host);
   if (!host) return host.error();
   row[host_column] = *host;
@@ -62,7 +62,8 @@ Result<RunRecord> record_from(Database& database, SqlRow row) {
   RunRecord record;
   std::size_t next = 0;
   const auto read = [&](auto... member) { return (from_sql(row[next++], record.*member) && ...); };
-  if (!std::apply(read, members)) return Error{Error::Kind::corrupt, "a value in stored_runs cannot be"};
+  if (!std::apply(read, record_members))
+    return Error{Error::Kind::corrupt, "a value in stored_runs cannot be"};
   return record;
 }
 
@@ -169,7 +170,7 @@ bool CaseStore::adopt(const std::string& hash) {
   if (::stat(path.c_str(), &file) != 0) return false;
   const Result<Manifest> checked = read_checked(path, hash);
   if (!checked) {
-    if (checked.error().kind == Error::Kind::corrupt) give_up(hash, checked.error());
+    give_up(hash, checked.error());
     if (checked.error().kind == Error::Kind::unreadable) remark(checked.error().message);
     return false;
   }
@@ -191,6 +192,7 @@ bool CaseStore::adopt(const std::string& hash) {
 }
 
 Error CaseStore::give_up(const std::string& hash, const Error& damage) {
+  if (damage.kind != Error::Kind::corrupt) return damage;
   const std::lock_guard no_new_names(naming_);
   const Result<Manifest> again = read_checked(names_.case_file(hash), hash);
   if (again || again.error().kind != Error::Kind::corrupt) return damage;

@@ -60,7 +60,29 @@ MaybeError obstacle_in_results(const StoreNames& names) {
 
 constexpr const char* format_of_status = "launchsafe status 1";
 
+/// The part whose status file has that name, empty for a whole study; nothing for any other name.
+std::optional<std::string> part_of_status(std::string_view name) { return part_in(name, "status", ".json"); }
+
 std::string time_in(const StoreStatus& status) { return status.members.value("time", std::string{}); }
+
+/// "HOST process PID since TIME, 3 of 12 runs done", from a status file; "another process" where it names
+/// none.
+std::string writer_in(const std::filesystem::path& status_file) {
+  const auto text = read_file(status_file);
+  const auto members = text ? status_in(*text) : std::nullopt;
+  try {
+    if (!members) return "another process";
+    const std::string writer = fmt::format(
+        "{} process {} since {}, {} of {} runs done", members->at("host").get<std::string>(),
+        members->at("process").get<long>(), members->at("since").get<std::string>(),
+        members->at("runs_done").get<std::size_t>(), members->at("runs_total").get<std::size_t>());
+    // It may have ended while we waited, or somebody reads what it left.
+    if (members->at("ended").get<bool>()) return "another process; the last to write was " + writer;
+    return writer;
+  } catch (const nlohmann::json::exception&) {
+    return "another process";
+  }
+}
 
 }  // namespace
 
@@ -68,8 +90,6 @@ bool is_store_name(std::string_view name) {
   return name == "cases" || name == StoreNames{}.page() || part_in(name, stem, ending) ||
          part_in(name, stem, ".db-journal") || part_of_status(name);
 }
-
-std::optional<std::string> part_of_status(std::string_view name) { return part_in(name, "status", ".json"); }
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
@@ -190,23 +210,6 @@ std::vector<StoreStatus> statuses_in(const std::filesystem::path& folder) {
       !whole || (!parts.empty() && !whole->members.contains("cases")) ||
       std::ranges::any_of(parts, [&](const auto& each) { return time_in(each) > time_in(*whole); });
   return parts_are_newer ? parts : std::vector{*whole};
-}
-
-std::string writer_in(const std::filesystem::path& status_file) {
-  const auto text = read_file(status_file);
-  const auto members = text ? status_in(*text) : std::nullopt;
-  try {
-    if (!members) return "another process";
-    const std::string writer = fmt::format(
-        "{} process {} since {}, {} of {} runs done", members->at("host").get<std::string>(),
-        members->at("process").get<long>(), members->at("since").get<std::string>(),
-        members->at("runs_done").get<std::size_t>(), members->at("runs_total").get<std::size_t>());
-    // It may have ended while we waited, or somebody reads what it left.
-    if (members->at("ended").get<bool>()) return "another process; the last to write was " + writer;
-    return writer;
-  } catch (const nlohmann::json::exception&) {
-    return "another process";
-  }
 }
 
 }  // namespace launchsafe::store

@@ -34,10 +34,5 @@ Result<std::vector<RunRecord>> records_in(Database& database, const std::string&
 
 /// Whether the content of a file is that of a page of status.
 bool is_page(std::string_view content);
-/// The part whose status file has that name, empty for a whole study; nothing for any other name.
-std::optional<std::string> part_of_status(std::string_view name);
-/// "HOST process PID since TIME, 3 of 12 runs done", from a status file; "another process" where it names
-/// none.
-std::string writer_in(const std::filesystem::path& status_file);
 
 }  // namespace launchsafe::store

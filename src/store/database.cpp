@@ -129,42 +129,36 @@ Result<Database> Database::in_memory(const std::filesystem::path& path) {
 
 /// Reads only. A file without anything in it is one to be.
 MaybeError Database::check_format() {
-  const auto id = rows("PRAGMA application_id"), version = rows("PRAGMA user_version"),
-             tables = rows("SELECT count(*) FROM sqlite_schema");
-  for (const auto* each : {&id, &version, &tables})
-    if (!*each) return each->error();
-  const auto number = [](const auto& found) { return std::get<std::int64_t>(found->front().front()); };
-  if (number(id) == 0 && number(tables) == 0) return {};
-  if (number(id) != application_id) return refusal(path_, foreign_file);
-  if (number(version) != schema_version)
-    return Error{
-        Error::Kind::conflict,
-        fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
-                    "into another folder",
-                    path_.string(), number(version), schema_version)};
-  return {};
+  const auto found = rows(
+      "SELECT application_id, (SELECT count(*) FROM sqlite_schema), user_version FROM pragma_application_id, "
+      "pragma_user_version");
+  if (!found) return found.error();
+  const auto number = [&](std::size_t column) { return std::get<std::int64_t>(found->front()[column]); };
+  if (number(0) == 0 && number(1) == 0) return {};
+  if (number(0) != application_id) return refusal(path_, foreign_file);
+  if (number(2) == schema_version) return {};
+  return Error{Error::Kind::conflict,
+               fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
+                           "into another folder",
+                           path_.string(), number(2), schema_version)};
 }
 
 /// Takes the lock, which no commit gives back, and makes what is missing.
 MaybeError Database::lock_and_prepare() {
-  for (const char* statement : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL"})
-    if (const auto done = rows(statement); !done) return done.error();
-  for (const char* statement : {"BEGIN EXCLUSIVE", "COMMIT"})
-    if (MaybeError error = run(statement)) return error;
   // A log beside the file (WAL) does not work on shared disks.
-  if (const auto mode = rows("PRAGMA journal_mode = DELETE"); !mode) return mode.error();
+  for (const char* statement : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL",
+                                "BEGIN EXCLUSIVE", "COMMIT", "PRAGMA journal_mode = DELETE"})
+    if (MaybeError error = run(statement)) return error;
   if (MaybeError error = check_pages("main")) return error;
   return has_table("stored_texts") ? MaybeError() : make_tables();
 }
 
 MaybeError Database::make_tables() {
-  const std::string id = fmt::format("PRAGMA application_id = {}", application_id),
-                    version = fmt::format("PRAGMA user_version = {}", schema_version);
-  for (const std::string& statement :
-       {std::string("BEGIN IMMEDIATE"), id, version,
-        std::string("CREATE TABLE stored_texts (number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT"),
-        std::string("CREATE TABLE stored_events (time TEXT, host TEXT, process INTEGER, what TEXT) STRICT"),
-        std::string("COMMIT")})
+  for (const std::string& statement : std::initializer_list<std::string>{
+           "BEGIN IMMEDIATE", fmt::format("PRAGMA application_id = {}", application_id),
+           fmt::format("PRAGMA user_version = {}", schema_version),
+           "CREATE TABLE stored_texts (number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT",
+           "CREATE TABLE stored_events (time TEXT, host TEXT, process INTEGER, what TEXT) STRICT", "COMMIT"})
     if (MaybeError error = run(statement)) return error;
   return {};
 }

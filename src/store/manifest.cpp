@@ -3,7 +3,6 @@
 #include <Eigen/src/Core/util/Macros.h>
 #include <boost/version.hpp>
 #include <fmt/chrono.h>
-#include <fmt/core.h>
 #include <hdf5.h>
 #include <nlohmann/json.hpp>
 #include <openssl/opensslv.h>
@@ -26,13 +25,11 @@
 #include "launchsafe/version.hpp"
 
 namespace launchsafe::store {
-namespace {
-
-std::string dotted(int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); }
-
-}  // namespace
 
 std::vector<LibraryVersion> library_versions() {
+  const auto dotted = [](int major, int minor, int patch) {
+    return fmt::format("{}.{}.{}", major, minor, patch);
+  };
   return {
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"Boost", dotted(BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},

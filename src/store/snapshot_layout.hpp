@@ -78,6 +78,10 @@ bool is_there(Archive& archive, const std::string& name, bool any = true) {
   return any;
 }
 
+inline constexpr std::array<std::string_view, 4> combustion_end_words{"time", "pressure", "broke_off",
+                                                                      "burnt_through"};
+inline const auto& stored_words(run::CombustionEnd) { return combustion_end_words; }
+
 /// The members of a result that a list describes; histories among them are as long as the first one, or
 /// empty.
 template <class Archive, class Object, class Members>

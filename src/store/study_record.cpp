@@ -31,6 +31,12 @@ std::vector<WrittenFile> files_from(const nlohmann::json& list) {
   return files;
 }
 
+/// The names of texts about the program.
+constexpr std::array texts_of_program{
+    std::pair{"program_version", &Manifest::program_version}, std::pair{"commit", &Manifest::commit},
+    std::pair{"compiler", &Manifest::compiler}, std::pair{"compiler_flags", &Manifest::compiler_flags},
+    std::pair{"build_type", &Manifest::build_type}};
+
 /// Negative for what is no version; the first manifests had none, which is 0.
 int version_in(const nlohmann::json& value) {
   const bool fits =
@@ -47,21 +53,18 @@ bool is_sound(const Manifest& manifest) {
 /// manifest has.
 StudyRecord record_from(const nlohmann::json& object) {
   StudyRecord record;
-  record.manifest.input_sha256 = object.at("input_sha256").get<std::string>();
-  record.manifest.input_text = object.at("input").get<std::string>();
-  record.manifest.model_version = version_in(object.value("model_version", nlohmann::json(0)));
-  record.manifest.program_version = object.value("program_version", "");
-  record.manifest.commit = object.value("commit", "");
-  record.manifest.compiler = object.value("compiler", "");
-  record.manifest.compiler_flags = object.value("compiler_flags", "");
-  record.manifest.build_type = object.value("build_type", "");
-  record.manifest.host = object.value("host", "");
-  record.manifest.threads = object.value("threads", 1);
-  record.manifest.start_time = object.value("start_time", "");
-  record.manifest.wall_time = object.value("wall_time_s", 0.0);
+  Manifest& manifest = record.manifest;
+  manifest.input_sha256 = object.at("input_sha256").get<std::string>();
+  manifest.input_text = object.at("input").get<std::string>();
+  manifest.model_version = version_in(object.value("model_version", nlohmann::json(0)));
+  for (const auto& [name, text] : texts_of_program) manifest.*text = object.value(name, "");
+  manifest.host = object.value("host", "");
+  manifest.threads = object.value("threads", 1);
+  manifest.start_time = object.value("start_time", "");
+  manifest.wall_time = object.value("wall_time_s", 0.0);
   const auto libraries = object.value("libraries", nlohmann::json::object());
   for (const auto& [name, version] : libraries.items())
-    record.manifest.libraries.push_back({name, version.get<std::string>()});
+    manifest.libraries.push_back({name, version.get<std::string>()});
   record.files = files_from(object.value("files", nlohmann::json::array()));
   record.unfinished = files_from(object.value("unfinished", nlohmann::json::array()));
   record.study = object.value("study", "");
@@ -73,11 +76,6 @@ StudyRecord record_from(const nlohmann::json& object) {
 bool is_there(const fs::path& path) {
   std::error_code failed;
   return fs::exists(fs::symlink_status(path, failed));
-}
-
-bool has_content(const fs::path& path, const std::string& text) {
-  const Result<std::string> present = read_file(path);
-  return present && *present == text;
 }
 
 /// What both lists know.
@@ -92,25 +90,20 @@ std::vector<WrittenFile> known_files(const StudyRecord& record) {
 
 nlohmann::ordered_json to_json(const StudyRecord& record) {
   const Manifest& manifest = record.manifest;
-  nlohmann::ordered_json libraries;
-  for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
   nlohmann::ordered_json object{{"input_sha256", manifest.input_sha256},
-                                {"model_version", manifest.model_version},
-                                {"program_version", manifest.program_version},
-                                {"commit", manifest.commit},
-                                {"compiler", manifest.compiler},
-                                {"compiler_flags", manifest.compiler_flags},
-                                {"build_type", manifest.build_type},
-                                {"libraries", libraries},
-                                {"host", manifest.host},
-                                {"threads", manifest.threads},
-                                {"start_time", manifest.start_time},
-                                {"wall_time_s", manifest.wall_time},
-                                {"study", record.study},
-                                {"complete", record.complete},
-                                {"files", files_json(record.files)},
-                                {"failures_sha256", record.failures},
-                                {"input", manifest.input_text}};
+                                {"model_version", manifest.model_version}};
+  for (const auto& [name, text] : texts_of_program) object[name] = manifest.*text;
+  nlohmann::ordered_json& libraries = object["libraries"];
+  for (const LibraryVersion& library : manifest.libraries) libraries[library.name] = library.version;
+  object.update({{"host", manifest.host},
+                 {"threads", manifest.threads},
+                 {"start_time", manifest.start_time},
+                 {"wall_time_s", manifest.wall_time},
+                 {"study", record.study},
+                 {"complete", record.complete},
+                 {"files", files_json(record.files)},
+                 {"failures_sha256", record.failures},
+                 {"input", manifest.input_text}});
   if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
   return object;
 }
@@ -194,7 +187,7 @@ Result<std::vector<std::string>> write_report_files(const fs::path& folder, Stud
   if (!before) return before.error();
   std::set<std::string> stays;
   for (const TextFile& file : files) {
-    if (has_content(folder / file.name, file.text))
+    if (const auto present = read_file(folder / file.name); present && *present == file.text)
       stays.insert(file.name);
     else if (state_of(folder, *before, file.name) == FileState::foreign)
       return refusal(folder / file.name, foreign_file);
@@ -212,9 +205,7 @@ Result<std::vector<std::string>> write_report_files(const fs::path& folder, Stud
   }
   std::vector<WrittenFile> written;
   for (const TextFile& file : files) written.push_back({file.name, sha256(file.text)});
-  record.files = written;
-  record.unfinished = known_files(*before);
-  record.unfinished = known_files(record);
+  record.unfinished = known_files({.manifest = {}, .files = written, .unfinished = known_files(*before)});
   record.files.clear();
   if (MaybeError error = write_study_record(folder, record)) return *error;
   for (const TextFile& file : files) {

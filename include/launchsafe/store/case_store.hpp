@@ -182,7 +182,7 @@ class CaseStore {
   bool knows(const std::string& hash, const struct stat& file) const;
   /// Reads and checks a file of another size or time than its record states; records it if it is whole.
   bool adopt(const std::string& hash);
-  /// A file that is damaged, unless another thread has replaced it, counts no more. Returns its error.
+  /// A file that is corrupt, unless another thread has replaced it, counts no more. Returns its error.
   Error give_up(const std::string& hash, const Error& damage);
   bool is_given_up(const std::string& hash) const;
   MaybeError write_file(const std::string& hash, std::string_view bytes);
