@@ -62,29 +62,34 @@ void find_misfits(const SkinModel& model, const BottomTrace& trace, const Calibr
   result.wide_gap_misfit = misfit_of(model, trace, targets.wide_gap);
 }
 
-/// Positive root of a function that changes sign once, sought from `start` by factors of 2 both ways.
-std::optional<double> positive_root(const std::function<double(double)>& function, double start) {
+/// Sets a constant to where a misfit, which changes sign once over the positive numbers, is 0, sought from
+/// its value by factors of 2 both ways; false where that is nowhere.
+bool solve(double& constant, const std::function<double()>& misfit) {
   struct End {
     double factor, x, value;
   };
-  const double at_start = function(start);
-  if (!std::isfinite(at_start)) return std::nullopt;
-  if (at_start == 0.0) return start;
+  const auto misfit_at = [&](double value) {
+    constant = value;
+    return misfit();
+  };
+  const double start = constant, at_start = misfit_at(start);
+  if (!std::isfinite(at_start) || at_start == 0.0) return at_start == 0.0;
   End ends[] = {{0.5, start, at_start}, {2.0, start, at_start}};
   for (int doubling = 0; doubling < 60; ++doubling)
     for (End& end : ends) {
       const End last = end;
       end.x *= end.factor;
-      end.value = function(end.x);
+      end.value = misfit_at(end.x);
       if (!(last.value * end.value <= 0.0)) continue;
       const auto& [low, high] = std::minmax(last, end, [](const End& a, const End& b) { return a.x < b.x; });
       std::uintmax_t iterations = 100;
       const auto [left, right] =
-          boost::math::tools::toms748_solve(function, low.x, high.x, low.value, high.value,
+          boost::math::tools::toms748_solve(misfit_at, low.x, high.x, low.value, high.value,
                                             boost::math::tools::eps_tolerance<double>(46), iterations);
-      return 0.5 * (left + right);
+      constant = 0.5 * (left + right);
+      return true;
     }
-  return std::nullopt;
+  return false;
 }
 
 /// Why a fit failed, a clause.
@@ -95,22 +100,12 @@ struct FitFailed {
 /// Alternates the two fits until both rows are met.
 void fit_both(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
               CalibratedConstants& result) {
-  const auto meets = [&](double& constant, const Reference& row) {
-    const auto root = positive_root(
-        [&](double value) {
-          constant = value;
-          return misfit_of(model, trace, row);
-        },
-        constant);
-    if (root) constant = *root;
-    return root.has_value();
-  };
   for (int round = 0; round < most_rounds; ++round) {
     if (model.surface.localisation <= 0) model.surface.localisation = 100.0;
-    if (!meets(model.surface.localisation, targets.zero_gap))
+    if (!solve(model.surface.localisation, [&] { return misfit_of(model, trace, targets.zero_gap); }))
       throw FitFailed{
           fmt::format("no localisation gives {:.6g} K without a gap", targets.zero_gap.maximum_temperature)};
-    if (!meets(model.surface.exchange_time, targets.wide_gap))
+    if (!solve(model.surface.exchange_time, [&] { return misfit_of(model, trace, targets.wide_gap); }))
       throw FitFailed{fmt::format("no exchange time gives {:.6g} K at {:.6g} cm",
                                   targets.wide_gap.maximum_temperature, 100.0 * targets.wide_gap.gap)};
     find_misfits(model, trace, targets, result);

@@ -146,13 +146,9 @@ struct GapLines {
                         .x = along.values,
                         .y = nothing,
                         .colour = i});
-      lower_bounds.push_back({.label = i > 0               ? ""
-                                       : across == nullptr ? "its lower bound"
-                                                           : "lower bound of each",
-                              .x = along.values,
-                              .y = nothing,
-                              .style = Style::dashed_line,
-                              .colour = i++});
+      Series& lower = lower_bounds.emplace_back(values.back());
+      lower.label = i++ > 0 ? "" : across == nullptr ? "its lower bound" : "lower bound of each";
+      lower.style = Style::dashed_line;
     }
   }
 

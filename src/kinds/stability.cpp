@@ -308,9 +308,8 @@ Plot outcome_plot(const StabilityResult& result) {
   for (const Outcome outcome : all_outcomes) {
     const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
     plot.title += (plot.title.empty() ? "" : ", ") + label;
-    Series& series = plot.series.emplace_back(Series{.label = label});
-    series.style = Style::filled_bars;
-    series.colour = colours[static_cast<std::size_t>(outcome)];
+    Series& series = plot.series.emplace_back(Series{
+        .label = label, .style = Style::filled_bars, .colour = colours[static_cast<std::size_t>(outcome)]});
     for (const auto& [group, place] : places) {
       const double count = cases[{group, outcome}], end = ends[group] + count;
       if (count > 0) series.add(end, place, std::exchange(ends[group], end), end);
