@@ -139,17 +139,15 @@ Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string
   return quantities;
 }
 
-/// What settings are compared at: gaps, those of them whose time of ignition is, and instants.
-struct ComparedAt {
-  std::vector<double> gaps, igniting_gaps, times;
-};
-
-Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
+/// Of settings that are compared at gaps, of which some may ignite, and at instants.
+Quantities<SettingRow> setting_quantities(const std::vector<double>& gaps,
+                                          const std::vector<double>& igniting_gaps,
+                                          const std::vector<double>& times) {
   const auto of_row = [](const Quantities<AccuracyRow>& quantities) {
     return of_part<SettingRow>(quantities, &SettingRow::part);
   };
   Quantities<SettingRow> of_times;
-  for (const double time : at.times)
+  for (const double time : times)
     of_times.emplace_back(
         for_programs(Column{"temperature_error_" + digits_of(time, significant(6, millisecond)) + "_ms",
                             "T error at " + milliseconds(time), fixed(2, kelvin),
@@ -166,7 +164,7 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
                {"particle_steps", "particle steps", significant(3), "Particles times steps.",
                 &AccuracyRow::particle_steps},
                {quantity::memory, &AccuracyRow::memory}}),
-       by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
+       by_gap(gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
        of_row({{temperature_bound, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
                {quantity::critical_gap, &AccuracyRow::setting, &RecordedSetting::critical_gap},
                {"critical_gap_error", "its error", significant(2, centimetre),
@@ -177,7 +175,7 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
                 &AccuracyRow::pressure_error},
                {"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak.",
                 &AccuracyRow::peak_pressure_error}}),
-       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
+       by_gap(igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
               &AccuracyRow::ignition_time_error),
        of_times,
        of_row({{quantity::energy_drift, &AccuracyRow::answer, &CaseAnswer::run, &RunSummary::energy_drift},
@@ -276,10 +274,11 @@ Table setting_table(const AccuracyResult& result) {
       if (!variant.reference->ignition_time[i].values.empty()) gaps.push_back(gaps_of(variant)[i]);
     return gaps;
   };
-  const ComparedAt at{all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
-                      all_of_variants(result, times_of)};
-  return table_of("Error against run time", with_variants(result, setting_quantities(at), &SettingRow::whole),
-                  rows, said("accuracy.note.settings"));
+  const auto quantities =
+      setting_quantities(all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
+                         all_of_variants(result, times_of));
+  return table_of("Error against run time", with_variants(result, quantities, &SettingRow::whole), rows,
+                  said("accuracy.note.settings"));
 }
 
 Table variant_table(const AccuracyResult& result) {
@@ -289,7 +288,7 @@ Table variant_table(const AccuracyResult& result) {
 
 std::vector<ReportTable> accuracy_results() {
   const auto reference = keys::described(reference_quantities({1e-3}));
-  return {{table_of({}, setting_quantities({{0.0}, {0.0}, {1e-3}}), {}), "accuracy.csv", "settings"},
+  return {{table_of({}, setting_quantities({0.0}, {0.0}, {1e-3}), {}), "accuracy.csv", "settings"},
           {table_of({}, variant_quantities, {}), "variants.csv", "variants"},
           {Table{.columns = reference}, "reference.csv", "reference"},
           {Table{.columns = reference}, "points.csv", "points"}};

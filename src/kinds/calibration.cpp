@@ -107,13 +107,9 @@ double change_of(const CalibrationResult& result, FrictionClosure closure, const
 /// K. Closures whose misfits differ by less are equally good: the misfits are of tens of kelvin.
 constexpr double distinguishable_rms = 0.5;
 
-FrictionClosure study_closure(const CalibrationResult& result) {
-  return result.study.scene.scene.surface.friction;
-}
-
 /// Of a study that fits the load there is one closure alone.
 void recommend_own(CalibrationResult& result, const std::string& kinetics, double mesh) {
-  const std::size_t place = row_place(result, mesh, study_closure(result), kinetics);
+  const std::size_t place = row_place(result, mesh, result.study.scene.scene.surface.friction, kinetics);
   const CalibrationRow& own = result.rows[place];
   if (!own.failure.empty()) {
     result.reason = "no constants are recommended: " + own.failure;
@@ -148,7 +144,7 @@ void recommend(CalibrationResult& result) {
   const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
   const bool separates = gain > distinguishable_rms;
   // Where the misfits do not separate the closures, the scene keeps the one it has (if it has one).
-  const bool keep_inelastic = study_closure(result) == FrictionClosure::inelastic;
+  const bool keep_inelastic = result.study.scene.scene.surface.friction == FrictionClosure::inelastic;
   const bool choose_inelastic =
       separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
   const CalibrationRow* better = choose_inelastic ? inelastic : total;

@@ -10,8 +10,6 @@ using study::fitted_keys, study::StationConvergence;
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string calibration_remark(const CalibrationRow& row) {
   if (!row.failure.empty()) return row.failure;
   return row.calibratable ? std::string{}
@@ -115,8 +113,8 @@ const Quantities<Placement> placement_quantities{
     {"computed", "computed", text(), "Station where it was computed.", &Placement::computed},
     {"published", "published", text(), "Where it was published to be.", &Placement::published}};
 
-Json stations_json(const StationConvergence& stations) {
-  Json json = json_of<StationConvergence>(
+Row stations_json(const StationConvergence& stations) {
+  Row json = json_of<StationConvergence>(
       {{named("change_to_finer", quantity::change_to_finer), &StationConvergence::finer},
        {named("change_from_coarser", quantity::change_from_coarser), &StationConvergence::coarser}},
       stations);
@@ -166,7 +164,7 @@ Quantities<FittedRow> fitted_quantities() {
   return quantities;
 }
 
-Json load_json(const CalibrationResult& result) {
+Row load_json(const CalibrationResult& result) {
   if (!result.load) return nullptr;
   const Quantities<FittedLoad> quantities{
       {quantity::load_peak_time, &FittedLoad::bell, &Load::peak_time},
@@ -182,7 +180,7 @@ Json load_json(const CalibrationResult& result) {
        &math::AddedUnknown::gain},
       {"runs", "runs", count(), "Mechanical runs that it took.", &FittedLoad::runs},
       {quantity::reason, &FittedLoad::failure}};
-  Json json = json_of(quantities, *result.load);
+  Row json = json_of(quantities, *result.load);
   json["covariance_of_logarithms"] = result.load->covariance;
   json["frozen_at"] = settings_of<CalibrationSettings>(result.study).frozen_at;
   return json;
@@ -202,14 +200,6 @@ std::string fit_text(const CalibrationResult& result) {
   facts.update({{"temperature_weight_K", temperature_weight},
                 {"instant_weight_ms", shown_value(instant_weight, significant(6, millisecond))}});
   return said_below("calibration.fit", facts);
-}
-
-std::string misfits_text(const CalibrationRow& row) {
-  const MisfitBound misfits = misfit_bound(row);
-  return said_below("calibration.misfits", {{"count", misfits.count},
-                                            {"root_mean_square_K", misfits.root_mean_square},
-                                            {"factor", misfits.factor},
-                                            {"bound_K", misfits.bound()}});
 }
 
 }  // namespace
@@ -261,7 +251,13 @@ Report report_of(const CalibrationResult& result) {
   report.add({fitted_table(result), "", "fitted"});
   report.say(fit_text(result));
   const CalibrationRow* recommended = result.recommended();
-  if (recommended != nullptr) report.say(misfits_text(*recommended));
+  if (recommended != nullptr) {
+    const MisfitBound misfits = misfit_bound(*recommended);
+    report.say(said_below("calibration.misfits", {{"count", misfits.count},
+                                                  {"root_mean_square_K", misfits.root_mean_square},
+                                                  {"factor", misfits.factor},
+                                                  {"bound_K", misfits.bound()}}));
+  }
   report.add({table_of("Calibrated constants, and how far they miss what nothing was fitted to",
                        calibration_quantities(result.study.study), result.rows,
                        said("calibration.note.calibrations")),
@@ -283,9 +279,9 @@ Report report_of(const CalibrationResult& result) {
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({run_table(result.runs), "", "runs", Shown::page});
   report.say(report::timing_sentence(result.timing));
-  Json recommendation{{"reason", result.reason}, {"row", nullptr}};
+  Row recommendation{{"reason", result.reason}, {"row", nullptr}};
   if (result.recommended_row) recommendation["row"] = *result.recommended_row;
-  Json in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
+  Row in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
   in_scene.update(json_of(constant_quantities, result.in_scene));
   report.json = study_json(result.study, report,
                            {{"recommendation", recommendation},

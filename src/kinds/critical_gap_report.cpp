@@ -163,14 +163,13 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Table& gaps) {
-  nlohmann::ordered_json members{
-      {"axes", report::axes_json(result.study.study)},
-      // Of the only case; where there are several, each has its own.
-      {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
-      {"early_time_ms", shown_value(result.study.study.early_time, report::quantity::time(2).form)},
-      {"counts", counts_json(result)},
-      {"notes", report::mesh_notes(result.study)}};
+Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
+  Row members{{"axes", report::axes_json(result.study.study)},
+              // Of the only case; where there are several, each has its own.
+              {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
+              {"early_time_ms", shown_value(result.study.study.early_time, report::quantity::time(2).form)},
+              {"counts", counts_json(result)},
+              {"notes", report::mesh_notes(result.study)}};
   if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
   return members;
 }
@@ -308,12 +307,11 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
 
 Plot temperature_plot(const CriticalGapResult& result) {
   const bool only = result.details.size() == 1;
-  Plot plot;
-  plot.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom";
-  plot.x.label = quantity::gap.label();
-  plot.y.label = quantity::temperature_max.label();
-  // The legend stands below and takes two cases a line.
-  plot.height = 600 + 14 * static_cast<int>(result.details.size());
+  Plot plot{.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom",
+            .x = {.label = quantity::gap.label()},
+            .y = {.label = quantity::temperature_max.label()},
+            // The legend stands below and takes two cases a line.
+            .height = 600 + 14 * static_cast<int>(result.details.size())};
   for (std::size_t i = 0; i < result.details.size(); ++i)
     only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
   // One entry of the legend for the ignitions of all cases.

@@ -44,19 +44,15 @@ Quantities<JudgedGap> judged_gap_quantities(const StudyFile& study) {
        of_part<JudgedGap>(report::verdict_quantities(study.study), &JudgedGap::gap)});
 }
 
-/// "0.04 cm".
-std::string gap_label(const Study& study, std::size_t place) {
-  return study.gaps_by_cooling ? "the gap by cooling" : centimetres(study.gaps[place]);
-}
-
 /// T max at the smallest and the largest gap among those judged; at one of them where they are the same.
 Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
   const std::vector<double>& gaps = study.gaps;
   if (gaps.empty()) return {};
   const auto at = [&](auto gap, const char* name) {
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
+    const std::string where = study.gaps_by_cooling ? "the gap by cooling" : centimetres(*gap);
     return report::Quantity<AnsweredCase>(
-        name, "T max at " + gap_label(study, place), fixed(1, kelvin),
+        name, "T max at " + where, fixed(1, kelvin),
         "Highest temperature at that gap; of one that ignites the burning skin's.",
         [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;

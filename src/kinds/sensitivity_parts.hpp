@@ -47,7 +47,7 @@ study::SurrogateRecord surrogate_record(const SensitivityResult& result);
 
 /// How many draws ignite at the study's gap, and between what, with 95 %, the probability lies: its ends hold
 /// whatever the failed draws would have done.
-nlohmann::ordered_json ignition_json(const SensitivityResult& result);
+Row ignition_json(const SensitivityResult& result);
 /// The same as a sentence, with the lower quantile of the critical gap.
 std::string samples_text(const SensitivityResult& result);
 

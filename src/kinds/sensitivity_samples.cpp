@@ -219,7 +219,7 @@ const Quantities<HistogramRow> histogram_quantities{
 
 }  // namespace
 
-nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
+Row ignition_json(const SensitivityResult& result) {
   std::size_t igniting = 0, completed = 0, failed = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
@@ -299,7 +299,7 @@ Table histogram_table(const SensitivityResult& result) {
 
 Plot histogram_plot(const SensitivityResult& result) {
   Plot plot;
-  const nlohmann::ordered_json ignition = ignition_json(result);
+  const Row ignition = ignition_json(result);
   plot.title = fmt::format("At {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
                            ignition["igniting"].get<std::size_t>(), ignition["completed"].get<std::size_t>());
   const auto add = [&plot](Plot panel) {

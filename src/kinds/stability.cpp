@@ -329,8 +329,8 @@ std::string legend(const Study& study) {
       said_below("stability.invariants", {{"invariants", invariants}}));
 }
 
-nlohmann::ordered_json counts_json(const StabilityResult& result) {
-  nlohmann::ordered_json counts;
+Row counts_json(const StabilityResult& result) {
+  Row counts;
   counts["cases"] = result.rows.size();
   for (const Outcome outcome : all_outcomes) counts[to_string(outcome)] = result.count(outcome);
   counts["not_as_expected"] = std::ranges::count_if(result.rows, [](const StressCaseRow& row) {
