@@ -227,7 +227,7 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
   std::size_t index = 0;
   for (const VariantAccuracy& variant : result.variants)
     for (const AccuracyRow& row : variant.rows)
-      add_failure(failures, result.study.cases.label(index++), row.answer.outcome, row.answer.failure);
+      add_failure(failures, result.study.cases.label(index++), row.answer);
   return failures;
 }
 

@@ -4,7 +4,6 @@
 
 namespace launchsafe::kinds {
 
-using report::Statement;
 using study::RecordedSetting, study::ReferenceValue;
 
 namespace {

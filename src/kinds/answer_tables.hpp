@@ -48,10 +48,11 @@ Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(
 std::vector<ReportTable> critical_gap_results(), calibration_results(), sensitivity_results(),
     accuracy_results(), stability_results(), comparison_results();
 
-/// Adds a run that came to nothing, unless another shard runs it.
-inline void add_failure(std::vector<Failure>& failures, const std::string& label, RunOutcome outcome,
-                        const std::string& reason) {
-  if (!reason.empty() && outcome != RunOutcome::other_shard) failures.push_back({label, reason, outcome});
+/// Adds what came to nothing, unless another shard runs it.
+template <class Ended>
+void add_failure(std::vector<Failure>& failures, const std::string& label, const Ended& ended) {
+  if (!ended.failure.empty() && ended.outcome != RunOutcome::other_shard)
+    failures.push_back({label, ended.failure, ended.outcome});
 }
 
 /// Of a kind that has an answer for every case.
@@ -59,7 +60,7 @@ template <class Result>
 std::vector<Failure> failures_of(const Result& result) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
-    add_failure(failures, result.study.cases.label(i), result.answers[i].outcome, result.answers[i].failure);
+    add_failure(failures, result.study.cases.label(i), result.answers[i]);
   return failures;
 }
 

@@ -36,7 +36,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases.replace(i, result.runs[i].input);
   run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
     CalibrationRun& run = result.runs[i];
-    static_cast<FinishedRun&>(run) = std::move(finished.front());
+    static_cast<FinishedRun&>(run) = finished.front();
     BottomTrace& trace = run.result.mechanics.trace;
     trace = trace::until(trace, scene::read_time(run.input.scene.scene.load));
   });

@@ -193,8 +193,7 @@ void make_calibration_cases(const StudySource&, StudyFile& study) {
 template <class Result, std::vector<CalibrationRun> Result::*runs>
 std::vector<Failure> failed_runs(const Result& result) {
   std::vector<Failure> failures;
-  for (const CalibrationRun& run : result.*runs)
-    add_failure(failures, run.input.label, run.outcome, run.failure);
+  for (const CalibrationRun& run : result.*runs) add_failure(failures, run.input.label, run);
   return failures;
 }
 

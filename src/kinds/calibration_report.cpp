@@ -5,7 +5,6 @@
 namespace launchsafe::kinds {
 
 using keys::megapascal;
-using report::Statement;
 using study::fitted_keys, study::StationConvergence;
 
 namespace {

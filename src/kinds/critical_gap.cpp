@@ -277,8 +277,7 @@ std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   std::vector<Failure> failures = failures_of(result);
   for (const CaseOutcome& each : result.details)
     for (const study::Confirmation& confirmation : each.confirmations)
-      add_failure(failures, label_with_skin(each, confirmation.gap), confirmation.outcome,
-                  confirmation.failure);
+      add_failure(failures, label_with_skin(each, confirmation.gap), confirmation);
   return failures;
 }
 

@@ -81,12 +81,6 @@ std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind 
   return label;
 }
 
-/// The kind as it is drawn: a value that is not finite is none.
-CriticalGapKind drawn_kind(const CriticalGap& gap) {
-  const bool broken = gap.kind == CriticalGapKind::value && !std::isfinite(gap.value);
-  return broken ? CriticalGapKind::indeterminate : gap.kind;
-}
-
 /// Critical gaps that are no values as marks along an axis, one series for every kind, in a colour that no
 /// line has. `answers`: all that the picture will have, which decide the labels.
 std::map<CriticalGapKind, Series> marks_for(const std::vector<CaseAnswer>& answers) {
@@ -158,8 +152,9 @@ struct GapLines {
     if (line == values_across.size() || values_across[line] != of) return;
     const CriticalGap& gap = answer.critical;
     const double x = along.key.value(input.coordinates[along.index]);
-    const CriticalGapKind kind = drawn_kind(gap);
-    if (kind == CriticalGapKind::indeterminate) {
+    const CriticalGapKind kind = gap.kind;
+    const bool broken = kind == CriticalGapKind::value && !std::isfinite(gap.value);
+    if (broken || kind == CriticalGapKind::indeterminate) {
       ++unknown;
       return;
     }

@@ -20,7 +20,7 @@ void run_conditions(FiringResult& result, const StudyOptions& options) {
   study::run_every_case(
       result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
         CalibrationRun& condition = result.conditions[i];
-        static_cast<FinishedRun&>(condition) = std::move(finished.front());
+        static_cast<FinishedRun&>(condition) = finished.front();
         if (condition.failure.empty())
           condition.failure =
               calibration_validity_warnings(condition.input.scene.scene, condition.mechanics());

@@ -183,10 +183,11 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
   for (const StressCaseRow& row : result.rows) {
     if (row.is_as_expected()) continue;
-    const std::string unexpected = fmt::format("{}, which is not what the study expects: {}",
-                                               to_string(row.finding.outcome), row.finding.text);
-    add_failure(failures, row.asked.label(), row.answer.outcome,
-                row.computed() ? unexpected : row.answer.failure);
+    CaseAnswer answer = row.answer;
+    if (row.computed())
+      answer.failure = fmt::format("{}, which is not what the study expects: {}",
+                                   to_string(row.finding.outcome), row.finding.text);
+    add_failure(failures, row.asked.label(), answer);
   }
   return failures;
 }
