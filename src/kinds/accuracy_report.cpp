@@ -122,6 +122,7 @@ Plot error_plot(const VariantAccuracy& variant) {
   constexpr int blue = 0, orange = 1, green = 2, black = 6, grey = 7;
   const double known_to = variant.reference_uncertainty();
   Plot plot{
+      .title = {},
       .x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic},
       .y = {headed("distance of T max from the limit", quantity::temperature_max).label(),
             report::Scale::logarithmic},

@@ -140,8 +140,9 @@ struct PartOf {
 template <class Whole, class Part>
 Quantities<PartOf<Whole, const Part*>> with_whole(const Quantities<Whole>& of_whole,
                                                   const Quantities<Part>& of_part) {
-  using Row = PartOf<Whole, const Part*>;
-  return joined<Row>({keys::of_part<Row>(of_whole, &Row::whole), keys::of_part<Row>(of_part, &Row::part)});
+  using Both = PartOf<Whole, const Part*>;
+  return joined<Both>(
+      {keys::of_part<Both>(of_whole, &Both::whole), keys::of_part<Both>(of_part, &Both::part)});
 }
 
 /// A row for every part of all, which `list` has.

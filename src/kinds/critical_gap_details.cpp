@@ -274,7 +274,7 @@ std::string undecided_text(const CriticalGapResult& result) {
   return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
 }
 
-std::vector<ReportTable> tables_of(const CriticalGapResult& result) {
+std::vector<ReportTable> detail_tables(const CriticalGapResult& result) {
   const auto cases = of_each(result.details, [](const CaseOutcome& outcome) {
     return report::NamedGap{outcome.input.label, &outcome.critical};
   });
@@ -324,7 +324,7 @@ void add_details(const CriticalGapResult& result, Report& report) {
   for (ReportTable& table : closing_tables(result)) report.add(std::move(table));
   if (auto plot = closing_plot(result))
     report.draw({"closing.svg", std::move(*plot), "T max where the gap closes"});
-  for (ReportTable& table : tables_of(result)) report.add(std::move(table));
+  for (ReportTable& table : detail_tables(result)) report.add(std::move(table));
   report.say(undecided_text(result));
 }
 
@@ -340,7 +340,7 @@ void add_runs(const CriticalGapResult& result, Report& report) {
 
 std::vector<ReportTable> detail_results() {
   std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"}};
-  std::ranges::move(tables_of({}), std::back_inserter(all));
+  std::ranges::move(detail_tables({}), std::back_inserter(all));
   all.push_back({run_table(CriticalGapResult()), "", "runs"});
   std::ranges::move(closing_results(), std::back_inserter(all));
   return all;

@@ -123,7 +123,8 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   const ShownOutput& shown = shown_output(output.output);
   const OutputSample sample = sample_of(result, output);
   const Histogram histogram = histogram_of(sample, shown);
-  Plot panel{.x = {.label = shown.column.label()},
+  Plot panel{.title = title_of(result, output),
+             .x = {.label = shown.column.label()},
              .y = {.label = "draws", .minimum = 0.0},
              .width = panel_width,
              .height = panel_height};
@@ -131,7 +132,6 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   const double low = shown.value(sample.quantile(quantile_shares.front())),
                high = shown.value(sample.quantile(quantile_shares.back()));
   const std::string unit = " " + shown.column.form.unit;
-  panel.title = title_of(result, output);
   if (std::isfinite(low) && std::isfinite(high)) {
     panel.title +=
         fmt::format(": {} to {}{} in 95 %", report::significant(low, 3), report::significant(high, 3), unit);
@@ -161,7 +161,8 @@ Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& outp
   constexpr std::size_t fewest = 4, steps = 40;
   const ShownOutput& shown = shown_output(output.output);
   const std::size_t all = sample_of(result, output).values.size();
-  Plot panel{.x = {.label = "draws"},
+  Plot panel{.title = {},
+             .x = {.label = "draws"},
              .y = {.label = shown.column.label()},
              .width = panel_width,
              .height = panel_height,
