@@ -4,13 +4,11 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
-#include <fmt/format.h>
-
 #include <span>
 
 namespace launchsafe::kinds {
 
-using study::not_a_number, study::RecordedSetting, study::ReferenceValue;
+using study::RecordedSetting, study::ReferenceValue;
 
 namespace {
 
@@ -27,12 +25,10 @@ std::vector<ReferenceValue> over_meshes(std::span<const AccuracyRow> meshes, Lis
 
 /// s, for every gap; NaN where it does not ignite.
 std::vector<double> ignition_times(const AccuracyRow& row) {
-  return of_each(row.answer.verdicts, [](const study::GapVerdict& gap) {
-    return gap.ignition ? gap.ignition->time : not_a_number;
-  });
+  return of_each(row.answer.verdicts,
+                 [](const GapVerdict& gap) { return gap.ignition ? gap.ignition->time : not_a_number; });
 }
 
-/// What the reference meshes, finest first, tend to.
 AccuracyReference reference_of(std::span<const AccuracyRow> meshes, const study::AccuracyRecord& record,
                                std::vector<bool> inert) {
   AccuracyReference reference;
@@ -72,9 +68,8 @@ void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
 
 /// What the skin of the first gap was in detail: of one that closes that of its launch, else without
 /// reaction, since after ignition all are alike.
-void add_first_gap(const study::Study& study, const scene::Scene& scene, const run::CaseResult& result,
-                   AccuracyRow& row) {
-  const trace::BottomTrace& trace = result.mechanics.trace;
+void add_first_gap(const Study& study, const Scene& scene, const run::CaseResult& result, AccuracyRow& row) {
+  const BottomTrace& trace = result.mechanics.trace;
   const auto skin = !result.gaps.empty()
                         ? result.gaps.front().skin
                         : surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace,
@@ -85,15 +80,14 @@ void add_first_gap(const study::Study& study, const scene::Scene& scene, const r
 }
 
 /// What a run came to and what it cost, without comparing it.
-AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
-                    const std::vector<study::FinishedRun>& runs) {
-  const scene::Scene scene = closing_scene(input);
+AccuracyRow measure(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
+  const Scene scene = closing_scene(input);
   AccuracyRow row;
   row.setting.label = input.label;
   row.setting.setting = study::setting_of(scene);
   row.answer = answer_from(study, input, runs);
   if (!runs.front().has_result()) return row;
-  const run::MechanicsResult& mechanics = runs.front().result.mechanics;
+  const MechanicsResult& mechanics = runs.front().result.mechanics;
   const scene::CellRange mesh = scene::cells_of_charge(scene);
   row.setting.cell = std::sqrt(mesh.shortest_x * mesh.shortest_r);
   row.setting.processor_time = mechanics.work_time();
@@ -101,7 +95,7 @@ AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
   row.particle_steps = static_cast<double>(mechanics.particles) * static_cast<double>(mechanics.steps);
   row.memory = run::cost_of(scene).memory();
   if (!row.computed()) return row;
-  for (const study::FinishedRun& run : runs)
+  for (const FinishedRun& run : runs)
     if (row.validity_warnings.empty())
       row.validity_warnings =
           fmt::format("{}", fmt::join(run::validity_warnings(scene, run.result.mechanics), "; "));
@@ -111,17 +105,16 @@ AccuracyRow measure(const study::Study& study, const study::StudyCase& input,
   return row;
 }
 
-void run_settings(AccuracyResult& result, const study::StudyOptions& options) {
+void run_settings(AccuracyResult& result, const StudyOptions& options) {
   std::vector<std::pair<VariantAccuracy*, std::size_t>> places;  // of every case of the study
   for (VariantAccuracy& variant : result.variants) {
     variant.rows.resize(variant.study.cases.size());
     for (std::size_t i = 0; i < variant.rows.size(); ++i) places.emplace_back(&variant, i);
   }
-  run_every_case(result.study, options, result.timing,
-                 [&](std::size_t i, std::vector<study::FinishedRun>& runs) {
-                   const auto& [variant, place] = places[i];
-                   variant->rows[place] = measure(variant->study.study, variant->study.cases[place], runs);
-                 });
+  run_every_case(result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
+    const auto& [variant, place] = places[i];
+    variant->rows[place] = measure(variant->study.study, variant->study.cases[place], runs);
+  });
 }
 
 /// A gap at which any sound setting of the same model ignites is compared by a skin that does not react:
@@ -137,7 +130,7 @@ std::vector<bool> inert_gaps(const VariantAccuracy& variant) {
 }
 
 void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
-  const study::StudyFile& study = variant.study;
+  const StudyFile& study = variant.study;
   const study::Setting own = study::setting_of(study.scene.scene);
   for (std::size_t i = 0; i < study.cases.size(); ++i) {
     AccuracyRow& row = variant.rows[i];
@@ -168,7 +161,7 @@ bool is_usual(const RecordedSetting& setting) {
 
 /// Of the sound settings of the same model; none that has temperatures which nothing has.
 study::AccuracyRecord record_of(const VariantAccuracy& variant) {
-  const scene::Scene& scene = variant.study.scene.scene;
+  const Scene& scene = variant.study.scene.scene;
   study::AccuracyRecord record;
   record.title = variant.study.study.title;
   record.scene = scene;
@@ -202,7 +195,7 @@ void compare(VariantAccuracy& variant) {
   fill_settings(inert, variant.rows);
   for (const AccuracyRow& mesh : finest_first) {
     if (is_usual(mesh.setting)) continue;
-    if (variant.study.scene.scene.surface.model == scene::GapModel::closing)
+    if (variant.study.scene.scene.surface.model == GapModel::closing)
       variant.no_reference = fmt::format(
           "on the reference mesh {} a gap that closes ignites; compare thinner ones", mesh.setting.label);
     else
@@ -273,7 +266,7 @@ bool AccuracyResult::any_indeterminate() const {
   return std::ranges::any_of(variants, [](const VariantAccuracy& each) { return each.any_indeterminate(); });
 }
 
-AccuracyResult run_accuracy(const study::StudyFile& study, const study::StudyOptions& options) {
+AccuracyResult run_accuracy(const StudyFile& study, const StudyOptions& options) {
   return run_timed<AccuracyResult>(
       study, options,
       [&](AccuracyResult& result) {

@@ -1,28 +1,21 @@
 // A study of kind accuracy as a file: reference meshes, settings, variants, and the cases that follow.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 
 namespace launchsafe::kinds {
 
-using study::Change, study::StudyFile;
-
 namespace {
-
-using scene::KeyDescription, scene::Place, scene::Value;
 
 constexpr std::size_t least_reference_meshes = 3;
 constexpr const char *cell_size_key = "numerics.cell_size", *meshes_key = "reference_cell_sizes";
 
 AccuracySettings& own(StudyFile& study) { return settings_of<AccuracySettings>(study.study); }
 
-void read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
+void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
@@ -38,7 +31,7 @@ void read_axis(const study::Leaf& leaf, std::size_t block, StudyFile& study) {
 void check_reference_meshes(StudyFile& study) {
   std::vector<double>& sizes = own(study).reference_cell_sizes;
   std::ranges::sort(sizes);
-  refuse_if(check_twice(study, meshes_key, scene::Dimension::length, sizes));
+  refuse_if(check_twice(study, meshes_key, Dimension::length, sizes));
   if (sizes.size() < least_reference_meshes)
     refuse_at(study, meshes_key, fmt::format("{} cell sizes", sizes.size()),
               fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
@@ -52,8 +45,8 @@ constexpr double least_refinement = 1.2;
 void check_reference_grids(StudyFile& study) {
   const std::vector<double>& sizes = own(study).reference_cell_sizes;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    const std::string size = scene::format_quantity(sizes[i], scene::Dimension::length);
-    const scene::Scene& scene = study.cases[i].scene.scene;
+    const std::string size = format_quantity(sizes[i], Dimension::length);
+    const Scene& scene = study.cases[i].scene.scene;
     if (const std::string edges = scene::charge_edges_off_grid(scene); !edges.empty())
       refuse_at(study, meshes_key,
                 fmt::format("{}, whose grid does not run along the charge: {}", size, edges),
@@ -85,9 +78,9 @@ std::string label_of(const std::vector<Change>& changes) {
 using KnownScenes = std::set<std::string>;
 
 void add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
-  scene::SceneFile scene = taken(with_changes(study.scene, changes));
+  SceneFile scene = taken(with_changes(study.scene, changes));
   if (!known.insert(scene::to_toml(scene.scene)).second) return;
-  study::StudyCase made = study::case_of(label_of(changes), std::move(scene));
+  StudyCase made = study::case_of(label_of(changes), std::move(scene));
   made.own_conditions = true;
   if (made.closing) made.scene.scene.surface.gaps = study.study.gaps;
   study.cases.add(std::move(made));
@@ -122,7 +115,7 @@ void read_settings(const toml::table& root, StudyFile& study) {
                               "tables, each written [[settings]], of scene keys with several values"))) {
     const std::size_t block = own(study).settings.size();
     own(study).settings.emplace_back();
-    for (const study::Leaf& leaf : study::leaves_as_written(*table)) read_axis(leaf, block, study);
+    for (const Leaf& leaf : study::leaves_as_written(*table)) read_axis(leaf, block, study);
   }
   check_setting_count(study);
 }
@@ -165,11 +158,11 @@ std::string name_of_variant(const toml::table& table, StudyFile& study) {
   const std::string name = node ? node->value_or(std::string{}) : std::string{};
   const Place place = scene::place_of(node ? *node : table, study.file);
   if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos)
-    refuse_if(scene::error_at(place, "variant.name", node ? scene::found_text(*node) : "no name",
-                              fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest)));
+    refuse_if(error_at(place, "variant.name", node ? found_text(*node) : "no name",
+                       fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest)));
   if (keys::find_named(own(study).variants, name) != nullptr)
-    refuse_if(scene::error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
-                              "a name that no other variant has"));
+    refuse_if(error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
+                       "a name that no other variant has"));
   return name;
 }
 
@@ -182,14 +175,13 @@ void add_variant(const StudySource& source, std::size_t index, StudyFile& study)
   table.erase("name");
   for (const char* common : {"kind", variant_key})
     if (const toml::node* node = table.get(common))
-      refuse_if(scene::error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
-                                scene::found_text(*node),
-                                "keys of a study that variants may have otherwise"));
+      refuse_if(error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
+                         found_text(*node), "keys of a study that variants may have otherwise"));
   move_into(root, table);
   StudyFile variant =
       taken(read_study_table({root, source.text, source.folder, source.tolerance}, study.file,
                              study.most_cases - std::min(study.most_cases, study.cases.size())));
-  for (study::StudyCase each : variant.cases) {
+  for (StudyCase each : variant.cases) {
     each.label = name + ": " + each.label;
     study.cases.add(std::move(each));
   }
@@ -203,7 +195,7 @@ std::vector<const toml::table*> variants_of(const StudySource& source, const Stu
   constexpr const char* allowed = "tables, each written [[variant]], with a name and what it has otherwise";
   const auto tables = taken(scene::tables_of(source.root, variant_key, study.file, allowed));
   if (const toml::node* node = source.root.get(variant_key); node != nullptr && tables.empty())
-    refuse_if(scene::error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed));
+    refuse_if(error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed));
   return tables;
 }
 
@@ -221,14 +213,13 @@ void make_accuracy_cases(const StudySource& source, StudyFile& study) {
   study.overrides = first.overrides;
 }
 
-const std::vector<scene::Key<AccuracySettings>> accuracy_keys{
-    scene::list_key("reference_cell_sizes", scene::Dimension::length, scene::between(1e-5, 1),
-                    scene::Standing::assumed,
-                    "Cell sizes of at least three grids, each fitting the charge, that the reference is "
-                    "extrapolated from.",
-                    &AccuracySettings::reference_cell_sizes),
-    scene::list_key("times", scene::Dimension::time, scene::between(0, 1), scene::Standing::assumed,
-                    "Instants at which temperatures are compared too.", &AccuracySettings::times),
+const std::vector<Key<AccuracySettings>> accuracy_keys{
+    list_key("reference_cell_sizes", Dimension::length, between(1e-5, 1), Standing::assumed,
+             "Cell sizes of at least three grids, each fitting the charge, that the reference is "
+             "extrapolated from.",
+             &AccuracySettings::reference_cell_sizes),
+    list_key("times", Dimension::time, between(0, 1), Standing::assumed,
+             "Instants at which temperatures are compared too.", &AccuracySettings::times),
 };
 
 std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
@@ -236,7 +227,7 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
   std::size_t index = 0;
   for (const VariantAccuracy& variant : result.variants)
     for (const AccuracyRow& row : variant.rows)
-      add_failure(failures, result.study.cases.label(index++), row.answer.outcome, row.answer.failure);
+      add_failure(failures, result.study.cases.label(index++), row.answer);
   return failures;
 }
 

@@ -2,20 +2,14 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 namespace launchsafe::kinds {
 
-using report::Mark, report::Plot, report::ReportTable, report::Row, report::Series, report::Shown,
-    report::shown_gap, report::Statement;
 using study::RecordedSetting, study::ReferenceValue;
 
 namespace {
 
-std::string kelvins(double value) { return report::in_words(value, keys::significant(2, keys::kelvin)); }
+std::string kelvins(double value) { return in_words(value, significant(2, kelvin)); }
 
-/// A setting with its bound and its cost.
 Row facts_of(const RecordedSetting& setting) {
   return {
       {"label", setting.label}, {"bound_K", setting.temperature_bound}, {"time_s", setting.processor_time}};
@@ -57,7 +51,6 @@ Row facts_of(const VariantAccuracy& variant, const AccuracyRow& own) {
   return facts;
 }
 
-/// The cheapest setting for every tolerance of T max.
 Row cheapest_settings(const study::AccuracyRecord& record) {
   Row all = Row::array();
   const RecordedSetting* last = nullptr;
@@ -71,7 +64,6 @@ Row cheapest_settings(const study::AccuracyRecord& record) {
   return all;
 }
 
-/// Why believe that.
 Row belief_facts(const VariantAccuracy& variant) {
   double inexactness = 0, drift = 0;
   std::size_t justified = 0, sound = 0;
@@ -90,7 +82,7 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"gaps", limits.size()},
           {"sound", sound},
           {"settings", variant.rows.size()},
-          {"drift_percent", report::shown_value(drift, keys::significant(2, keys::percent))},
+          {"drift_percent", shown_value(drift, significant(2, percent))},
           {"inexactness_K", inexactness}};
 }
 
@@ -129,15 +121,16 @@ Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
 Plot error_plot(const VariantAccuracy& variant) {
   constexpr int blue = 0, orange = 1, green = 2, black = 6, grey = 7;
   const double known_to = variant.reference_uncertainty();
-  Plot plot;
-  plot.x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic};
-  plot.y = {headed("distance of T max from the limit", quantity::temperature_max).label(),
-            report::Scale::logarithmic};
-  plot.width = 760;
-  plot.height = 480;
-  plot.named_in_place = true;
+  Plot plot{
+      .title = {},
+      .x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic},
+      .y = {headed("distance of T max from the limit", quantity::temperature_max).label(),
+            report::Scale::logarithmic},
+      .width = 760,
+      .height = 480,
+      .named_in_place = true};
   const auto points = [](const char* label, int colour, Mark mark) {
-    return Series{.label = label, .style = report::Style::points, .colour = colour, .mark = mark};
+    return Series{.label = label, .style = Style::points, .colour = colour, .mark = mark};
   };
   Series others = points("other settings", grey, Mark::circle),
          meshes = points("reference meshes", blue, Mark::open_square),
@@ -145,8 +138,8 @@ Plot error_plot(const VariantAccuracy& variant) {
          late = points("", grey, Mark::open_circle);
   const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
   if (!times.empty())
-    late.label = fmt::format("all at {}, gap {}", report::milliseconds(times.back()),
-                             report::centimetres(variant.study.study.gaps.front()));
+    late.label = fmt::format("all at {}, gap {}", milliseconds(times.back()),
+                             centimetres(variant.study.study.gaps.front()));
   std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
@@ -196,10 +189,10 @@ std::string answer(const AccuracyResult& result) {
                      settings.empty() ? "" : "\nCheapest settings:\n" + settings);
 }
 
-report::Report report_of(const AccuracyResult& result) {
+Report report_of(const AccuracyResult& result) {
   const VariantAccuracy& first = result.variants.front();
   const bool several = result.variants.size() > 1;
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   std::vector<const VariantAccuracy*> drawn;
   for (const VariantAccuracy& each : result.variants) {
     if (!each.reference) continue;

@@ -2,14 +2,10 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include <fmt/format.h>
-
 #include <span>
 
 namespace launchsafe::kinds {
 
-using keys::Cell, keys::fixed, keys::Form, keys::kelvin, keys::significant, keys::text;
-using report::centimetres, report::Column, report::Quantities, report::Row, report::Table, report::table_of;
 using study::RecordedSetting, study::ReferenceValue;
 
 namespace {
@@ -25,7 +21,7 @@ const std::vector<double>& cell_sizes_of(const VariantAccuracy& variant) {
 /// The one that stands at the place of `key` in a list of keys; none where that is not there.
 double value_at(const std::vector<double>& values, const std::vector<double>& keys, double key) {
   const auto place = static_cast<std::size_t>(std::ranges::find(keys, key) - keys.begin());
-  return place < values.size() ? values[place] : study::not_a_number;
+  return place < values.size() ? values[place] : not_a_number;
 }
 
 /// What all variants with a reference have, each once: they may differ.
@@ -44,7 +40,7 @@ template <class Row>
 Quantities<Row> with_variants(const AccuracyResult& result, const Quantities<Row>& quantities,
                               const VariantAccuracy* Row::*variant) {
   if (result.variants.size() == 1) return quantities;
-  return keys::joined<Row>({{{quantity::variant, variant, &VariantAccuracy::name}}, quantities});
+  return joined<Row>({{{quantity::variant, variant, &VariantAccuracy::name}}, quantities});
 }
 
 /// A compared quantity, and what the reference meshes say of it.
@@ -57,7 +53,7 @@ struct ReferenceRow {
 /// Numbers are in the unit of the row.
 Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) {
   const auto in_unit = [](auto get) {
-    return [get](const ReferenceRow& row) { return report::shown_value(get(*row.value), row.what.form); };
+    return [get](const ReferenceRow& row) { return shown_value(get(*row.value), row.what.form); };
   };
   const auto if_justified = [](auto get) {
     return [get](const ReferenceRow& row) {
@@ -67,15 +63,14 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
   Quantities<ReferenceRow> quantities{{quantity::subject, &ReferenceRow::what, &Column::heading},
                                       {quantity::unit, &ReferenceRow::what, &Column::form, &Form::unit}};
   for (const double size : sizes) {
-    const std::string cells = report::digits_of(size, quantity::cell_size.form);
-    quantities.emplace_back("cells_" + cells + "_mm", cells + " mm", significant(7),
-                            "Value on that reference mesh.", [size](const ReferenceRow& row) {
-                              return report::shown_value(
-                                  value_at(row.value->values, cell_sizes_of(*row.variant), size),
-                                  row.what.form);
-                            });
+    const std::string cells = digits_of(size, quantity::cell_size.form);
+    quantities.emplace_back(
+        "cells_" + cells + "_mm", cells + " mm", significant(7), "Value on that reference mesh.",
+        [size](const ReferenceRow& row) {
+          return shown_value(value_at(row.value->values, cell_sizes_of(*row.variant), size), row.what.form);
+        });
   }
-  return keys::joined<ReferenceRow>(
+  return joined<ReferenceRow>(
       {quantities,
        {{"order", "order", fixed(2), "Order at which the meshes converge; none where no limit is justified.",
          if_justified([](const ReferenceRow& row) { return row.value->limit.order; })},
@@ -90,23 +85,17 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
          }}}});
 }
 
-/// The quantities of one variant with a reference, a row each.
-struct ReferenceRows {
-  const VariantAccuracy& variant;
-  std::vector<ReferenceRow>& rows;
-
-  void add(std::string heading, Form form, const ReferenceValue& value) const {
-    if (!value.values.empty())
-      rows.push_back({&variant, {.heading = std::move(heading), .form = std::move(form)}, &value});
-  }
-};
-
-/// A table of quantities, of which `add` adds those of a variant with a reference.
-Table quantity_table(const AccuracyResult& result,
-                     void (*add)(const ReferenceRows& to, const AccuracyReference& reference)) {
+/// A table of quantities, of which `add_all` adds those of a variant with a reference by a function that
+/// takes heading, form and value of each.
+template <class AddAll>
+Table quantity_table(const AccuracyResult& result, AddAll add_all) {
   std::vector<ReferenceRow> rows;
   for (const VariantAccuracy& variant : result.variants)
-    if (variant.reference) add({variant, rows}, *variant.reference);
+    if (variant.reference)
+      add_all(variant, [&](std::string heading, const Form& form, const ReferenceValue& value) {
+        if (!value.values.empty())
+          rows.push_back({&variant, {.heading = std::move(heading), .form = form}, &value});
+      });
   return table_of({},
                   with_variants(result, reference_quantities(all_of_variants(result, cell_sizes_of)),
                                 &ReferenceRow::variant),
@@ -135,39 +124,36 @@ auto of_list(std::vector<double> AccuracyRow::*list, Keys keys, double key) {
 
 const Column temperature_bound{"temperature_bound", "T bound", fixed(2, kelvin),
                                "By how much T max may be off, over all gaps."};
-const Column critical_gap_bound{"critical_gap_bound", "its bound", significant(2, keys::centimetre),
+const Column critical_gap_bound{"critical_gap_bound", "its bound", significant(2, centimetre),
                                 "By how much that may be off."};
-const Column processor_time{"processor_time", "processor time", fixed(1, keys::second), "Of the run."};
+const Column processor_time{"processor_time", "processor time", fixed(1, second), "Of the run."};
 
 Quantities<SettingRow> by_gap(const std::vector<double>& gaps, const std::string& heading,
                               const std::string& name, const Form& form,
                               std::vector<double> AccuracyRow::*list) {
   Quantities<SettingRow> quantities;
   for (const double gap : gaps)
-    quantities.emplace_back(name + "_" + report::digits_of(gap, quantity::gap.form) + "_cm",
+    quantities.emplace_back(name + "_" + digits_of(gap, quantity::gap.form) + "_cm",
                             heading + " at " + centimetres(gap), form, "Error at that gap.",
                             of_list(list, gaps_of, gap));
   return quantities;
 }
 
-/// What settings are compared at: gaps, those of them whose time of ignition is, and instants.
-struct ComparedAt {
-  std::vector<double> gaps, igniting_gaps, times;
-};
-
-Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
+/// Of settings that are compared at gaps, of which some may ignite, and at instants.
+Quantities<SettingRow> setting_quantities(const std::vector<double>& gaps,
+                                          const std::vector<double>& igniting_gaps,
+                                          const std::vector<double>& times) {
   const auto of_row = [](const Quantities<AccuracyRow>& quantities) {
     return of_part<SettingRow>(quantities, &SettingRow::part);
   };
   Quantities<SettingRow> of_times;
-  for (const double time : at.times)
+  for (const double time : times)
     of_times.emplace_back(
-        for_programs(
-            Column{"temperature_error_" + report::digits_of(time, significant(6, keys::millisecond)) + "_ms",
-                   "T error at " + report::milliseconds(time), fixed(2, kelvin),
-                   "Error of the hottest point then, first gap, without reaction."}),
+        for_programs(Column{"temperature_error_" + digits_of(time, significant(6, millisecond)) + "_ms",
+                            "T error at " + milliseconds(time), fixed(2, kelvin),
+                            "Error of the hottest point then, first gap, without reaction."}),
         of_list(&AccuracyRow::error_at_times, times_of, time));
-  return keys::joined<SettingRow>(
+  return joined<SettingRow>(
       {of_row({{"setting", "setting", text(), "What is set otherwise than in the scene.",
                 &AccuracyRow::setting, &RecordedSetting::label},
                {"cell", "cell", significant(3, keys::millimetre),
@@ -178,22 +164,21 @@ Quantities<SettingRow> setting_quantities(const ComparedAt& at) {
                {"particle_steps", "particle steps", significant(3), "Particles times steps.",
                 &AccuracyRow::particle_steps},
                {quantity::memory, &AccuracyRow::memory}}),
-       by_gap(at.gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
+       by_gap(gaps, "T error", "temperature_error", fixed(2, kelvin), &AccuracyRow::temperature_error),
        of_row({{temperature_bound, &AccuracyRow::setting, &RecordedSetting::temperature_bound},
                {quantity::critical_gap, &AccuracyRow::setting, &RecordedSetting::critical_gap},
-               {"critical_gap_error", "its error", significant(2, keys::centimetre),
+               {"critical_gap_error", "its error", significant(2, centimetre),
                 "Critical gap minus the reference.", &AccuracyRow::critical_gap_error},
                {critical_gap_bound, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
-               {"bottom_pressure_error", "p(t)", fixed(2, keys::percent),
+               {"bottom_pressure_error", "p(t)", fixed(2, percent),
                 "Relative L2 difference of the bottom pressure from the finest mesh.",
                 &AccuracyRow::pressure_error},
-               {"bottom_pressure_peak_error", "p peak", fixed(2, keys::percent),
-                "Relative error of its peak.", &AccuracyRow::peak_pressure_error}}),
-       by_gap(at.igniting_gaps, "ignition", "ignition_time_error", fixed(3, keys::millisecond),
+               {"bottom_pressure_peak_error", "p peak", fixed(2, percent), "Relative error of its peak.",
+                &AccuracyRow::peak_pressure_error}}),
+       by_gap(igniting_gaps, "ignition", "ignition_time_error", fixed(3, millisecond),
               &AccuracyRow::ignition_time_error),
        of_times,
-       of_row({{quantity::energy_drift, &AccuracyRow::answer, &study::CaseAnswer::run,
-                &study::RunSummary::energy_drift},
+       of_row({{quantity::energy_drift, &AccuracyRow::answer, &CaseAnswer::run, &RunSummary::energy_drift},
                {for_programs(
                     Column{"is_scene", "of the scene", text(), "Whether it is the setting of the scene."}),
                 &AccuracyRow::baseline},
@@ -233,9 +218,7 @@ const Quantities<VariantRow> variant_quantities{
     {critical_gap_bound, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::critical_gap_bound},
     {"reference_uncertainty", "reference uncertain by", fixed(2, kelvin),
      "By how much the reference of T max may itself be off.",
-     [](const VariantRow& row) {
-       return row.own ? row.variant->reference_uncertainty() : study::not_a_number;
-     }},
+     [](const VariantRow& row) { return row.own ? row.variant->reference_uncertainty() : not_a_number; }},
     {processor_time, &VariantRow::own, &AccuracyRow::setting, &RecordedSetting::processor_time},
     {"half_bound_setting", "cheapest with half the bound", text(),
      "The cheapest setting with half the bound.",
@@ -243,7 +226,7 @@ const Quantities<VariantRow> variant_quantities{
        if (row.half_bound != nullptr) return Cell(row.half_bound->label);
        return row.own != nullptr ? Cell(std::string("none here")) : Cell();
      }},
-    {"half_bound_processor_time", "its time", fixed(1, keys::second), "Its processor time.",
+    {"half_bound_processor_time", "its time", fixed(1, second), "Its processor time.",
      &VariantRow::half_bound, &RecordedSetting::processor_time},
     {"most_distant_setting", "most distant setting", text(), "The setting farthest from the reference.",
      &VariantRow::most_distant, &AccuracyRow::setting, &RecordedSetting::label},
@@ -253,30 +236,30 @@ const Quantities<VariantRow> variant_quantities{
 }  // namespace
 
 Table reference_table(const AccuracyResult& result) {
-  return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
-    const study::Study& study = to.variant.study.study;
-    for (std::size_t gap = 0; gap < study.gaps.size(); ++gap) {
-      const std::string at = " at " + centimetres(study.gaps[gap]);
-      to.add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max.form,
-             reference.temperature[gap]);
-      to.add("ignition time" + at, quantity::ignition_time.form, reference.ignition_time[gap]);
+  return quantity_table(result, [](const VariantAccuracy& variant, const auto& add) {
+    const std::vector<double>& gaps = gaps_of(variant);
+    const AccuracyReference& reference = *variant.reference;
+    for (std::size_t gap = 0; gap < gaps.size(); ++gap) {
+      const std::string at = " at " + centimetres(gaps[gap]);
+      add((reference.inert[gap] ? "T max without reaction" : "T max") + at, quantity::temperature_max.form,
+          reference.temperature[gap]);
+      add("ignition time" + at, quantity::ignition_time.form, reference.ignition_time[gap]);
     }
-    to.add("critical gap", quantity::critical_gap.form, reference.critical_gap);
-    to.add("peak pressure of the charge bottom", quantity::pressure.form, reference.peak_pressure);
+    add("critical gap", quantity::critical_gap.form, reference.critical_gap);
+    add("peak pressure of the charge bottom", quantity::pressure.form, reference.peak_pressure);
     for (std::size_t i = 0; i < reference.at_times.size(); ++i)
-      to.add(fmt::format("T without reaction at {}, gap {}",
-                         report::milliseconds(settings_of<AccuracySettings>(study).times[i]),
-                         centimetres(study.gaps.front())),
-             quantity::temperature_max.form, reference.at_times[i]);
+      add(fmt::format("T without reaction at {}, gap {}", milliseconds(times_of(variant)[i]),
+                      centimetres(gaps.front())),
+          quantity::temperature_max.form, reference.at_times[i]);
   });
 }
 
 Table point_table(const AccuracyResult& result) {
-  return quantity_table(result, [](const ReferenceRows& to, const AccuracyReference& reference) {
-    const std::string gap = ", gap " + centimetres(to.variant.study.study.gaps.front());
-    for (std::size_t i = 0; i < reference.points.size(); ++i)
-      to.add(to.variant.rows.front().points[i].name + gap, quantity::temperature_max.form,
-             reference.points[i]);
+  return quantity_table(result, [](const VariantAccuracy& variant, const auto& add) {
+    const std::string gap = ", gap " + centimetres(gaps_of(variant).front());
+    for (std::size_t i = 0; i < variant.reference->points.size(); ++i)
+      add(variant.rows.front().points[i].name + gap, quantity::temperature_max.form,
+          variant.reference->points[i]);
   });
 }
 
@@ -291,10 +274,11 @@ Table setting_table(const AccuracyResult& result) {
       if (!variant.reference->ignition_time[i].values.empty()) gaps.push_back(gaps_of(variant)[i]);
     return gaps;
   };
-  const ComparedAt at{all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
-                      all_of_variants(result, times_of)};
-  return table_of("Error against run time", with_variants(result, setting_quantities(at), &SettingRow::whole),
-                  rows, said("accuracy.note.settings"));
+  const auto quantities =
+      setting_quantities(all_of_variants(result, gaps_of), all_of_variants(result, igniting_gaps_of),
+                         all_of_variants(result, times_of));
+  return table_of("Error against run time", with_variants(result, quantities, &SettingRow::whole), rows,
+                  said("accuracy.note.settings"));
 }
 
 Table variant_table(const AccuracyResult& result) {
@@ -302,9 +286,9 @@ Table variant_table(const AccuracyResult& result) {
                   of_each(result.variants, variant_row), said("accuracy.note.variants"));
 }
 
-std::vector<report::ReportTable> accuracy_results() {
+std::vector<ReportTable> accuracy_results() {
   const auto reference = keys::described(reference_quantities({1e-3}));
-  return {{table_of({}, setting_quantities({{0.0}, {0.0}, {1e-3}}), {}), "accuracy.csv", "settings"},
+  return {{table_of({}, setting_quantities({0.0}, {0.0}, {1e-3}), {}), "accuracy.csv", "settings"},
           {table_of({}, variant_quantities, {}), "variants.csv", "variants"},
           {Table{.columns = reference}, "reference.csv", "reference"},
           {Table{.columns = reference}, "points.csv", "points"}};

@@ -10,11 +10,29 @@
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace launchsafe::kinds {
 
 namespace quantity = report::quantity;
+
+// What all sources of kinds speak of.
+using keys::Cell, keys::centimetre, keys::count, keys::fixed, keys::Form, keys::joined, keys::kelvin,
+    keys::millisecond, keys::percent, keys::second, keys::significant, keys::text;
+using report::centimetres, report::Column, report::digits_of, report::in_words, report::json_of, report::Mark,
+    report::milliseconds, report::Picture, report::Plot, report::Quantities, report::reads_as, report::Report,
+    report::ReportTable, report::Row, report::Series, report::Shown, report::shown_gap, report::shown_value,
+    report::ShownKey, report::Style, report::Table, report::table_of;
+using run::MechanicsResult;
+using scene::format_quantity, scene::GapModel, scene::Load, scene::Scene;
+using study::Axis, study::CalibrationRecord, study::RunOutcome, study::Verdict;
+using study::CaseAnswer, study::CaseOutcome, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
+    study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary, study::Study,
+    study::StudyCase, study::StudyFile, study::StudyOptions;
+using surface::SkinModel;
+using trace::BottomTrace;
 
 /// What a member, or a function, says of each of several.
 template <class Range, class Member>
@@ -27,14 +45,14 @@ auto of_each(const Range& all, Member member) {
 // Every kind, and what its tables hold.
 Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind(),
     comparison_kind();
-std::vector<report::ReportTable> critical_gap_results(), calibration_results(), sensitivity_results(),
+std::vector<ReportTable> critical_gap_results(), calibration_results(), sensitivity_results(),
     accuracy_results(), stability_results(), comparison_results();
 
-/// Adds a run that came to nothing, unless another shard runs it.
-inline void add_failure(std::vector<Failure>& failures, const std::string& label, study::RunOutcome outcome,
-                        const std::string& reason) {
-  if (!reason.empty() && outcome != study::RunOutcome::other_shard)
-    failures.push_back({label, reason, outcome});
+/// Adds what came to nothing, unless another shard runs it.
+template <class Ended>
+void add_failure(std::vector<Failure>& failures, const std::string& label, const Ended& ended) {
+  if (!ended.failure.empty() && ended.outcome != RunOutcome::other_shard)
+    failures.push_back({label, ended.failure, ended.outcome});
 }
 
 /// Of a kind that has an answer for every case.
@@ -42,14 +60,14 @@ template <class Result>
 std::vector<Failure> failures_of(const Result& result) {
   std::vector<Failure> failures;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
-    add_failure(failures, result.study.cases.label(i), result.answers[i].outcome, result.answers[i].failure);
+    add_failure(failures, result.study.cases.label(i), result.answers[i]);
   return failures;
 }
 
 /// Kind::run from the function that runs a study of the kind, and the one that says what failed of its
 /// result. The report is that of the whole study: a shard and an interrupted study have none.
 template <auto run, auto failures>
-StudyOutcome outcome_of(const study::StudyFile& study, const study::StudyOptions& options) {
+StudyOutcome outcome_of(const StudyFile& study, const StudyOptions& options) {
   const auto result = run(study, options);
   StudyOutcome outcome{result.interrupted, false, failures(result), result.timing, {}};
   if constexpr (requires { result.any_indeterminate(); }) outcome.indeterminate = result.any_indeterminate();
@@ -59,57 +77,57 @@ StudyOutcome outcome_of(const study::StudyFile& study, const study::StudyOptions
 
 /// What the texts under a name say, "accuracy.answer" those of "accuracy.answer.bound" too: in their order,
 /// each once for everything that it is said of; empty ones are left out.
-std::vector<std::string> said(const std::string& name, const report::Row& facts = report::Row::object());
+std::vector<std::string> said(const std::string& name, const Row& facts = Row::object());
 
 /// The same below each other, as part of a page: with a line break behind each.
-std::string said_below(const std::string& name, const report::Row& facts = report::Row::object());
+std::string said_below(const std::string& name, const Row& facts = Row::object());
 
 /// The panel of a fit, to be filled: src/kinds/templates/ask.html.
 const std::string& ask_template();
 
 /// Whether a gap of the study ignites in any case, so that T max jumps to that of a burning skin.
-inline bool any_ignites(const std::vector<study::CaseAnswer>& answers, std::size_t gap) {
-  return std::ranges::any_of(answers, [gap](const study::CaseAnswer& answer) {
+inline bool any_ignites(const std::vector<CaseAnswer>& answers, std::size_t gap) {
+  return std::ranges::any_of(answers, [gap](const CaseAnswer& answer) {
     return answer.verdicts.size() > gap && answer.verdicts[gap].ignition.has_value();
   });
 }
 
 /// K, T max at a gap of the study; `inert`: of a skin that does not react. NaN of a case that failed.
-inline double temperature_of(const study::CaseAnswer& answer, std::size_t gap, bool inert) {
-  if (!answer.completed()) return study::not_a_number;
+inline double temperature_of(const CaseAnswer& answer, std::size_t gap, bool inert) {
+  if (!answer.completed()) return not_a_number;
   return inert ? answer.verdicts[gap].heated : answer.verdicts[gap].maximum.temperature;
 }
 
 /// m, of a case that completed; NaN where it is no number.
-inline double critical_gap_number(const study::CaseAnswer& answer) {
-  return answer.completed() ? answer.critical.value : study::not_a_number;
+inline double critical_gap_number(const CaseAnswer& answer) {
+  return answer.completed() ? answer.critical.value : not_a_number;
 }
 
-inline bool is_bound(const study::CaseAnswer& answer) {
-  return answer.critical.kind == study::CriticalGapKind::all_safe ||
-         answer.critical.kind == study::CriticalGapKind::all_ignite;
+inline bool is_bound(const CaseAnswer& answer) {
+  return answer.critical.kind == CriticalGapKind::all_safe ||
+         answer.critical.kind == CriticalGapKind::all_ignite;
 }
 
 /// Cases that came to nothing.
-std::size_t count_failed(const std::vector<study::CaseAnswer>& answers);
+std::size_t count_failed(const std::vector<CaseAnswer>& answers);
 
 /// "completed", how the run ended instead, or "failed" where it never was.
-std::string status_of(const study::CaseAnswer& answer);
+std::string status_of(const CaseAnswer& answer);
 
 /// Where a case lies, or its label if it has no coordinates.
-std::string name_of(const std::vector<report::ShownKey>& keys, const study::StudyCase& input);
+std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input);
 
 /// What failed and why, at most three by name: "496 MPa, 30 µm (energy drift); ...; and 4 more". By label
 /// where no keys are given.
-std::string failures_list(const std::vector<report::ShownKey>& keys, const study::StudyFile& study,
-                          const std::vector<study::CaseAnswer>& answers);
+std::string failures_list(const std::vector<ShownKey>& keys, const StudyFile& study,
+                          const std::vector<CaseAnswer>& answers);
 
 /// What must be said where limiters acted; else empty.
-std::string limited_text(const std::vector<study::CaseAnswer>& answers, const std::string& noun);
+std::string limited_text(const std::vector<CaseAnswer>& answers, const std::string& noun);
 
 /// The lines of an answer below each other, and what every answer about verdicts must say; empty ones are
 /// left out.
-std::string answer_of(std::vector<std::string> lines, const study::StudyFile& study);
+std::string answer_of(std::vector<std::string> lines, const StudyFile& study);
 
 /// A part of something that is told with it, as a row of a table.
 template <class Whole, class Part>
@@ -120,11 +138,11 @@ struct PartOf {
 
 /// What there is to say of both.
 template <class Whole, class Part>
-report::Quantities<PartOf<Whole, const Part*>> with_whole(const report::Quantities<Whole>& of_whole,
-                                                          const report::Quantities<Part>& of_part) {
-  using Row = PartOf<Whole, const Part*>;
-  return keys::joined<Row>(
-      {keys::of_part<Row>(of_whole, &Row::whole), keys::of_part<Row>(of_part, &Row::part)});
+Quantities<PartOf<Whole, const Part*>> with_whole(const Quantities<Whole>& of_whole,
+                                                  const Quantities<Part>& of_part) {
+  using Both = PartOf<Whole, const Part*>;
+  return joined<Both>(
+      {keys::of_part<Both>(of_whole, &Both::whole), keys::of_part<Both>(of_part, &Both::part)});
 }
 
 /// A row for every part of all, which `list` has.
@@ -138,15 +156,14 @@ std::vector<PartOf<Whole, const Part*>> parts_of(const std::vector<Whole>& all, 
 
 /// A case with its answer, and where it lies.
 struct AnsweredCase {
-  const study::StudyFile* study;
+  const StudyFile* study;
   std::size_t index;
-  const study::CaseAnswer* answer;
+  const CaseAnswer* answer;
   const std::vector<double>& coordinates() const { return study->cases.coordinates(index); }
   const std::string& label() const { return study->cases.label(index); }
-  study::StudyCase input() const { return study->cases[index]; }
+  StudyCase input() const { return study->cases[index]; }
 };
-std::vector<AnsweredCase> answered(const study::StudyFile& study,
-                                   const std::vector<study::CaseAnswer>& answers);
-report::Quantities<AnsweredCase> answered_axes(const study::Study& study);
+std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<CaseAnswer>& answers);
+Quantities<AnsweredCase> answered_axes(const Study& study);
 
 }  // namespace launchsafe::kinds

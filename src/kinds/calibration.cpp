@@ -1,23 +1,16 @@
 #include "launchsafe/kinds/calibration.hpp"
 
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
-using study::not_a_number, study::StudyFile, study::StudyOptions;
-
 namespace {
 
-using scene::FrictionClosure;
+using materials::KineticsParameters, scene::FrictionClosure;
 
 /// A load belongs to the closure that it was fitted with.
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
@@ -25,21 +18,15 @@ std::vector<FrictionClosure> closures_of(const StudyFile& study) {
   return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
 }
 
-struct NamedKinetics {
-  std::string name;
-  materials::KineticsParameters parameters;
-};
-
-std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
-  const materials::KineticsParameters& own = study.scene.scene.charge().kinetics;
-  std::vector<NamedKinetics> all{{own.name, own}};
+std::vector<KineticsParameters> kinetics_of(const StudyFile& study) {
+  std::vector<KineticsParameters> all{study.scene.scene.charge().kinetics};
   if (!settings_of<CalibrationSettings>(study).compare_kinetics) return all;
   const auto key = scene::describe_key(study.scene, "kinetics.set", {});
   if (!key) return all;
   for (const std::string& word : key->words) {
     const auto changed = scene::with_written_key(study.scene, "kinetics.set", word, {});
-    if (changed && word != own.name && word != "custom")
-      all.push_back({word, changed->scene.charge().kinetics});
+    if (changed && word != all.front().name && word != "custom")
+      all.push_back(changed->scene.charge().kinetics);
   }
   return all;
 }
@@ -47,34 +34,35 @@ std::vector<NamedKinetics> kinetics_of(const StudyFile& study) {
 void run_meshes(CalibrationResult& result, const StudyOptions& options) {
   StudyFile study = result.study;
   for (std::size_t i = 0; i < result.runs.size(); ++i) study.cases.replace(i, result.runs[i].input);
-  run_every_case(
-      study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
-        CalibrationRun& run = result.runs[i];
-        run.take(finished.front());
-        run.mechanics.trace = trace::until(run.mechanics.trace, scene::read_time(run.input.scene.scene.load));
-      });
+  run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+    CalibrationRun& run = result.runs[i];
+    static_cast<FinishedRun&>(run) = finished.front();
+    BottomTrace& trace = run.result.mechanics.trace;
+    trace = trace::until(trace, scene::read_time(run.input.scene.scene.load));
+  });
 }
 
 CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
-                      const NamedKinetics& kinetics, const CalibrationTargets& targets) {
+                      const KineticsParameters& kinetics, const CalibrationTargets& targets) {
   CalibrationRow row;
   row.cell_size = run.input.cell_size;
   row.closure = closure;
   row.kinetics = kinetics.name;
   row.calibratable = closure != FrictionClosure::none;
   row.failure = run.failure;
-  if (row.failure.empty()) row.failure = calibration_validity_warnings(run.input.scene.scene, run.mechanics);
+  if (row.failure.empty())
+    row.failure = calibration_validity_warnings(run.input.scene.scene, run.mechanics());
   if (!row.failure.empty()) return row;
-  surface::SkinModel model = surface::skin_model(run.input.scene.scene);
+  SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = closure;
-  model.kinetics = kinetics.parameters;
+  model.kinetics = kinetics;
   if (row.calibratable) {
-    row.calibrated = calibrate(model, run.mechanics.trace, targets);
+    row.calibrated = calibrate(model, run.mechanics().trace, targets);
     row.failure = row.calibrated.failure;
     if (!row.failure.empty()) return row;
     put(row.calibrated.constants, model.surface, model.kinetics);
   }
-  compare(study.study, model, run.mechanics.trace, row);
+  compare(study.study, model, run.mechanics().trace, row);
   return row;
 }
 
@@ -95,16 +83,16 @@ std::pair<double, double> mesh_range(const CalibrationResult& result) {
   return {cell(*finest), cell(*coarsest)};
 }
 
-void compare_meshes(CalibrationResult& result, const std::vector<NamedKinetics>& kinetics) {
+void compare_meshes(CalibrationResult& result, const std::vector<KineticsParameters>& kinetics) {
   const auto [finest, coarsest] = mesh_range(result);
   if (!(finest < coarsest)) return;
-  for (const NamedKinetics& set : kinetics)
+  for (const KineticsParameters& set : kinetics)
     for (const FrictionClosure closure : closures_of(result.study)) {
       if (closure == FrictionClosure::none) continue;
       const auto constants_on = [&](double mesh) {
         return result.rows[row_place(result, mesh, closure, set.name)].calibrated.constants;
       };
-      const surface::SurfaceConstants a = constants_on(finest), b = constants_on(coarsest);
+      const SurfaceConstants a = constants_on(finest), b = constants_on(coarsest);
       result.convergence.push_back({closure, set.name, (a.localisation - b.localisation) / a.localisation,
                                     (a.exchange_time - b.exchange_time) / a.exchange_time});
     }
@@ -119,13 +107,9 @@ double change_of(const CalibrationResult& result, FrictionClosure closure, const
 /// K. Closures whose misfits differ by less are equally good: the misfits are of tens of kelvin.
 constexpr double distinguishable_rms = 0.5;
 
-FrictionClosure study_closure(const CalibrationResult& result) {
-  return result.study.scene.scene.surface.friction;
-}
-
 /// Of a study that fits the load there is one closure alone.
 void recommend_own(CalibrationResult& result, const std::string& kinetics, double mesh) {
-  const std::size_t place = row_place(result, mesh, study_closure(result), kinetics);
+  const std::size_t place = row_place(result, mesh, result.study.scene.scene.surface.friction, kinetics);
   const CalibrationRow& own = result.rows[place];
   if (!own.failure.empty()) {
     result.reason = "no constants are recommended: " + own.failure;
@@ -160,7 +144,7 @@ void recommend(CalibrationResult& result) {
   const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
   const bool separates = gain > distinguishable_rms;
   // Where the misfits do not separate the closures, the scene keeps the one it has (if it has one).
-  const bool keep_inelastic = study_closure(result) == FrictionClosure::inelastic;
+  const bool keep_inelastic = result.study.scene.scene.surface.friction == FrictionClosure::inelastic;
   const bool choose_inelastic =
       separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
   const CalibrationRow* better = choose_inelastic ? inelastic : total;
@@ -169,10 +153,10 @@ void recommend(CalibrationResult& result) {
     return change_of(result, row->closure, kinetics);
   };
   const auto facts_of = [&](const CalibrationRow* row) {
-    return report::Row{{"closure", study::to_string(row->closure)},
-                       {"rms_K", row->root_mean_square},
-                       {"spread_K", report::number(row->spread_root_mean_square)},
-                       {"change_percent", report::number(100.0 * change_with(row))}};
+    return Row{{"closure", study::to_string(row->closure)},
+               {"rms_K", row->root_mean_square},
+               {"spread_K", report::number(row->spread_root_mean_square)},
+               {"change_percent", report::number(100.0 * change_with(row))}};
   };
   result.reason = said("calibration.recommendation",
                        {{"finest_mm", 1e3 * finest},
@@ -188,10 +172,10 @@ void recommend(CalibrationResult& result) {
 
 /// End temperature (K) of every station without a gap, with constants.
 std::vector<double> end_temperatures(const CalibrationRun& run, const CalibrationRow& constants) {
-  surface::SkinModel model = surface::skin_model(run.input.scene.scene);
+  SkinModel model = surface::skin_model(run.input.scene.scene);
   model.surface.friction = constants.closure;
   put(constants.calibrated.constants, model.surface, model.kinetics);
-  const trace::BottomTrace& trace = run.mechanics.trace;
+  const BottomTrace& trace = run.mechanics().trace;
   const auto history = surface::integrate_skin(model, trace, 0.0);
   std::vector<double> temperatures;
   for (std::size_t station = 0; station < trace.stations.size(); ++station)
@@ -241,15 +225,15 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   result.in_scene = surface::constants_of(surface::skin_model(study.scene.scene));
   const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
-  for (const study::StudyCase& input : study.cases) {
-    CalibrationRun& run = result.runs.emplace_back(CalibrationRun{input});
+  for (const StudyCase& input : study.cases) {
+    CalibrationRun& run = result.runs.emplace_back(input);
     if (result.load && result.load->bell) run.input.scene.scene.load = *result.load->bell;
     if (result.load) run.failure = result.load->failure;
   }
   if (!result.load || result.load->failure.empty()) run_meshes(result, options);
   const auto kinetics = kinetics_of(study);
   for (const CalibrationRun& run : result.runs)
-    for (const NamedKinetics& set : kinetics)
+    for (const KineticsParameters& set : kinetics)
       for (const FrictionClosure closure : closures_of(study))
         result.rows.push_back(row_of(study, run, closure, set, targets));
   compare_meshes(result, kinetics);
@@ -259,9 +243,9 @@ void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   compare_stations(result);
 }
 
-std::string digest_of(const std::vector<study::Reference>& references) {
+std::string digest_of(const std::vector<Reference>& references) {
   std::string text;
-  for (const study::Reference& row : references)
+  for (const Reference& row : references)
     text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", row.gap, row.maximum_temperature, row.point,
                         row.early_temperature, row.early_point, row.spread, row.early_spread,
                         row.ignition_time, row.rise_begins, row.rise_ends, row.calibrated, row.selection);
@@ -269,8 +253,8 @@ std::string digest_of(const std::vector<study::Reference>& references) {
 }
 
 /// The scene of the recommended row, with its constants.
-scene::Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
-  scene::Scene scene = run_of(result, row).input.scene.scene;
+Scene calibrated_scene(const CalibrationResult& result, const CalibrationRow& row) {
+  Scene scene = run_of(result, row).input.scene.scene;
   scene.surface.friction = row.closure;
   put(row.calibrated.constants, scene.surface, scene.charge().kinetics);
   scene.accepted.clear();
@@ -284,10 +268,10 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
                                       [&](CalibrationResult& result) { calibrate_study(result, options); });
 }
 
-std::optional<study::CalibrationRecord> record_of(const CalibrationResult& result) {
+std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
   const auto targets = calibration_targets(result.study);
   if (!targets || result.interrupted) return std::nullopt;
-  study::CalibrationRecord record;
+  CalibrationRecord record;
   record.title = result.study.study.title;
   record.load_fitted = result.load.has_value();
   record.references_digest = digest_of(result.study.study.references);

@@ -1,27 +1,23 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using scene::Dimension, scene::Key, scene::Standing;
-using study::Firing, study::fitted_keys, study::StudyFile;
+using study::Firing, study::fitted_keys;
 
 namespace {
 
 scene::InputError missing(const StudyFile& study, std::string found, std::string allowed) {
   const char* at = study.places.contains("reference.0.gap") ? "reference.0.gap" : "kind";
-  return scene::error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
+  return error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
 }
 
 /// What a fit of the load needs besides: a bell, and no fewer numbers than unknowns.
 study::Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
   constexpr const char* key = "load_fitted";
-  const scene::Load& load = study.scene.scene.load;
+  const Load& load = study.scene.scene.load;
   if (!load.curve_time.empty())
     return fault_at(study, key, "a load to be fitted beside a measured curve",
                     "load_fitted = false, or a scene without load.curve");
@@ -38,25 +34,23 @@ study::Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets&
                   fitted_keys.size()));
 }
 
-const std::vector<scene::Key<CalibrationSettings>> calibration_keys{
-    scene::list_key("meshes", Dimension::length, scene::between(1e-5, 1), scene::Standing::assumed,
-                    "Cell sizes, each a mechanical run; the scene's if absent.",
-                    &CalibrationSettings::meshes),
-    scene::flag_key("compare_kinetics", scene::Standing::assumed,
-                    "Calibrate with every named kinetics rather than with the scene's alone.",
-                    &CalibrationSettings::compare_kinetics),
-    scene::range_key("ignition_bracket", Dimension::temperature, scene::between(0, 5000),
-                     scene::Standing::paper,
-                     "Published bracket of the ignition temperature, a check on the calibrated one.",
-                     &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
-    scene::flag_key("load_fitted", scene::Standing::assumed,
-                    "Fit peak time, width and steepness of the load's bell too, with the constants by "
-                    "least squares, to the highest temperatures over the launch and at early_time (0.5 K) "
-                    "and to the two instants of the fast rise (0.5 ms) of the calibrated rows.",
-                    &CalibrationSettings::load_fitted),
-    scene::text_key("frozen_at", scene::Standing::input,
-                    "Where rule and weights of the calibration were settled before its fit, for the report.",
-                    "1fd14b4", &CalibrationSettings::frozen_at),
+const std::vector<Key<CalibrationSettings>> calibration_keys{
+    list_key("meshes", Dimension::length, between(1e-5, 1), Standing::assumed,
+             "Cell sizes, each a mechanical run; the scene's if absent.", &CalibrationSettings::meshes),
+    flag_key("compare_kinetics", Standing::assumed,
+             "Calibrate with every named kinetics rather than with the scene's alone.",
+             &CalibrationSettings::compare_kinetics),
+    range_key("ignition_bracket", Dimension::temperature, between(0, 5000), Standing::paper,
+              "Published bracket of the ignition temperature, a check on the calibrated one.",
+              &CalibrationSettings::ignition_lowest, &CalibrationSettings::ignition_highest),
+    flag_key("load_fitted", Standing::assumed,
+             "Fit peak time, width and steepness of the load's bell too, with the constants by least "
+             "squares, to the highest temperatures over the launch and at early_time (0.5 K) and to the two "
+             "instants of the fast rise (0.5 ms) of the calibrated rows.",
+             &CalibrationSettings::load_fitted),
+    text_key("frozen_at", Standing::input,
+             "Where rule and weights of the calibration were settled before its fit, for the report.",
+             "1fd14b4", &CalibrationSettings::frozen_at),
 };
 
 const std::vector<Firing>& firings_of(const StudyFile& study) {
@@ -64,33 +58,32 @@ const std::vector<Firing>& firings_of(const StudyFile& study) {
 }
 
 const std::vector<Key<Firing>> firing_row_keys{
-    scene::text_key("name", Standing::input, "What the rounds are called.", "series of March", &Firing::name),
-    scene::word_key("outcome", Standing::input, "How the rounds ended, all of them.",
-                    {{"no ignition", false}, {"ignition", true}}, &Firing::ignited) |
-        scene::required(),
-    scene::number_key("rounds", Dimension::count, scene::between(1, study::most_rounds), Standing::input,
-                      "How many rounds.", &Firing::rounds),
-    scene::number_key("pressure", Dimension::pressure, scene::above_to(0, 10e9), Standing::input,
-                      "Their mean peak pressure.", &Firing::pressure) |
-        scene::usually("that of the scene"),
-    scene::number_key("pressure_spread", Dimension::pressure, scene::between(0, 1e9), Standing::input,
-                      "Its standard deviation from round to round.", &Firing::pressure_spread) |
-        scene::usually("2 % of it"),
-    scene::number_key("temperature", Dimension::temperature, scene::between(200, 400), Standing::input,
-                      "Mean temperature of charge and air.", &Firing::temperature) |
-        scene::usually("that of the scene"),
-    scene::number_key("temperature_spread", Dimension::temperature_difference, scene::between(0, 100),
-                      Standing::input, "Its standard deviation from round to round.",
-                      &Firing::temperature_spread) |
-        scene::usually("6 K"),
-    scene::range_key("gap", Dimension::length, scene::between(0, 0.01), Standing::input,
-                     "The gap of the rounds, or between which lengths it was; then the smaller counts.",
-                     &Firing::gap, &Firing::most_gap) |
-        scene::value_or_range() | scene::required(),
+    text_key("name", Standing::input, "What the rounds are called.", "series of March", &Firing::name),
+    word_key("outcome", Standing::input, "How the rounds ended, all of them.",
+             {{"no ignition", false}, {"ignition", true}}, &Firing::ignited) |
+        required(),
+    number_key("rounds", Dimension::count, between(1, study::most_rounds), Standing::input,
+               "How many rounds.", &Firing::rounds),
+    number_key("pressure", Dimension::pressure, above_to(0, 10e9), Standing::input,
+               "Their mean peak pressure.", &Firing::pressure) |
+        usually("that of the scene"),
+    number_key("pressure_spread", Dimension::pressure, between(0, 1e9), Standing::input,
+               "Its standard deviation from round to round.", &Firing::pressure_spread) |
+        usually("2 % of it"),
+    number_key("temperature", Dimension::temperature, between(200, 400), Standing::input,
+               "Mean temperature of charge and air.", &Firing::temperature) |
+        usually("that of the scene"),
+    number_key("temperature_spread", Dimension::temperature_difference, between(0, 100), Standing::input,
+               "Its standard deviation from round to round.", &Firing::temperature_spread) |
+        usually("6 K"),
+    range_key("gap", Dimension::length, between(0, 0.01), Standing::input,
+              "The gap of the rounds, or between which lengths it was; then the smaller counts.",
+              &Firing::gap, &Firing::most_gap) |
+        scene::value_or_range() | required(),
 };
 
 /// What a firing leaves out is of the scene, or assumed.
-void complete(Firing& firing, const scene::Scene& scene) {
+void complete(Firing& firing, const Scene& scene) {
   const auto fill = [](double& number, double usual) { number = std::isnan(number) ? usual : number; };
   fill(firing.pressure, study::fired_pressure(scene.load));
   fill(firing.pressure_spread, study::assumed_load_spread / study::coverage_factor * firing.pressure);
@@ -98,58 +91,52 @@ void complete(Firing& firing, const scene::Scene& scene) {
   fill(firing.temperature_spread, study::assumed_temperature_spread / study::coverage_factor);
 }
 
-/// The scene under the pressure and temperature of a firing.
-scene::SceneFile scene_of(const StudyFile& study, const Firing& firing, std::size_t place) {
-  std::vector<study::Change> changes;
-  const auto change = [&](const char* key, const char* of_firing, double value, double in_scene,
-                          Dimension dimension) {
-    if (study::same_number(value, in_scene)) return;
+SceneFile scene_of(const StudyFile& study, const Firing& firing, std::size_t place) {
+  const Scene& own = study.scene.scene;
+  std::vector<Change> changes;
+  for (const auto& [key, of_firing, value, in_scene, dimension] :
+       {std::tuple{"load.peak", "pressure", firing.pressure, study::fired_pressure(own.load),
+                   Dimension::pressure},
+        std::tuple{"initial_temperature", "temperature", firing.temperature, own.initial_temperature,
+                   Dimension::temperature}}) {
+    if (study::same_number(value, in_scene)) continue;
     const std::string named = fmt::format("firing.{}.{}", place, of_firing);
-    changes.push_back(
-        {key, value, scene::format_quantity(value, dimension), named, place_of_key(study, named)});
-  };
-  const scene::Scene& own = study.scene.scene;
-  change("load.peak", "pressure", firing.pressure, study::fired_pressure(own.load), Dimension::pressure);
-  change("initial_temperature", "temperature", firing.temperature, own.initial_temperature,
-         Dimension::temperature);
+    changes.push_back({key, value, format_quantity(value, dimension), named, place_of_key(study, named)});
+  }
   return taken(study::with_changes(study.scene, changes));
 }
 
 /// The load of a measured curve has a peak of its own.
 void check_curve(const StudyFile& study, const Firing& firing, std::size_t place) {
-  const scene::Load& load = study.scene.scene.load;
+  const Load& load = study.scene.scene.load;
   const double peak = study::fired_pressure(load);
   if (!load.curve_time.empty() && !load.rescale_to_peak && !study::same_number(firing.pressure, peak))
     refuse_at(study, fmt::format("firing.{}.pressure", place),
               fmt::format("{} beside a measured curve with a peak of {}",
-                          scene::format_quantity(firing.pressure, Dimension::pressure),
-                          scene::format_quantity(peak, Dimension::pressure)),
+                          format_quantity(firing.pressure, Dimension::pressure),
+                          format_quantity(peak, Dimension::pressure)),
               "that of the curve, or load.rescale_to_peak = true in the scene");
 }
 
-std::vector<Key<study::Study>> firing_keys() {
-  const auto number = [](const char* name, Dimension dimension, scene::Limits limits, const char* sentence,
-                         double FiringSettings::*member) {
-    return scene::number_key<FiringSettings>(name, dimension, limits, Standing::assumed, sentence, member);
-  };
+std::vector<Key<Study>> firing_keys() {
   const std::vector<Key<FiringSettings>> keys{
-      number("prior.localisation", Dimension::number, scene::between(1.5, 4),
-             "With firings: by which factor the localisation may be more or less than the calibration's, one "
-             "standard deviation.",
-             &FiringSettings::localisation_factor),
-      number("prior.exchange_time", Dimension::number, scene::between(2, 4), "The same of the exchange time.",
-             &FiringSettings::exchange_time_factor),
-      number("prior.ignition_temperature", Dimension::temperature_difference, scene::between(30, 40),
-             "Likewise by how much the ignition temperature may be more or less.",
-             &FiringSettings::ignition_temperature),
-      number("prior.scatter", Dimension::number, scene::between(0.05, 0.5),
-             "By which share the heat of rounds that are fired alike differs, one standard deviation, at a "
-             "guess.",
-             &FiringSettings::scatter),
-      scene::list_key("next_gaps", Dimension::length, scene::between(0, 0.01), Standing::assumed,
-                      "Gaps among which the round that would tell most is sought; if absent half of, one, "
-                      "one and a half and two times the largest that was fired.",
-                      &FiringSettings::next_gaps)};
+      number_key("prior.localisation", Dimension::number, between(1.5, 4), Standing::assumed,
+                 "With firings: by which factor the localisation may be more or less than the calibration's, "
+                 "one standard deviation.",
+                 &FiringSettings::localisation_factor),
+      number_key("prior.exchange_time", Dimension::number, between(2, 4), Standing::assumed,
+                 "The same of the exchange time.", &FiringSettings::exchange_time_factor),
+      number_key("prior.ignition_temperature", Dimension::temperature_difference, between(30, 40),
+                 Standing::assumed, "Likewise by how much the ignition temperature may be more or less.",
+                 &FiringSettings::ignition_temperature),
+      number_key("prior.scatter", Dimension::number, between(0.05, 0.5), Standing::assumed,
+                 "By which share the heat of rounds that are fired alike differs, one standard deviation, at "
+                 "a guess.",
+                 &FiringSettings::scatter),
+      list_key("next_gaps", Dimension::length, between(0, 0.01), Standing::assumed,
+               "Gaps among which the round that would tell most is sought; if absent half of, one, one and a "
+               "half and two times the largest that was fired.",
+               &FiringSettings::next_gaps)};
   return own_keys(keys::keys_of_part("", &CalibrationSettings::firings, keys));
 }
 
@@ -162,16 +149,15 @@ void read_firings(const toml::table& root, StudyFile& study) {
   }
 }
 
-/// A case for every pressure and temperature that was fired, in that order.
 void make_firing_cases(StudyFile& study) {
   const std::vector<Firing>& firings = firings_of(study);
   const std::vector<std::size_t> conditions = conditions_of(firings);
   for (std::size_t i = 0; i < firings.size(); ++i)
     if (conditions[i] >= study.cases.size())
-      study.cases.add(study::case_of(
-          fmt::format("{}, {}", scene::format_quantity(firings[i].pressure, Dimension::pressure),
-                      scene::format_quantity(firings[i].temperature, Dimension::temperature)),
-          scene_of(study, firings[i], i)));
+      study.cases.add(
+          study::case_of(fmt::format("{}, {}", format_quantity(firings[i].pressure, Dimension::pressure),
+                                     format_quantity(firings[i].temperature, Dimension::temperature)),
+                         scene_of(study, firings[i], i)));
 }
 
 /// Firings stand alone, with what is only of them; they start from a calibration on published results.
@@ -200,19 +186,18 @@ void make_calibration_cases(const StudySource&, StudyFile& study) {
   if (!firings_of(study).empty()) return make_firing_cases(study);
   taken(calibration_targets(study));
   refuse_if(make_factorial(
-      study, [](const study::StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }));
+      study, [](const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }));
 }
 
 /// Of the launches that a result has in `runs`.
 template <class Result, std::vector<CalibrationRun> Result::*runs>
 std::vector<Failure> failed_runs(const Result& result) {
   std::vector<Failure> failures;
-  for (const CalibrationRun& run : result.*runs)
-    add_failure(failures, run.input.label, run.outcome, run.failure);
+  for (const CalibrationRun& run : result.*runs) add_failure(failures, run.input.label, run);
   return failures;
 }
 
-StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
+StudyOutcome run(const StudyFile& study, const StudyOptions& options) {
   if (!firings_of(study).empty())
     return outcome_of<run_firings, failed_runs<FiringResult, &FiringResult::conditions>>(study, options);
   return outcome_of<run_calibration, failed_runs<CalibrationResult, &CalibrationResult::runs>>(study,
@@ -221,11 +206,11 @@ StudyOutcome run(const StudyFile& study, const study::StudyOptions& options) {
 
 }  // namespace
 
-scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study) {
+Expected<CalibrationTargets> calibration_targets(const StudyFile& study) {
   CalibrationTargets targets;
   double safe = -1.0, igniting = 1e300;
   int zero = 0, wide = 0;
-  for (const study::Reference& row : study.study.references) {
+  for (const Reference& row : study.study.references) {
     if (row.ignited()) {
       igniting = std::min(igniting, row.gap);
       continue;
@@ -272,7 +257,7 @@ Kind calibration_kind() {
   };
 }
 
-study::FiringPrior FiringSettings::prior_about(const surface::SurfaceConstants& centre) const {
+study::FiringPrior FiringSettings::prior_about(const SurfaceConstants& centre) const {
   return {.centre = centre,
           .log_localisation = std::log(localisation_factor),
           .log_exchange_time = std::log(exchange_time_factor),

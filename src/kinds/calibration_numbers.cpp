@@ -1,18 +1,12 @@
 // The fits of a calibration: constants on one trace, and the load with them.
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
-using study::FinishedRun, study::fitted_keys, study::Reference, study::StudyFile, study::StudyOptions,
-    study::Timing;
+using study::fitted_keys, study::Timing;
 
 namespace {
 
@@ -20,8 +14,7 @@ constexpr double rate_window = 0.5e-3;  ///< s
 constexpr double fast_share = 0.15;     ///< of the largest rate
 
 /// Highest temperature of the stations at every sample, K.
-std::vector<double> highest_temperatures(const surface::SkinHistory& history,
-                                         const trace::BottomTrace& trace) {
+std::vector<double> highest_temperatures(const surface::SkinHistory& history, const BottomTrace& trace) {
   std::vector<double> highest(history.time.size(), 0.0);
   const std::size_t stations = trace.stations.size();
   for (std::size_t sample = 0; sample < highest.size(); ++sample)
@@ -38,8 +31,8 @@ double crossing(const std::vector<double>& time, const std::vector<double>& rate
   return time[sample] + share * (time[sample + 1] - time[sample]);
 }
 
-void add_misfits(std::vector<double>& misfits, const surface::SkinModel& model,
-                 const trace::BottomTrace& trace, const Reference& row, double early_time) {
+void add_misfits(std::vector<double>& misfits, const SkinModel& model, const BottomTrace& trace,
+                 const Reference& row, double early_time) {
   const auto history = surface::integrate_skin(model, trace, row.gap);
   const FastRise rise = fast_rise(history, trace);
   const auto add = [&](double computed, double published, double weight) {
@@ -55,103 +48,91 @@ void add_misfits(std::vector<double>& misfits, const surface::SkinModel& model,
 constexpr double tightness = 1e-7;  ///< K, how well the fitted rows are met at least
 constexpr int most_rounds = 8;      ///< of the two fits in turn
 
-double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& trace, double gap) {
+double maximum_at(const SkinModel& model, const BottomTrace& trace, double gap) {
   return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
-double misfit_of(const surface::SkinModel& model, const trace::BottomTrace& trace, const Reference& row) {
+double misfit_of(const SkinModel& model, const BottomTrace& trace, const Reference& row) {
   return maximum_at(model, trace, row.gap) - row.maximum_temperature;
 }
 
-void find_misfits(const surface::SkinModel& model, const trace::BottomTrace& trace,
-                  const CalibrationTargets& targets, CalibratedConstants& result) {
+void find_misfits(const SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
+                  CalibratedConstants& result) {
   result.zero_gap_misfit = misfit_of(model, trace, targets.zero_gap);
   result.wide_gap_misfit = misfit_of(model, trace, targets.wide_gap);
 }
 
-/// Positive root of a function that changes sign once, sought from `start` by factors of 2 both ways.
-std::optional<double> positive_root(const std::function<double(double)>& function, double start) {
+/// Sets a constant to where a misfit, which changes sign once over the positive numbers, is 0, sought from
+/// its value by factors of 2 both ways; false where that is nowhere.
+bool solve(double& constant, const std::function<double()>& misfit) {
   struct End {
     double factor, x, value;
   };
-  const double at_start = function(start);
-  if (!std::isfinite(at_start)) return std::nullopt;
-  if (at_start == 0.0) return start;
+  const auto misfit_at = [&](double value) {
+    constant = value;
+    return misfit();
+  };
+  const double start = constant, at_start = misfit_at(start);
+  if (!std::isfinite(at_start) || at_start == 0.0) return at_start == 0.0;
   End ends[] = {{0.5, start, at_start}, {2.0, start, at_start}};
   for (int doubling = 0; doubling < 60; ++doubling)
     for (End& end : ends) {
       const End last = end;
       end.x *= end.factor;
-      end.value = function(end.x);
+      end.value = misfit_at(end.x);
       if (!(last.value * end.value <= 0.0)) continue;
       const auto& [low, high] = std::minmax(last, end, [](const End& a, const End& b) { return a.x < b.x; });
       std::uintmax_t iterations = 100;
       const auto [left, right] =
-          boost::math::tools::toms748_solve(function, low.x, high.x, low.value, high.value,
+          boost::math::tools::toms748_solve(misfit_at, low.x, high.x, low.value, high.value,
                                             boost::math::tools::eps_tolerance<double>(46), iterations);
-      return 0.5 * (left + right);
+      constant = 0.5 * (left + right);
+      return true;
     }
-  return std::nullopt;
+  return false;
 }
 
-CalibratedConstants failed(CalibratedConstants result, std::string why) {
-  result.failure = std::move(why);
-  return result;
-}
+/// Why a fit failed, a clause.
+struct FitFailed {
+  std::string why;
+};
 
-/// Alternates the two fits until both rows are met; empty when they are.
-std::string fit_both(surface::SkinModel& model, const trace::BottomTrace& trace,
-                     const CalibrationTargets& targets, CalibratedConstants& result) {
-  const auto meet = [&](double& constant, const Reference& row) {
-    const auto root = positive_root(
-        [&](double value) {
-          constant = value;
-          return misfit_of(model, trace, row);
-        },
-        constant);
-    if (root) constant = *root;
-    return root.has_value();
-  };
+/// Alternates the two fits until both rows are met.
+void fit_both(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
+              CalibratedConstants& result) {
   for (int round = 0; round < most_rounds; ++round) {
     if (model.surface.localisation <= 0) model.surface.localisation = 100.0;
-    if (!meet(model.surface.localisation, targets.zero_gap))
-      return fmt::format("no localisation gives {:.6g} K without a gap",
-                         targets.zero_gap.maximum_temperature);
-    if (!meet(model.surface.exchange_time, targets.wide_gap))
-      return fmt::format("no exchange time gives {:.6g} K at {:.6g} cm", targets.wide_gap.maximum_temperature,
-                         100.0 * targets.wide_gap.gap);
+    if (!solve(model.surface.localisation, [&] { return misfit_of(model, trace, targets.zero_gap); }))
+      throw FitFailed{
+          fmt::format("no localisation gives {:.6g} K without a gap", targets.zero_gap.maximum_temperature)};
+    if (!solve(model.surface.exchange_time, [&] { return misfit_of(model, trace, targets.wide_gap); }))
+      throw FitFailed{fmt::format("no exchange time gives {:.6g} K at {:.6g} cm",
+                                  targets.wide_gap.maximum_temperature, 100.0 * targets.wide_gap.gap)};
     find_misfits(model, trace, targets, result);
     if (std::abs(result.zero_gap_misfit) <= tightness && std::abs(result.wide_gap_misfit) <= tightness)
-      return {};
+      return;
   }
-  return "the two fits do not settle";
+  throw FitFailed{"the two fits do not settle"};
 }
 
 /// Step of the forward differences, in the logarithms of the unknowns.
 constexpr double difference_step = 5e-3;
 
-/// Why a fit failed, a clause; empty where it did not.
-std::string text_of(const math::NonlinearFit& fit) {
+/// Throws why a fit failed, where it did.
+void check(const math::NonlinearFit& fit) {
   using enum math::FitFailure;
-  switch (fit.failure) {
-    case none:
-      return {};
-    case too_few_residuals:
-      return "the rows have fewer numbers than are to be fitted";
-    case not_computable:
-      return "a number of the rows cannot be computed";
-    case singular:
-      return fmt::format("the numbers of the rows do not determine all that is fitted (condition {:.2g})",
-                         fit.condition);
-    case does_not_settle:
-      return "the least-squares fit does not settle";
-  }
-  return {};
+  const std::map<math::FitFailure, std::string> reasons{
+      {too_few_residuals, "the rows have fewer numbers than are to be fitted"},
+      {not_computable, "a number of the rows cannot be computed"},
+      {singular, fmt::format("the numbers of the rows do not determine all that is fitted (condition {:.2g})",
+                             fit.condition)},
+      {does_not_settle, "the least-squares fit does not settle"}};
+  if (fit.failure != none) throw FitFailed{reasons.at(fit.failure)};
 }
 
-/// Least squares of all numbers of the two rows from there on, with the load held; empty where it settled.
-std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace& trace,
-                            const CalibrationTargets& targets, CalibratedConstants& result) {
+/// Least squares of all numbers of the two rows from there on, with the load held.
+void fit_all_numbers(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
+                     CalibratedConstants& result) {
   const scene::Surface start = model.surface;
   const auto set = [&](const std::vector<double>& logarithms) {
     model.surface.localisation = start.localisation * std::exp(logarithms[0]);
@@ -164,25 +145,45 @@ std::string fit_all_numbers(surface::SkinModel& model, const trace::BottomTrace&
     }));
   };
   const math::NonlinearFit fit = math::fit_nonlinear(misfits, {0.0, 0.0}, difference_step);
-  if (std::string failure = text_of(fit); !failure.empty()) return failure;
+  check(fit);
   set(fit.unknowns);
   find_misfits(model, trace, targets, result);
-  return {};
+}
+
+/// Fills the result as far as the fit comes.
+void fit_constants(SkinModel& model, const BottomTrace& trace, const CalibrationTargets& targets,
+                   CalibratedConstants& result) {
+  fit_both(model, trace, targets, result);
+  if (targets.load_fitted) fit_all_numbers(model, trace, targets, result);
+  result.constants.localisation = model.surface.localisation;
+  result.constants.exchange_time = model.surface.exchange_time;
+  result.ignition_lowest = maximum_at(model, trace, targets.safe_gap);
+  result.ignition_highest = maximum_at(model, trace, targets.igniting_gap);
+  if (!(result.ignition_lowest < result.ignition_highest))
+    throw FitFailed{
+        fmt::format("no ignition temperature separates {:.6g} K at {:.6g} cm from {:.6g} K at {:.6g} cm",
+                    result.ignition_lowest, 100.0 * targets.safe_gap, result.ignition_highest,
+                    100.0 * targets.igniting_gap)};
+  constexpr double near = 1.0;  // K
+  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near))
+    throw FitFailed{
+        fmt::format("at {:.6g} cm the reaction runs away by itself, and the rows say of the ignition "
+                    "temperature only that it is above {:.6g} K",
+                    100.0 * targets.igniting_gap, result.ignition_lowest)};
+  result.constants.ignition_temperature = 0.5 * (result.ignition_lowest + result.ignition_highest);
 }
 
 // --- the load ---
 
 struct Trial {
-  scene::Load load;
+  Load load;
   double localisation = 0;
   double exchange_time = 0;  ///< s
 };
 
 /// What tells the loads of trials apart: peak time, width, steepness, base.
 using LoadNumbers = std::array<double, 4>;
-LoadNumbers numbers_of(const scene::Load& load) {
-  return {load.peak_time, load.width, load.steepness, load.base};
-}
+LoadNumbers numbers_of(const Load& load) { return {load.peak_time, load.width, load.steepness, load.base}; }
 
 /// Tries loads, each by a mechanical run the first time that it is asked for.
 struct LoadTrials {
@@ -191,36 +192,33 @@ struct LoadTrials {
   const StudyOptions& options;
   Timing& timing;
   Trial start{study.scene.scene.load};
-  std::map<LoadNumbers, trace::BottomTrace> traces = {};
-  std::string failure = {};
+  std::map<LoadNumbers, BottomTrace> traces = {};
 
-  /// Constants that meet the highest temperatures under the scene's load; false with `failure` where none do.
-  bool find_start() {
-    if (!run_all({start.load})) return false;
-    surface::SkinModel model = surface::skin_model(study.scene.scene);
+  /// Constants that meet the highest temperatures under the scene's load.
+  void find_start() {
+    run_all({start.load});
     CalibrationTargets highest = targets;
     highest.load_fitted = false;
-    const CalibratedConstants found = calibrate(model, trace_of(start.load), highest);
+    const CalibratedConstants found =
+        calibrate(surface::skin_model(study.scene.scene), trace_of(start.load), highest);
     // An ignition temperature is found at the end, and what stands in its way here may be gone then.
-    if (!std::isfinite(found.constants.localisation)) return fail(found.failure);
+    if (!std::isfinite(found.constants.localisation)) throw FitFailed{found.failure};
     start.localisation = found.constants.localisation;
     start.exchange_time = found.constants.exchange_time;
-    return true;
   }
 
   /// With the unknowns given as logarithms of their ratios to those of the start.
-  std::optional<std::vector<std::vector<double>>> misfits(const std::vector<std::vector<double>>& points) {
-    if (!run_all(of_each(points, [&](const auto& point) { return trial_at(point).load; })))
-      return std::nullopt;
+  std::vector<std::vector<double>> misfits(const std::vector<std::vector<double>>& points) {
+    run_all(of_each(points, [&](const auto& point) { return trial_at(point).load; }));
     return of_each(points, [&](const auto& point) { return misfits_of(trial_at(point)); });
   }
 
-  /// Derivative of the misfits with respect to the pressure at the start, 1/Pa; empty where its run failed.
+  /// Derivative of the misfits with respect to the pressure at the start, 1/Pa.
   std::vector<double> base_derivative(const math::NonlinearFit& fit) {
     Trial raised = trial_at(fit.unknowns);
     const double change = 2e-3 * raised.load.peak;
     raised.load.base += change;
-    if (!run_all({raised.load})) return {};
+    run_all({raised.load});
     std::vector<double> derivative = misfits_of(raised);
     for (std::size_t i = 0; i < derivative.size(); ++i)
       derivative[i] = (derivative[i] - fit.residuals[i]) / change;
@@ -236,31 +234,26 @@ struct LoadTrials {
     return trial;
   }
 
-  bool fail(std::string why) {
-    if (failure.empty()) failure = std::move(why);
-    return false;
-  }
-
-  scene::Scene scene_under(const scene::Load& load) const {
-    scene::Scene scene = study.scene.scene;
+  Scene scene_under(const Load& load) const {
+    Scene scene = study.scene.scene;
     scene.load = load;
     return scene;
   }
 
-  const trace::BottomTrace& trace_of(const scene::Load& load) const { return traces.at(numbers_of(load)); }
+  const BottomTrace& trace_of(const Load& load) const { return traces.at(numbers_of(load)); }
 
   std::vector<double> misfits_of(const Trial& trial) const {
-    surface::SkinModel model = surface::skin_model(study.scene.scene);
+    SkinModel model = surface::skin_model(study.scene.scene);
     model.surface.localisation = trial.localisation;
     model.surface.exchange_time = trial.exchange_time;
     return weighted_misfits(model, trace_of(trial.load), targets);
   }
 
   /// Runs those loads that were not run before.
-  bool run_all(const std::vector<scene::Load>& loads) {
-    if (stop_requested(options)) return fail("interrupted");
-    std::map<LoadNumbers, scene::Load> untried;
-    for (const scene::Load& load : loads)
+  void run_all(const std::vector<Load>& loads) {
+    if (stop_requested(options)) throw FitFailed{"interrupted"};
+    std::map<LoadNumbers, Load> untried;
+    for (const Load& load : loads)
       if (!traces.contains(numbers_of(load))) untried[numbers_of(load)] = load;
     const auto runs = of_each(untried, [&](const auto& each) {
       return planned_run(study::mechanics_run(scene_under(each.second), label_of(each.second)));
@@ -272,13 +265,12 @@ struct LoadTrials {
     for (std::size_t i = 0; const auto& [numbers, load] : untried) {
       const FinishedRun& run = finished[i++];
       if (!run.failure.empty())
-        return fail(fmt::format("the run with its {}: {}", label_of(load), run.failure));
+        throw FitFailed{fmt::format("the run with its {}: {}", label_of(load), run.failure)};
       traces[numbers] = trace::until(run.result.mechanics.trace, scene::read_time(load));
     }
-    return true;
   }
 
-  static std::string label_of(const scene::Load& load) {
+  static std::string label_of(const Load& load) {
     return fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}", 1e3 * load.peak_time,
                        1e3 * load.width, load.steepness);
   }
@@ -293,13 +285,12 @@ void describe(FittedLoad& load, const math::NonlinearFit& fit, LoadTrials& trial
   const double variance = left == 0 ? 1.0 : std::max(1.0, load.sum_of_squares / static_cast<double>(left));
   load.covariance = fit.covariance;
   for (double& entry : load.covariance) entry *= variance;
-  const std::vector<double> derivative = trials.base_derivative(fit);
-  if (!derivative.empty()) load.base = math::add_unknown(fit, derivative);
+  load.base = math::add_unknown(fit, trials.base_derivative(fit));
 }
 
 }  // namespace
 
-FastRise fast_rise(const surface::SkinHistory& history, const trace::BottomTrace& trace) {
+FastRise fast_rise(const surface::SkinHistory& history, const BottomTrace& trace) {
   const std::vector<double> highest = highest_temperatures(history, trace);
   std::vector<double> time, rate;
   for (const double middle : history.time) {
@@ -325,7 +316,7 @@ FastRise fast_rise(const surface::SkinHistory& history, const trace::BottomTrace
   return rise;
 }
 
-surface::SkinModel untriggered(surface::SkinModel model) {
+SkinModel untriggered(SkinModel model) {
   model.kinetics.ignition_temperature = model.kinetics.burnt_temperature;
   return model;
 }
@@ -335,7 +326,7 @@ std::size_t fitted_numbers(const Reference& row) {
   return static_cast<std::size_t>(std::ranges::count_if(numbers, [](double x) { return std::isfinite(x); }));
 }
 
-std::vector<double> weighted_misfits(const surface::SkinModel& model, const trace::BottomTrace& trace,
+std::vector<double> weighted_misfits(const SkinModel& model, const BottomTrace& trace,
                                      const CalibrationTargets& targets) {
   std::vector<double> misfits;
   for (const Reference* row : {&targets.zero_gap, &targets.wide_gap})
@@ -343,38 +334,22 @@ std::vector<double> weighted_misfits(const surface::SkinModel& model, const trac
   return misfits;
 }
 
-void put(const surface::SurfaceConstants& constants, scene::Surface& surface,
+void put(const SurfaceConstants& constants, scene::Surface& surface,
          materials::KineticsParameters& kinetics) {
   surface.localisation = constants.localisation;
   surface.exchange_time = constants.exchange_time;
   kinetics.ignition_temperature = constants.ignition_temperature;
 }
 
-CalibratedConstants calibrate(const surface::SkinModel& given, const trace::BottomTrace& trace,
+CalibratedConstants calibrate(const SkinModel& given, const BottomTrace& trace,
                               const CalibrationTargets& targets) {
   CalibratedConstants result;
-  surface::SkinModel model = untriggered(given);
-  if (std::string failure = fit_both(model, trace, targets, result); !failure.empty())
-    return failed(result, std::move(failure));
-  if (targets.load_fitted)
-    if (std::string failure = fit_all_numbers(model, trace, targets, result); !failure.empty())
-      return failed(result, std::move(failure));
-  result.constants.localisation = model.surface.localisation;
-  result.constants.exchange_time = model.surface.exchange_time;
-  result.ignition_lowest = maximum_at(model, trace, targets.safe_gap);
-  result.ignition_highest = maximum_at(model, trace, targets.igniting_gap);
-  if (!(result.ignition_lowest < result.ignition_highest))
-    return failed(result, fmt::format("no ignition temperature separates {:.6g} K at {:.6g} cm from {:.6g} K "
-                                      "at {:.6g} cm",
-                                      result.ignition_lowest, 100.0 * targets.safe_gap,
-                                      result.ignition_highest, 100.0 * targets.igniting_gap));
-  constexpr double near = 1.0;  // K
-  if (!(result.ignition_highest < model.kinetics.burnt_temperature - near))
-    return failed(result,
-                  fmt::format("at {:.6g} cm the reaction runs away by itself, and the rows say of the "
-                              "ignition temperature only that it is above {:.6g} K",
-                              100.0 * targets.igniting_gap, result.ignition_lowest));
-  result.constants.ignition_temperature = 0.5 * (result.ignition_lowest + result.ignition_highest);
+  SkinModel model = untriggered(given);
+  try {
+    fit_constants(model, trace, targets, result);
+  } catch (const FitFailed& failed) {
+    result.failure = failed.why;
+  }
   return result;
 }
 
@@ -386,7 +361,7 @@ double FittedLoad::correlation(std::size_t i, std::size_t j) const {
   return covariance.at(i * fitted_keys.size() + j) / (deviation(i) * deviation(j));
 }
 
-std::string calibration_validity_warnings(const scene::Scene& scene, const run::MechanicsResult& mechanics) {
+std::string calibration_validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
   std::vector<std::string> warnings = run::validity_warnings(scene, mechanics);
   for (const scene::Implausible& each : scene::implausible_values(scene)) {
     // What the calibration settles is no input to it.
@@ -401,13 +376,16 @@ FittedLoad fit_load(const StudyFile& study, const CalibrationTargets& targets, c
                     Timing& timing) {
   LoadTrials trials{study, targets, options, timing};
   FittedLoad load;
-  if (trials.find_start()) {
-    const auto fit = math::fit_nonlinear([&](const auto& points) { return trials.misfits(points); },
-                                         std::vector<double>(fitted_keys.size(), 0.0), difference_step);
-    load.failure = text_of(fit);
-    if (load.failure.empty()) describe(load, fit, trials);
+  try {
+    trials.find_start();
+    const auto fit =
+        math::fit_nonlinear([&](const auto& points) { return std::optional(trials.misfits(points)); },
+                            std::vector<double>(fitted_keys.size(), 0.0), difference_step);
+    check(fit);
+    describe(load, fit, trials);
+  } catch (const FitFailed& failed) {
+    load.failure = failed.why;
   }
-  if (!trials.failure.empty()) load.failure = trials.failure;
   load.runs = trials.traces.size();
   return load;
 }

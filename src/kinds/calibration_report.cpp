@@ -1,21 +1,13 @@
 // Tables, page and files of a calibration.
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using keys::count, keys::fixed, keys::kelvin, keys::megapascal, keys::millisecond, keys::percent,
-    keys::significant, keys::text;
-using report::in_words, report::json_of, report::Quantities, report::ReportTable, report::Row, report::Shown,
-    report::Statement, report::Table, report::table_of;
+using keys::megapascal;
 using study::fitted_keys, study::StationConvergence;
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string calibration_remark(const CalibrationRow& row) {
   if (!row.failure.empty()) return row.failure;
@@ -24,7 +16,7 @@ std::string calibration_remark(const CalibrationRow& row) {
 }
 
 /// Whether the calibrated ignition temperature lies in the published bracket.
-std::string bracket_check(const study::Study& study, const CalibrationRow& row) {
+std::string bracket_check(const Study& study, const CalibrationRow& row) {
   const double value = row.calibrated.constants.ignition_temperature;
   const auto& own = settings_of<CalibrationSettings>(study);
   if (!std::isfinite(value) || !std::isfinite(own.ignition_lowest)) return {};
@@ -37,18 +29,17 @@ const Quantities<CalibrationRow> calibration_setting_quantities{
     {quantity::closure, [](const CalibrationRow& row) { return study::to_string(row.closure); }},
     {quantity::kinetics, &CalibrationRow::kinetics}};
 
-using surface::SurfaceConstants;
-const Quantities<surface::SurfaceConstants> constant_quantities{
+const Quantities<SurfaceConstants> constant_quantities{
     {quantity::localisation, &SurfaceConstants::localisation},
     {quantity::exchange_time, &SurfaceConstants::exchange_time},
     {quantity::ignition_temperature, &SurfaceConstants::ignition_temperature}};
 
-Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
+Quantities<CalibrationRow> calibration_quantities(const Study& study) {
   const auto left_over = [](const char* name, const char* heading, const char* meaning) {
     return for_programs(
-        report::Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
+        Column{std::string(name) + "_computed_minus_published", heading, fixed(2, kelvin), meaning});
   };
-  return keys::joined<CalibrationRow>(
+  return joined<CalibrationRow>(
       {calibration_setting_quantities,
        of_part<CalibrationRow>(constant_quantities, &CalibrationRow::calibrated,
                                &CalibratedConstants::constants),
@@ -74,8 +65,7 @@ Quantities<CalibrationRow> calibration_quantities(const study::Study& study) {
 Quantities<ComparedNumber> compared_quantities() {
   const auto form = [](const ComparedNumber& row) { return fixed(2, row.in_seconds ? millisecond : kelvin); };
   const auto in_unit = [form](auto member) {
-    return
-        [=](const ComparedNumber& row) { return report::shown_value(std::invoke(member, row), form(row)); };
+    return [=](const ComparedNumber& row) { return shown_value(std::invoke(member, row), form(row)); };
   };
   return {{quantity::subject, &ComparedNumber::quantity},
           {quantity::gap, &ComparedNumber::gap},
@@ -95,8 +85,8 @@ Quantities<ComparedNumber> compared_quantities() {
 Table compared_table(const CalibrationResult& result, const CalibrationRow& row) {
   Row facts{{"places", Row::array()}, {"without_rows", result.study.study.references.empty()}};
   for (const Placement& each : row.placements)
-    facts["places"].push_back(fmt::format("{} at {} {} ({})", each.quantity, report::centimetres(each.gap),
-                                          each.computed, each.published));
+    facts["places"].push_back(
+        fmt::format("{} at {} {} ({})", each.quantity, centimetres(each.gap), each.computed, each.published));
   return table_of(fmt::format("Against the published results: {}, {}, {}",
                               in_words(row.cell_size, quantity::cell_size.form),
                               study::to_string(row.closure), row.kinetics),
@@ -122,8 +112,8 @@ const Quantities<Placement> placement_quantities{
     {"computed", "computed", text(), "Station where it was computed.", &Placement::computed},
     {"published", "published", text(), "Where it was published to be.", &Placement::published}};
 
-Json stations_json(const StationConvergence& stations) {
-  Json json = json_of<StationConvergence>(
+Row stations_json(const StationConvergence& stations) {
+  Row json = json_of<StationConvergence>(
       {{named("change_to_finer", quantity::change_to_finer), &StationConvergence::finer},
        {named("change_from_coarser", quantity::change_from_coarser), &StationConvergence::coarser}},
       stations);
@@ -141,7 +131,7 @@ Table table_of_all(const std::vector<CalibrationRow>& rows, const Quantities<Com
 /// A constant that was calibrated, beside that of the scene.
 struct ConstantRow {
   std::string key, calibrated, in_scene;
-  double difference = study::not_a_number;  ///< as a share of the calibrated one
+  double difference = not_a_number;  ///< as a share of the calibrated one
 };
 
 const Quantities<ConstantRow> scene_quantities{
@@ -173,12 +163,12 @@ Quantities<FittedRow> fitted_quantities() {
   return quantities;
 }
 
-Json load_json(const CalibrationResult& result) {
+Row load_json(const CalibrationResult& result) {
   if (!result.load) return nullptr;
   const Quantities<FittedLoad> quantities{
-      {quantity::load_peak_time, &FittedLoad::bell, &scene::Load::peak_time},
-      {quantity::load_width, &FittedLoad::bell, &scene::Load::width},
-      {quantity::load_steepness, &FittedLoad::bell, &scene::Load::steepness},
+      {quantity::load_peak_time, &FittedLoad::bell, &Load::peak_time},
+      {quantity::load_width, &FittedLoad::bell, &Load::width},
+      {quantity::load_steepness, &FittedLoad::bell, &Load::steepness},
       {"numbers", "numbers", count(), "Published numbers that were fitted to.", &FittedLoad::numbers},
       {"sum_of_squares", "sum of squares", fixed(2), "Of what is left, over the weights.",
        &FittedLoad::sum_of_squares},
@@ -189,7 +179,7 @@ Json load_json(const CalibrationResult& result) {
        &math::AddedUnknown::gain},
       {"runs", "runs", count(), "Mechanical runs that it took.", &FittedLoad::runs},
       {quantity::reason, &FittedLoad::failure}};
-  Json json = json_of(quantities, *result.load);
+  Row json = json_of(quantities, *result.load);
   json["covariance_of_logarithms"] = result.load->covariance;
   json["frozen_at"] = settings_of<CalibrationSettings>(result.study).frozen_at;
   return json;
@@ -207,30 +197,22 @@ std::string fit_text(const CalibrationResult& result) {
   if (!has_load(result)) return {};
   Row facts = load_json(result);
   facts.update({{"temperature_weight_K", temperature_weight},
-                {"instant_weight_ms", report::shown_value(instant_weight, significant(6, millisecond))}});
+                {"instant_weight_ms", shown_value(instant_weight, significant(6, millisecond))}});
   return said_below("calibration.fit", facts);
-}
-
-std::string misfits_text(const CalibrationRow& row) {
-  const MisfitBound misfits = misfit_bound(row);
-  return said_below("calibration.misfits", {{"count", misfits.count},
-                                            {"root_mean_square_K", misfits.root_mean_square},
-                                            {"factor", misfits.factor},
-                                            {"bound_K", misfits.bound()}});
 }
 
 }  // namespace
 
 Table run_table(const std::vector<CalibrationRun>& runs) {
   return report::run_table(of_each(runs, [](const CalibrationRun& each) {
-    return report::NamedRun{each.input.label, each.failure, &each.mechanics, {}};
+    return report::NamedRun{each.input.label, each.failure, &each.mechanics(), {}};
   }));
 }
 
 Table constants_table(const CalibrationResult& result) {
   if (!result.recommended()) return {};
   const CalibrationRow& row = *result.recommended();
-  const surface::SurfaceConstants &fitted = row.calibrated.constants, &now = result.in_scene;
+  const SurfaceConstants &fitted = row.calibrated.constants, &now = result.in_scene;
   std::vector<ConstantRow> rows{{"friction.closure", study::to_string(row.closure),
                                  study::to_string(result.study.scene.scene.surface.friction)}};
   const auto add = [&rows](std::string key, double value, double held, const keys::Unit& unit = {}) {
@@ -240,7 +222,7 @@ Table constants_table(const CalibrationResult& result) {
   add("friction.localisation", fitted.localisation, now.localisation);
   add("gap.exchange_time", fitted.exchange_time, now.exchange_time, millisecond);
   if (has_load(result)) {
-    const scene::Load &bell = *result.load->bell, &held = result.study.scene.scene.load;
+    const Load &bell = *result.load->bell, &held = result.study.scene.scene.load;
     add("load.peak_time", bell.peak_time, held.peak_time, millisecond);
     add("load.width", bell.width, held.width, millisecond);
     add("load.steepness", bell.steepness, held.steepness);
@@ -259,8 +241,8 @@ std::string answer(const CalibrationResult& result) {
   return said("calibration.answer", facts).front();
 }
 
-report::Report report_of(const CalibrationResult& result) {
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+Report report_of(const CalibrationResult& result) {
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (const auto record = record_of(result))
     report.files.push_back({"calibration.json", study::to_json_text(*record)});
   report.say(said_below("calibration.stations", stations_json(result.stations)));
@@ -268,7 +250,13 @@ report::Report report_of(const CalibrationResult& result) {
   report.add({fitted_table(result), "", "fitted"});
   report.say(fit_text(result));
   const CalibrationRow* recommended = result.recommended();
-  if (recommended != nullptr) report.say(misfits_text(*recommended));
+  if (recommended != nullptr) {
+    const MisfitBound misfits = misfit_bound(*recommended);
+    report.say(said_below("calibration.misfits", {{"count", misfits.count},
+                                                  {"root_mean_square_K", misfits.root_mean_square},
+                                                  {"factor", misfits.factor},
+                                                  {"bound_K", misfits.bound()}}));
+  }
   report.add({table_of("Calibrated constants, and how far they miss what nothing was fitted to",
                        calibration_quantities(result.study.study), result.rows,
                        said("calibration.note.calibrations")),
@@ -290,9 +278,9 @@ report::Report report_of(const CalibrationResult& result) {
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({run_table(result.runs), "", "runs", Shown::page});
   report.say(report::timing_sentence(result.timing));
-  Json recommendation{{"reason", result.reason}, {"row", nullptr}};
+  Row recommendation{{"reason", result.reason}, {"row", nullptr}};
   if (result.recommended_row) recommendation["row"] = *result.recommended_row;
-  Json in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
+  Row in_scene{{"closure", study::to_string(result.study.scene.scene.surface.friction)}};
   in_scene.update(json_of(constant_quantities, result.in_scene));
   report.json = study_json(result.study, report,
                            {{"recommendation", recommendation},

@@ -1,19 +1,13 @@
 // What a calibrated model computes for the published rows, beside them.
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace launchsafe::kinds {
 
-using study::not_a_number, study::Reference, study::Study, study::Use;
+using study::Use;
 
 namespace {
 
-std::string name_of(const trace::BottomTrace& trace, const surface::Maximum& maximum) {
+std::string name_of(const BottomTrace& trace, const surface::Maximum& maximum) {
   return maximum.station < trace.stations.size() ? trace.stations[maximum.station].name : std::string{};
 }
 
@@ -22,8 +16,8 @@ double root_mean_square_of(const std::vector<double>& misfits) {
 }
 
 /// K by which the station at a published place is colder at a time (s) than the hottest; NaN without one.
-double place_misfit(const surface::SkinHistory& history, const trace::BottomTrace& trace,
-                    const std::string& place, double time) {
+double place_misfit(const surface::SkinHistory& history, const BottomTrace& trace, const std::string& place,
+                    double time) {
   const trace::Station* found = keys::find_named(trace.stations, place);
   if (found == nullptr) return not_a_number;
   double nearest = std::numeric_limits<double>::infinity(), there = not_a_number;
@@ -49,8 +43,8 @@ double on_line(const std::vector<Reference>& references, double gap, double Refe
 /// What one published row says of one calibrated model.
 struct RowComparison {
   const Study& study;
-  const surface::SkinModel& model;
-  const trace::BottomTrace& trace;
+  const SkinModel& model;
+  const BottomTrace& trace;
   const Reference& reference;
   CalibrationRow& row;
 
@@ -160,8 +154,7 @@ MisfitBound misfit_bound(const CalibrationRow& row) {
   return bound;
 }
 
-void compare(const Study& study, const surface::SkinModel& model, const trace::BottomTrace& trace,
-             CalibrationRow& row) {
+void compare(const Study& study, const SkinModel& model, const BottomTrace& trace, CalibrationRow& row) {
   for (const Reference& reference : study.references)
     RowComparison{study, model, trace, reference, row}.add_all();
   add_selection(row);

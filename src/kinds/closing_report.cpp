@@ -4,14 +4,9 @@
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using keys::fixed, keys::text;
-using report::Mark, report::Plot, report::ReportTable, report::Series, report::shown_gap, report::Style,
-    report::Table;
-using study::CaseOutcome, study::ClosingAnswer, study::ClosingPoint, study::GapVerdict, study::not_a_number;
+using study::ClosingAnswer, study::ClosingPoint;
 
 namespace {
 
@@ -61,12 +56,12 @@ std::string why_unknown(const ClosingRow& row) {
   return {};
 }
 
-report::Column kelvins(const char* name, const char* label, const char* meaning) {
-  return {name, label, fixed(1, keys::kelvin), meaning};
+Column kelvins(const char* name, const char* label, const char* meaning) {
+  return {name, label, fixed(1, kelvin), meaning};
 }
 
-const report::Quantities<ClosingRow> closing_quantities{
-    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+const Quantities<ClosingRow> closing_quantities{
+    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &StudyCase::label},
     {quantity::gap, &ClosingRow::gap},
     {kelvins("temperature_max_reservoir", "T max, reservoir", "Highest temperature under the reservoir."),
      &ClosingRow::verdict, &GapVerdict::maximum, &study::Peak::temperature},
@@ -81,8 +76,8 @@ const report::Quantities<ClosingRow> closing_quantities{
              "release."),
      on("corner"), &ClosingPoint::maximum_temperature},
     {"corner_place", "at", text(), "Station of that.", on("corner"), &ClosingPoint::place},
-    {"corner_release", "release", fixed(2, keys::millisecond), "Until when the charge is held there.",
-     on("corner"), &ClosingPoint::release},
+    {"corner_release", "release", fixed(2, millisecond), "Until when the charge is held there.", on("corner"),
+     &ClosingPoint::release},
     {kelvins("corner_numerical", "of its computation",
              "By how much that may be off for mesh, steps and columns; assumed where no record says it."),
      on("corner"), uncertainty_of},
@@ -95,8 +90,8 @@ const report::Quantities<ClosingRow> closing_quantities{
     {"remark", "remark", text(), "Why a temperature is not known.", why_unknown}};
 
 /// What is not known of a gap that closes, with what each worst end adds where all before stand at theirs.
-const report::Quantities<ClosingRow> closing_share_quantities{
-    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &study::StudyCase::label},
+const Quantities<ClosingRow> closing_share_quantities{
+    {quantity::case_name, &ClosingRow::outcome, &CaseOutcome::input, &StudyCase::label},
     {quantity::gap, &ClosingRow::gap},
     {kelvins("own_terms", "own terms, base conducts", "T max on the case's own terms."), on("conducting"),
      &ClosingPoint::maximum_temperature},
@@ -120,35 +115,34 @@ struct BoundRow {
 
 /// What a bound of an answer says, for people; empty without such bounds.
 auto text_of_bound(std::size_t bound) {
-  return [bound](const study::CaseAnswer& answer) -> std::string {
+  return [bound](const CaseAnswer& answer) -> std::string {
     if (bound >= answer.closing.size()) return {};
     const ClosingAnswer& found = answer.closing[bound];
-    if (!std::isnan(found.upper)) return report::reads_as(critical_gap_of(found));
-    return std::isnan(found.lower) ? "not known"
-                                   : "> " + report::centimetres(found.lower) + ", then not known";
+    if (!std::isnan(found.upper)) return reads_as(critical_gap_of(found));
+    return std::isnan(found.lower) ? "not known" : "> " + centimetres(found.lower) + ", then not known";
   };
 }
 
-const report::Quantities<BoundRow> closing_bound_quantities{
+const Quantities<BoundRow> closing_bound_quantities{
     {quantity::case_name, &BoundRow::label},
     {"bound", "where the gap closes", text(), "Terms on which it closes.", &BoundRow::answer, bound_name},
-    {"no_ignition_up_to", "no ignition up to", keys::significant(4, keys::centimetre),
+    {"no_ignition_up_to", "no ignition up to", significant(4, centimetre),
      "Largest gap below the first that ignites.", &BoundRow::answer, &ClosingAnswer::lower},
-    {"ignition_from", "ignites at", keys::significant(4, keys::centimetre), "Smallest gap that ignites.",
+    {"ignition_from", "ignites at", significant(4, centimetre), "Smallest gap that ignites.",
      &BoundRow::answer, &ClosingAnswer::upper},
-    {"launches", "gaps computed", keys::significant(6), "Gaps that were computed.", &BoundRow::answer,
+    {"launches", "gaps computed", significant(6), "Gaps that were computed.", &BoundRow::answer,
      [](const ClosingAnswer& answer) { return static_cast<double>(answer.points.size()); }}};
 
 /// By which kinetics the cases of rows may ignite, and whether records say how far T max may be off.
-report::Row closing_facts(const std::vector<ClosingRow>& rows) {
-  report::Row facts{{"kinetics", report::Row::array()}, {"others", report::Row::array()}};
+Row closing_facts(const std::vector<ClosingRow>& rows) {
+  Row facts{{"kinetics", Row::array()}, {"others", Row::array()}};
   const auto add = [&facts](const char* list, const std::string& name) {
-    report::Row& names = facts[list];
-    if (std::find(names.begin(), names.end(), report::Row(name)) == names.end()) names.push_back(name);
+    Row& names = facts[list];
+    if (std::find(names.begin(), names.end(), Row(name)) == names.end()) names.push_back(name);
   };
   std::size_t known = 0, recorded = 0;
   for (const ClosingRow& row : rows) {
-    const scene::Scene& scene = row.outcome->input.scene.scene;
+    const Scene& scene = row.outcome->input.scene.scene;
     const auto counting = study::kinetics_of(scene);
     for (const auto& each : counting) add("kinetics", each.name);
     for (const scene::Decomposition& each : scene::shipped_decompositions())
@@ -165,7 +159,7 @@ report::Row closing_facts(const std::vector<ClosingRow>& rows) {
 
 }  // namespace
 
-report::Quantities<study::CaseAnswer> closing_gap_quantities() {
+Quantities<CaseAnswer> closing_gap_quantities() {
   return {{"closing_conducting", "closing, base conducts", text(),
            "Smallest gap that ignites where it closes and its base takes heat.", text_of_bound(0)},
           {"closing_insulated", "base insulated", text(),
@@ -173,12 +167,12 @@ report::Quantities<study::CaseAnswer> closing_gap_quantities() {
 }
 
 std::vector<std::string> closing_answer(const CriticalGapResult& result) {
-  report::Row facts{{"bounds", report::Row::array()}};
+  Row facts{{"bounds", Row::array()}};
   for (std::size_t bound = 0; bound < 2; ++bound) {
     std::size_t ignite = 0, unknown = 0;
     double smallest = not_a_number;
     std::string name;
-    for (const study::CaseAnswer& answer : result.answers) {
+    for (const CaseAnswer& answer : result.answers) {
       if (answer.closing.empty()) continue;
       const ClosingAnswer& of_bound = answer.closing[bound];
       name = bound_name(of_bound);
@@ -191,7 +185,7 @@ std::vector<std::string> closing_answer(const CriticalGapResult& result) {
       facts["bounds"].push_back({{"name", name},
                                  {"ignite", ignite},
                                  {"unknown", unknown},
-                                 {"smallest_cm", report::number(report::shown_gap(smallest))}});
+                                 {"smallest_cm", report::number(shown_gap(smallest))}});
   }
   facts["closes"] = !facts["bounds"].empty();
   return said("critical_gap.closing_answer", facts);
@@ -208,11 +202,11 @@ std::vector<ReportTable> closing_tables(const CriticalGapResult& result) {
   }
   if (rows.empty()) return {};
   Table temperatures =
-      report::table_of("Where the gap closes", closing_quantities, rows, said("critical_gap.note.closing"));
+      table_of("Where the gap closes", closing_quantities, rows, said("critical_gap.note.closing"));
   // A gap no wider than the faces are rough does not close: it is one launch on whatever terms.
   std::erase_if(rows, [](const ClosingRow& row) { return row.gap <= row.outcome->input.closing->roughness; });
-  Table shares = report::table_of("What the worst end of each interval adds", closing_share_quantities, rows,
-                                  said("critical_gap.note.closing_shares", closing_facts(rows)));
+  Table shares = table_of("What the worst end of each interval adds", closing_share_quantities, rows,
+                          said("critical_gap.note.closing_shares", closing_facts(rows)));
   return {{std::move(temperatures), "closing.csv", "closing"},
           {std::move(shares), "closing_shares.csv", "closing_shares"}};
 }
@@ -222,18 +216,18 @@ Table closing_bound_table(const CriticalGapResult& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     for (const ClosingAnswer& answer : result.answers[i].closing)
       rows.push_back({result.study.cases.label(i), &answer});
-  return report::table_of("Critical gap where the gap closes", closing_bound_quantities, rows);
+  return table_of("Critical gap where the gap closes", closing_bound_quantities, rows);
 }
 
-std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
+std::optional<Plot> closing_plot(const CriticalGapResult& result) {
   if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
   const CaseOutcome& outcome = result.details.front();
-  report::Plot plot;
-  plot.title = "Critical gap by the reservoir: " + report::reads_as(outcome.critical);
+  Plot plot;
+  plot.title = "Critical gap by the reservoir: " + reads_as(outcome.critical);
   for (const ClosingAnswer& answer : outcome.closing)
     if (std::isfinite(answer.upper) && (answer.is_nominal() || answer.is_worst_corner()))
       plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
-                       report::centimetres(answer.upper);
+                       centimetres(answer.upper);
   plot.named_in_place = true;
   plot.x.label = quantity::gap.label();
   plot.y.label = quantity::temperature_max.label();
@@ -250,15 +244,15 @@ std::optional<report::Plot> closing_plot(const CriticalGapResult& result) {
       if (point.ignited || std::isfinite(point.maximum_temperature))
         series.add(shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
   }
-  const std::string at = report::in_words(ignition, keys::significant(4, keys::kelvin));
+  const std::string at = in_words(ignition, significant(4, kelvin));
   plot.horizontal_lines.push_back({ignition, "ignition: " + at + "; what ignites is drawn above"});
   return plot;
 }
 
 std::vector<ReportTable> closing_results() {
-  return {{report::table_of({}, closing_quantities, {}), "closing.csv", "closing"},
-          {report::table_of({}, closing_share_quantities, {}), "closing_shares.csv", "closing_shares"},
-          {report::table_of({}, closing_bound_quantities, {}), "closing_bounds.csv", "closing_bounds"}};
+  return {{table_of({}, closing_quantities, {}), "closing.csv", "closing"},
+          {table_of({}, closing_share_quantities, {}), "closing_shares.csv", "closing_shares"},
+          {table_of({}, closing_bound_quantities, {}), "closing_bounds.csv", "closing_bounds"}};
 }
 
 }  // namespace launchsafe::kinds

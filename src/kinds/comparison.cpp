@@ -1,30 +1,24 @@
 // The study of kind comparison: its cases, answer, tables and page.
 #include "launchsafe/kinds/comparison.hpp"
 
-#include "answer_tables.hpp"
 #include "study_keys.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::kinds {
 
-using keys::fixed, keys::significant;
-using report::Quantities, report::ReportTable, report::Row, report::Table;
-using study::CaseAnswer, study::not_a_number, study::RunSummary, study::StationTemperature, study::Study,
-    study::StudyFile;
+using study::StationTemperature;
 
 namespace {
 
-const std::vector<scene::Key<ComparisonSettings>> comparison_keys{
-    scene::text_key("name", scene::Standing::input, "What the scene without changes is called.",
-                    "as in the scene", &ComparisonSettings::name),
-    scene::text_key("description", scene::Standing::input, "What that is, a phrase.", "frictionless wall",
-                    &ComparisonSettings::description),
+const std::vector<Key<ComparisonSettings>> comparison_keys{
+    text_key("name", Standing::input, "What the scene without changes is called.", "as in the scene",
+             &ComparisonSettings::name),
+    text_key("description", Standing::input, "What that is, a phrase.", "frictionless wall",
+             &ComparisonSettings::description),
 };
 
 /// The record of a calibration, with or without constants.
-study::CalibrationRecord read_calibration_record(const StudyFile& study, const StudySource& source,
-                                                 const std::string& name, const std::string& key) {
+CalibrationRecord read_calibration_record(const StudyFile& study, const StudySource& source,
+                                          const std::string& name, const std::string& key) {
   const std::string text =
       taken(read_named_file(study, source.folder, key, name, "the calibration.json of a calibration"));
   return taken(study::parse_calibration_record(text, (source.folder / name).string()));
@@ -36,49 +30,49 @@ struct VariantMaker {
   StudyFile& study;
   StudyKeys keys = joined({common_keys(), comparison_kind().keys});
 
+  std::vector<Variant>& variants() { return settings_of<ComparisonSettings>(study.study).variants; }
+
   void add_variant(const toml::table& table, const std::string& key) {
-    VariantText text;
-    for (const auto& [name, place] : taken(
-             scene::read_table(table, variant_keys(), {"set", "accept"}, study.file, text), "vary.variants"))
+    Variant variant;
+    for (const auto& [name, place] :
+         taken(scene::read_table(table, variant_keys(), {"set", "accept"}, study.file, variant),
+               "vary.variants"))
       study.places[key + "." + name] = place;
-    if (keys::find_named(variants(), text.name) != nullptr)
-      refuse_at(study, key + ".name", fmt::format("\"{}\" a second time", text.name),
+    if (keys::find_named(variants(), variant.name) != nullptr)
+      refuse_at(study, key + ".name", fmt::format("\"{}\" a second time", variant.name),
                 "a name that no other variant has");
     check_gaps(table);
-    Variant variant{.name = text.name, .description = text.description};
-    if (!text.calibration.empty())
-      variant.calibration = read_calibration_record(study, source, text.calibration, key + ".calibration");
-    const bool own_constants = variant.calibration && variant.calibration->failure.empty();
-    add(std::move(variant), own_constants ? text.calibration : std::string{},
-        {{"set", source.root.get("set")}, {"vary.variants.set", table.get("set")}}, table);
+    if (!variant.record.empty())
+      variant.calibration = read_calibration_record(study, source, variant.record, key + ".calibration");
+    add(std::move(variant), &table);
   }
-
-  std::vector<Variant>& variants() { return settings_of<ComparisonSettings>(study.study).variants; }
 
   /// Gaps of a variant would silently do nothing.
   void check_gaps(const toml::table& table) const {
     const toml::node* set = table.get("set");
     if (!set || !set->is_table()) return;
-    for (const study::Leaf& leaf : study::leaves_as_written(*set->as_table()))
+    for (const Leaf& leaf : study::leaves_as_written(*set->as_table()))
       if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling")
-        refuse_if(scene::error_at(scene::place_of(*leaf.node, study.file), "vary.variants.set." + leaf.name,
-                                  "gaps of a variant", "the study's gaps, which all variants share"));
+        throw error_at(scene::place_of(*leaf.node, study.file), "vary.variants.set." + leaf.name,
+                       "gaps of a variant", "the study's gaps, which all variants share");
   }
 
-  /// `calibration`: the record with the constants of the variant; empty: the study's.
-  void add(Variant variant, const std::string& calibration, const std::vector<OverrideTable>& overrides,
-           const toml::table& acceptances) {
-    StudyFile own = start(calibration);
-    settle_scene(source, overrides, own);
+  /// `table`: with the scene keys of the variant, and what it accepts; nullptr for the scene as it is.
+  void add(Variant variant, const toml::table* table) {
+    StudyFile own = start(variant);
+    settle_scene(source,
+                 {{"set", source.root.get("set")},
+                  {"vary.variants.set", table == nullptr ? nullptr : table->get("set")}},
+                 own);
     refuse_if(check_load_axes(own));
-    for (const study::Axis& axis : own.study.axes)
+    for (const Axis& axis : own.study.axes)
       if (own.overrides.contains(axis.key.name))
         refuse_at(study, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
                   axis.key.name + " either here or there");
     settle_acceptances(source.root, keys, own);
-    if (&acceptances != &source.root)  // a variant accepts for itself
+    if (table != nullptr)
       for (scene::Acceptance& each :
-           taken(scene::read_acceptances(acceptances, scene::acceptable_keys(own.scene.scene), study.file),
+           taken(scene::read_acceptances(*table, scene::acceptable_keys(own.scene.scene), study.file),
                  "vary.variants"))
         scene::accept(own.scene.scene.accepted, std::move(each));
     if (own.study.early_time > scene::end_time(own.scene.scene.load))
@@ -89,40 +83,40 @@ struct VariantMaker {
     take(std::move(variant), own);
   }
 
-  /// The study before its scene was read.
-  StudyFile start(const std::string& calibration) const {
-    StudyFile own;
-    own.study = study.study;
-    own.file = study.file;
-    own.places = study.places;
-    own.most_cases = study.most_cases;
+  /// The study before its scene was read; with the constants of the variant, where it has its own.
+  StudyFile start(const Variant& variant) const {
+    StudyFile own = study;
+    own.cases = {};
+    own.overrides.clear();
+    own.records.clear();
     own.study.settings.reset();
     own.study.implausible.clear();
     own.study.calibration = study::shipped_calibration();
     own.study.fit_uncertainty = not_a_number;  // of its own calibration
-    if (!calibration.empty()) own.study.calibration_record = calibration;
+    if (variant.calibration && variant.calibration->failure.empty())
+      own.study.calibration_record = variant.record;
     return own;
   }
 
   void take(Variant variant, StudyFile& own) {
+    const bool is_first = variants().empty();
     refuse_if(check_count(study, "vary", static_cast<double>(study.cases.size() + own.cases.size()),
                           "of all variants"));
-    if (!variant.calibration && !own.study.calibration_record.empty()) {
-      auto record = read_calibration_record(study, source, own.study.calibration_record, "calibration");
-      if (variants().empty()) variant.calibration = std::move(record);
-    }
+    if (is_first && !own.study.calibration_record.empty())
+      variant.calibration =
+          read_calibration_record(study, source, own.study.calibration_record, "calibration");
     for (const auto& [key, value] : own.overrides) {
       const auto common = study.overrides.find(key);
       if (common == study.overrides.end() || common->second != value)
         variant.changes.push_back(key + " = " + value);
     }
-    if (!variants().empty() && variant.changes.empty())
+    if (!is_first && variant.changes.empty())
       refuse_at(study, "vary", fmt::format("\"{}\", which is the scene as it is", variant.name),
                 "a variant with set or calibration");
     variant.scene = own.scene.scene;
-    for (study::StudyCase each : own.cases) {
+    for (StudyCase each : own.cases) {
       each.label = variant.name + ": " + each.label;
-      each.own_conditions = each.own_conditions && variants().empty();
+      each.own_conditions = each.own_conditions && is_first;
       study.cases.add(std::move(each));
     }
     variant.judged = std::move(own.study);
@@ -135,20 +129,18 @@ void make_comparison_cases(const StudySource& source, StudyFile& study) {
   const std::vector<const toml::table*> tables = variants_in(source, study);
   VariantMaker maker{source, study};
   const ComparisonSettings settings = settings_of<ComparisonSettings>(study);
-  maker.add({.name = settings.name, .description = settings.description}, {},
-            {{"set", source.root.get("set")}}, source.root);
+  maker.add({.name = settings.name, .description = settings.description}, nullptr);
   for (std::size_t index = 0; const toml::table* table : tables)
     maker.add_variant(*table, fmt::format("vary.{}.variants", index++));
 }
 
-void judge(const Variant& variant, const study::StudyCase& input, std::vector<study::FinishedRun>& runs,
-           ComparedCase& of) {
-  static_cast<study::CaseAnswer&>(of) = answer_from(variant.judged, input, runs);
+void judge(const Variant& variant, const StudyCase& input, std::vector<FinishedRun>& runs, ComparedCase& of) {
+  static_cast<CaseAnswer&>(of) = answer_from(variant.judged, input, runs);
   if (run_without_result(runs) != nullptr || was_cut_off(runs.front())) return;
-  const run::MechanicsResult& mechanics = runs.front().result.mechanics;
+  const MechanicsResult& mechanics = runs.front().result.mechanics;
   of.processor_time = mechanics.work_time();
   if (!of.completed()) return;
-  const surface::SkinModel model = study::without_reaction(surface::skin_model(input.scene.scene));
+  const SkinModel model = study::without_reaction(surface::skin_model(input.scene.scene));
   for (const double gap : variant.judged.gaps)
     of.stations.push_back(
         study::station_temperatures(surface::integrate_skin(model, mechanics.trace, gap), mechanics.trace));
@@ -167,13 +159,13 @@ struct CaseRow {
 
 /// Variant, and peak pressure where there are several.
 Quantities<CaseRow> place_quantities(const Study& study) {
-  return keys::joined<CaseRow>({{{quantity::variant, &CaseRow::variant}},
-                                of_part<CaseRow>(report::axis_quantities(study), &CaseRow::coordinates)});
+  return joined<CaseRow>({{{quantity::variant, &CaseRow::variant}},
+                          of_part<CaseRow>(report::axis_quantities(study), &CaseRow::coordinates)});
 }
 
 double hottest(const ComparedCase& each) {
   double highest = not_a_number;
-  for (const study::GapVerdict& row : each.verdicts)
+  for (const GapVerdict& row : each.verdicts)
     if (!(row.heated <= highest)) highest = row.heated;
   return highest;
 }
@@ -190,14 +182,14 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
       return row.compared().variant == 0 ? not_a_number : difference(row);
     };
   };
-  return keys::joined<CaseRow>(
+  return joined<CaseRow>(
       {place_quantities(study),
        of_part<CaseRow>(report::critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
-       {{"critical_gap_difference", "less that of the scene", significant(3, keys::centimetre),
+       {{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
          "Critical gap minus that of the scene as it is.",
          unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
         {quantity::temperature_max_inert, [](const CaseRow& row) { return hottest(row.compared()); }},
-        {"temperature_max_inert_difference", "less that of the scene", fixed(1, keys::kelvin),
+        {"temperature_max_inert_difference", "less that of the scene", fixed(1, kelvin),
          "The same minus that of the scene as it is.", unless_own([](const CaseRow& row) {
            return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
          })},
@@ -216,8 +208,8 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
 Table comparison_table(const ComparisonResult& result) {
   std::vector<CaseRow> rows;
   for (std::size_t i = 0; i < result.answers.size(); ++i) rows.push_back({&result, i});
-  return report::table_of("Variants side by side", compared_case_quantities(result.study.study), rows,
-                          said("comparison.note.cases"));
+  return table_of("Variants side by side", compared_case_quantities(result.study.study), rows,
+                  said("comparison.note.cases"));
 }
 
 struct StationRow {
@@ -227,7 +219,7 @@ struct StationRow {
 };
 
 Quantities<StationRow> station_quantities(const Study& study) {
-  return keys::joined<StationRow>(
+  return joined<StationRow>(
       {of_part<StationRow>(place_quantities(study), &StationRow::of),
        {{quantity::gap, &StationRow::gap},
         {quantity::station, &StationRow::station, &StationTemperature::name},
@@ -243,8 +235,7 @@ Table station_table(const ComparisonResult& result) {
       for (const StationTemperature& each : stations[gap])
         rows.push_back({{&result, i}, result.study.study.gaps[gap], &each});
   }
-  return report::table_of("T max of every station, without reaction", station_quantities(result.study.study),
-                          rows);
+  return table_of("T max of every station, without reaction", station_quantities(result.study.study), rows);
 }
 
 /// Stations side by side at the largest gap: a column for each variant. Peak pressures are compared in the
@@ -268,8 +259,8 @@ Table stations_side_by_side(const ComparisonResult& result) {
                               return found == nullptr ? not_a_number : found->temperature;
                             });
   }
-  Table table = report::table_of(
-      "T max [K] by station at " + report::centimetres(gaps[gap]) + ", without reaction", quantities, rows);
+  Table table =
+      table_of("T max [K] by station at " + centimetres(gaps[gap]) + ", without reaction", quantities, rows);
   if (!result.study.study.axes.empty())
     table.notes.emplace_back("Under the first peak pressure; stations.csv has the others.");
   return table;
@@ -291,15 +282,14 @@ Kind comparison_kind() {
 }
 
 bool ComparisonResult::any_indeterminate() const {
-  return std::ranges::any_of(answers, [](const ComparedCase& each) {
-    return each.critical.kind == study::CriticalGapKind::indeterminate;
-  });
+  return std::ranges::any_of(
+      answers, [](const ComparedCase& each) { return each.critical.kind == CriticalGapKind::indeterminate; });
 }
 
-ComparisonResult run_comparison(const study::StudyFile& study, const study::StudyOptions& options) {
+ComparisonResult run_comparison(const StudyFile& study, const StudyOptions& options) {
   return run_timed<ComparisonResult>(study, options, [&](ComparisonResult& result) {
     result.answers.resize(study.cases.size());
-    run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& runs) {
+    run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
       ComparedCase& of = result.answers[i];
       of.variant = i / result.cases_per_variant();
       judge(result.variants()[of.variant], study.cases[i], runs, of);
@@ -317,25 +307,24 @@ std::string answer(const ComparisonResult& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const std::string& label = result.study.cases[i].label;
     if (result.answers[i].variant == 0) {
-      facts["own"].push_back(
-          {{"case", label}, {"critical_gap", report::reads_as(result.answers[i].critical)}});
+      facts["own"].push_back({{"case", label}, {"critical_gap", reads_as(result.answers[i].critical)}});
       continue;
     }
     const double shift = shift_of(result, i);
     unknown += std::isnan(shift);
     if (!(shift < least)) continue;
     least = shift;
-    facts["least"] = report::in_words(shift, significant(3, keys::centimetre)) + ", of " + label;
+    facts["least"] = in_words(shift, significant(3, centimetre)) + ", of " + label;
   }
   facts["unknown"] = unknown;
   return answer_of(said("comparison.answer", facts), result.study);
 }
 
-report::Report report_of(const ComparisonResult& result) {
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+Report report_of(const ComparisonResult& result) {
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.add({comparison_table(result), "comparison.csv", "cases"});
-  report.add({station_table(result), "stations.csv", "stations", report::Shown::file});
-  report.add({.table = stations_side_by_side(result), .shown = report::Shown::page});
+  report.add({station_table(result), "stations.csv", "stations", Shown::file});
+  report.add({.table = stations_side_by_side(result), .shown = Shown::page});
   add_model_form(result, report);
   Row variants = Row::array();  // what each does otherwise
   for (const Variant& each : result.variants())
@@ -348,20 +337,18 @@ report::Report report_of(const ComparisonResult& result) {
   report.say(report::station_note(result.study) + "\n");
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.say(report::timing_sentence(result.timing));
-  report.json = study_json(
-      result.study, report,
-      {{"axes", report::axes_json(result.study.study)},
-       {"early_time_ms", report::shown_value(result.study.study.early_time, quantity::time(2).form)},
-       {"timing", report::timing_json(result.timing)}});
+  report.json =
+      study_json(result.study, report,
+                 {{"axes", report::axes_json(result.study.study)},
+                  {"early_time_ms", shown_value(result.study.study.early_time, quantity::time(2).form)},
+                  {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
 std::vector<ReportTable> comparison_results() {
-  const Study study;
-  std::vector<ReportTable> tables{
-      {report::table_of({}, compared_case_quantities(study), {}), "comparison.csv", "cases"},
-      {report::table_of({}, station_quantities(study), {}), "stations.csv", "stations"}};
-  for (ReportTable& each : model_form_results()) tables.push_back(std::move(each));
+  std::vector<ReportTable> tables{{comparison_table({}), "comparison.csv", "cases"},
+                                  {station_table({}), "stations.csv", "stations"}};
+  std::ranges::move(model_form_results(), std::back_inserter(tables));
   return tables;
 }
 

@@ -1,16 +1,11 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 
-#include <fmt/format.h>
-
 #include <numeric>
 
 namespace launchsafe::kinds {
 
-using keys::centimetre, keys::kelvin, keys::significant, keys::text;
-using report::digits_of, report::Quantities, report::Table;
-using study::CalibrationRecord, study::ModelAlternative, study::ModelFormEntry, study::ModelFormRecord,
-    study::StationConvergence;
+using study::ModelAlternative, study::ModelFormEntry, study::ModelFormRecord, study::StationConvergence;
 
 namespace {
 
@@ -45,8 +40,7 @@ std::string counts_for(const ModelFormRecord& record, const ModelAlternative* al
   if (alternative == nullptr) return "the default";
   if (!alternative->not_counted.empty()) return "no share; named only: " + alternative->not_counted;
   const std::string pressures = towards_ignition(record, *alternative);
-  if (pressures.empty())
-    return "no share: nowhere towards ignition by more than " + report::centimetres(least_shift);
+  if (pressures.empty()) return "no share: nowhere towards ignition by more than " + centimetres(least_shift);
   return "a share: towards ignition at " + pressures + " " + quantity::peak_pressure.form.unit;
 }
 
@@ -62,7 +56,7 @@ Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
       {"model", "model", text(), "The model.", &ModelRow::name},
       {"what_it_is", "what it is", text(), "What it does otherwise.", &ModelRow::title}};
   for (std::size_t i = 0; i < pressures.size(); ++i) {
-    const std::string pressure = report::in_words(pressures[i], quantity::peak_pressure.form);
+    const std::string pressure = in_words(pressures[i], quantity::peak_pressure.form);
     quantities.emplace_back("critical_gap_at_" + keys::key_text(pressure), pressure, text(),
                             "Critical gap, cm, or its bound at that peak pressure.",
                             [i](const ModelRow& row) { return row.gaps[i]; });
@@ -81,21 +75,21 @@ Table model_form_table(const ModelForm& form) {
   }
   ModelRow shift{"shift", "of a SAFE's gap towards ignition", {}, "the largest of the models that count"};
   for (const double pressure : form.record.peak_pressures) {
-    scene::Scene scene = form.record.scene;
+    Scene scene = form.record.scene;
     scene.load.peak = pressure;
     const auto most = study::model_form_shift(form.record, scene);
     shift.gaps.push_back(std::isnan(most.gap) ? "not known"
                                               : digits_of(most.gap, significant(3, centimetre)));
   }
   rows.push_back(std::move(shift));
-  return report::table_of("Critical gap [cm] by model and peak pressure",
-                          model_quantities(form.record.peak_pressures), rows);
+  return table_of("Critical gap [cm] by model and peak pressure",
+                  model_quantities(form.record.peak_pressures), rows);
 }
 
 using CalibratedModel = const ModelFormEntry*;
 
 Quantities<CalibratedModel> model_constant_quantities() {
-  using scene::Load, scene::Scene, scene::Surface;
+  using scene::Surface;
   const Quantities<Scene> of_scene{
       {quantity::load_peak_time, &Scene::load, &Load::peak_time},
       {quantity::load_width, &Scene::load, &Load::width},
@@ -113,7 +107,7 @@ Quantities<CalibratedModel> model_constant_quantities() {
       {quantity::change_from_coarser, &CalibrationRecord::stations, &StationConvergence::coarser},
       {"stations_converge", "stations converge", text(), "Whether they settle as cells shrink.",
        &CalibrationRecord::stations, &StationConvergence::converges}};
-  return keys::joined<CalibratedModel>(
+  return joined<CalibratedModel>(
       {{{"model", "model", text(), "The model.", &ModelFormEntry::name}},
        of_part<CalibratedModel>(of_scene, &ModelFormEntry::calibration, &CalibrationRecord::calibration,
                                 &study::Calibration::scene),
@@ -124,8 +118,8 @@ Table model_constants_table(const ModelForm& form) {
   std::vector<CalibratedModel> rows;
   for (const ModelFormEntry& each : form.entries)
     if (each.calibration->failure.empty()) rows.push_back(&each);
-  return report::table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(),
-                          rows, said("comparison.note.constants"));
+  return table_of("Constants of each model, calibrated by the same rule", model_constant_quantities(), rows,
+                  said("comparison.note.constants"));
 }
 
 /// Where models differ most, and where least.
@@ -144,15 +138,15 @@ std::string apart_text(const ModelForm& form) {
   const auto [least, most] = std::ranges::minmax(apart);
   const auto text = [](const std::pair<double, double>& each) {
     return fmt::format("{} at {}", digits_of(each.first, significant(2, centimetre)) + " cm",
-                       report::in_words(each.second, quantity::peak_pressure.form));
+                       in_words(each.second, quantity::peak_pressure.form));
   };
   return fmt::format("Models differ by {}, by {}", text(most), text(least));
 }
 
-report::Plot model_form_plot(const ModelForm& form) {
+Plot model_form_plot(const ModelForm& form) {
   constexpr int grey = 7;
   int coloured = 0;
-  report::Plot plot{
+  Plot plot{
       .title = apart_text(form),
       .x = {.label = headed("peak pressure", quantity::peak_pressure).label()},
       .y = {.label = quantity::critical_gap.label(), .minimum = 0.0},
@@ -160,18 +154,18 @@ report::Plot model_form_plot(const ModelForm& form) {
       .subtitle = "each calibrated by the same rule; grey and dashed: models without a share in verdicts",
       .named_in_place = true};
   for (const ModelFormEntry& each : form.entries) {
-    report::Series series{each.name, {}, {}, report::Style::line_and_points};
+    Series series{each.name, {}, {}, Style::line_and_points};
     const ModelAlternative* alternative = keys::find_named(form.record.alternatives, each.name);
     if (alternative != nullptr && towards_ignition(form.record, *alternative).empty()) {
-      series.style = report::Style::dashed_line;
+      series.style = Style::dashed_line;
       series.colour = grey;
     } else {
       series.colour = coloured++;
     }
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
-      series.add(report::shown_value(form.record.peak_pressures[i], quantity::peak_pressure.form),
-                 report::shown_gap(each.critical_gap[i]));
+      series.add(shown_value(form.record.peak_pressures[i], quantity::peak_pressure.form),
+                 shown_gap(each.critical_gap[i]));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
@@ -206,7 +200,7 @@ scene::Expected<ModelForm, std::string> model_form_of(const ComparisonResult& re
 
 }  // namespace
 
-void add_model_form(const ComparisonResult& result, report::Report& report) {
+void add_model_form(const ComparisonResult& result, Report& report) {
   // Whether the variants are models that were calibrated: all, or there is nothing to say of models.
   const bool is_of_models = std::ranges::all_of(
       result.variants(), [](const Variant& each) { return each.calibration.has_value(); });
@@ -217,12 +211,12 @@ void add_model_form(const ComparisonResult& result, report::Report& report) {
   report.say("## Other models\n\n" + said_below("comparison.models"));
   report.add({model_form_table(*form), "model_form.csv", "models"});
   report.draw({"model_form.svg", model_form_plot(*form), "critical gap by model"});
-  report.add({model_constants_table(*form), "", "constants", report::Shown::page});
+  report.add({model_constants_table(*form), "", "constants", Shown::page});
 }
 
-std::vector<report::ReportTable> model_form_results() {
-  return {{report::table_of({}, model_quantities({}), {}), "model_form.csv", "models"},
-          {report::table_of({}, model_constant_quantities(), {}), "", "constants"}};
+std::vector<ReportTable> model_form_results() {
+  return {{table_of({}, model_quantities({}), {}), "model_form.csv", "models"},
+          {table_of({}, model_constant_quantities(), {}), "", "constants"}};
 }
 
 }  // namespace launchsafe::kinds

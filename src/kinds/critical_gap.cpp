@@ -7,12 +7,9 @@
 #include "launchsafe/study/gap_analysis.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using study::CaseOutcome, study::CaseRun, study::CaseRuns, study::Confirmation, study::FinishedRun,
-    study::PlannedRun, study::ProgressTracker, study::StudyOptions;
+using study::CaseRun, study::CaseRuns, study::Confirmation, study::PlannedRun, study::ProgressTracker;
 
 namespace {
 
@@ -24,11 +21,11 @@ constexpr std::size_t most_cases_in_detail = 6;
 /// The coupled run that confirms a gap (m) of a case: "496 MPa, 30 µm, 1 mm, coupled at 0.04 cm". Journals
 /// of stored studies name it so.
 std::string label_with_skin(const CaseOutcome& outcome, double gap) {
-  return fmt::format("{}, coupled at {}", outcome.input.label, report::centimetres(gap));
+  return fmt::format("{}, coupled at {}", outcome.input.label, centimetres(gap));
 }
 
 /// One case on its runs: the mechanics, and those under a raised load where there are.
-CaseOutcome judged(const study::Study& study, const study::StudyCase& input, std::vector<FinishedRun> runs) {
+CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<FinishedRun> runs) {
   if (const FinishedRun* run = run_without_result(runs))
     return without_result(study, input, run->outcome, run->failure);
   CaseOutcome outcome;
@@ -54,7 +51,7 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
   if (!gaps.empty()) confirmation.combustion = gaps.front().combustion;
   // What breaks off by itself after it has ignited has ignited. How far a run that was cut off came depends
   // on the machine.
-  const bool cut_off = run.outcome != study::RunOutcome::ran && run.outcome != study::RunOutcome::reused;
+  const bool cut_off = run.outcome != RunOutcome::ran && run.outcome != RunOutcome::reused;
   if (!confirmation.failure.empty() && (cut_off || !confirmation.combustion)) return;
   if (gaps.empty() || !std::isfinite(gaps.front().at_stations.temperature)) {
     confirmation.failure = "its temperature is not a number";
@@ -70,7 +67,7 @@ void take_confirmation(const CaseOutcome& outcome, const FinishedRun& run, Confi
 }
 
 /// Particle updates of a longer launch from the last checkpoint before the reading of the launch `own` ends.
-double cost_from(const scene::Scene& own, const scene::Scene& longer) {
+double cost_from(const Scene& own, const Scene& longer) {
   const double left =
       1.0 + 1.0 / scene::parts_of_launch - scene::read_time(own.load) / scene::end_time(longer.load);
   return left * study::cost_of(longer);
@@ -78,8 +75,8 @@ double cost_from(const scene::Scene& own, const scene::Scene& longer) {
 
 /// Lets a longer launch go on from a checkpoint of the case's own, where they are one launch up to its exit.
 void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
-  const scene::Scene own = scene::mechanical_part(outcome.input.scene.scene);
-  scene::Scene same = longer.scene;
+  const Scene own = scene::mechanical_part(outcome.input.scene.scene);
+  Scene same = longer.scene;
   same.load = own.load;
   if (!outcome.result.mechanics.checkpoints || scene::to_toml(same) != scene::to_toml(own)) return;
   longer.launch = &outcome.result.mechanics;
@@ -89,8 +86,8 @@ void go_on_from(const CaseOutcome& outcome, CaseRun& longer) {
 
 /// Particle updates of the runs that follow those of some cases, as a rule: two that confirm the critical gap
 /// of each, and their longer launch.
-double following_cost(const study::StudyFile& study, const CaseRuns& runs, const PlannedRun& longer) {
-  const scene::Scene scene = study.cases[runs.members.front()].scene.scene;
+double following_cost(const StudyFile& study, const CaseRuns& runs, const PlannedRun& longer) {
+  const Scene scene = study.cases[runs.members.front()].scene.scene;
   double cost = longer.make ? cost_from(scene, longer.make().scene) : 0.0;
   if (study.confirmations_per_case > 0)
     cost += static_cast<double>(study.confirmations_per_case * runs.members.size()) *
@@ -107,7 +104,7 @@ struct FollowingRuns {
 
   /// Coupled runs on both sides of its bracket.
   void add_confirmations(CaseOutcome& outcome) {
-    if (outcome.critical.kind != study::CriticalGapKind::value) return;
+    if (outcome.critical.kind != CriticalGapKind::value) return;
     outcome.confirmations = {{.gap = outcome.critical.lower},
                              {.gap = outcome.critical.upper, .expected_ignition = true}};
     for (std::size_t side = 0; side < 2; ++side) {
@@ -128,7 +125,7 @@ struct FollowingRuns {
     CaseRun run = planned.make();
     go_on_from(first, run);
     add(std::move(run), [this, members](const FinishedRun& finished) {
-      run::MechanicsResult mechanics = finished.result.mechanics;
+      MechanicsResult mechanics = finished.result.mechanics;
       if (!finished.has_result()) {
         mechanics.status = run::RunStatus::interrupted;
         mechanics.reason = finished.failure;
@@ -163,7 +160,7 @@ void run_closing_gaps(const std::vector<Case>& cases, CriticalGapResult& result,
 }
 
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
-  const study::StudyFile& study = result.study;
+  const StudyFile& study = result.study;
   const bool confirm = study.confirmations_per_case > 0;
   ProgressTracker tracker(options.progress);
   result.details.resize(study.cases.size());
@@ -183,8 +180,8 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
     for (const std::size_t member : runs[i].members) {
       result.details[member] = judged(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
-      const study::CriticalGap& gap = result.details[member].critical;
-      if (gap.kind == study::CriticalGapKind::value)
+      const CriticalGap& gap = result.details[member].critical;
+      if (gap.kind == CriticalGapKind::value)
         tracker.found({result.details[member].input.label, gap.lower, gap.upper});
     }
   });
@@ -210,11 +207,11 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
 /// Of many cases the answers, and where gaps close their bounds without the worst corner.
 void run_many(CriticalGapResult& result, const StudyOptions& options) {
   result.answers = answer_cases(result.study, options, result.timing);
-  if (result.study.scene.scene.surface.model != scene::GapModel::closing) return;
+  if (result.study.scene.scene.surface.model != GapModel::closing) return;
   ProgressTracker tracker(options.progress);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::CaseAnswer& answer = result.answers[i];
-    if (answer.outcome == study::RunOutcome::other_shard) continue;
+    const CaseAnswer& answer = result.answers[i];
+    if (answer.outcome == RunOutcome::other_shard) continue;
     tracker.expect_cases(1);
     if (!answer.completed() || !result.study.cases[i].closing) tracker.cases_ended(1, answer.failure);
   }
@@ -223,35 +220,32 @@ void run_many(CriticalGapResult& result, const StudyOptions& options) {
   });
 }
 
-const std::vector<scene::Key<CriticalGapSettings>> critical_gap_keys{
-    scene::flag_key(
-        "confirm", scene::Standing::assumed,
-        fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on through "
-                    "combustion. Of a study with more than {} cases it is false unless stated.",
-                    most_cases_in_detail),
-        &CriticalGapSettings::confirm),
-    scene::flag_key(
-        "surrogate", scene::Standing::assumed,
-        "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
-        &CriticalGapSettings::surrogate),
+const std::vector<Key<CriticalGapSettings>> critical_gap_keys{
+    flag_key("confirm", Standing::assumed,
+             fmt::format("Coupled runs on both sides of the bracket: the skin in the mechanics, and on "
+                         "through combustion. Of a study with more than {} cases it is false unless stated.",
+                         most_cases_in_detail),
+             &CriticalGapSettings::confirm),
+    flag_key("surrogate", Standing::assumed,
+             "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
+             &CriticalGapSettings::surrogate),
 };
 
 StudyKeys raised_load_keys() {
-  return {scene::word_key(
-      "raised_load", scene::Standing::assumed,
-      fmt::format(
-          "The launch of a case under a load {:.3g} % higher, for the spread of the peak pressure: one "
-          "of its own, or interpolated between the cases at neighbouring peak pressures, {:.3g} to "
-          "{:.3g} % apart, with what that misses the middle one of three by added to its heat. Cases "
-          "without two such neighbours have launches of their own.",
-          100.0 * study::assumed_load_spread, 100.0 * (study::least_load_ratio - 1.0),
-          100.0 * (study::largest_load_ratio - 1.0)),
+  return {word_key(
+      "raised_load", Standing::assumed,
+      fmt::format("The launch of a case under a load {:.3g} % higher, for the spread of the peak pressure: "
+                  "one of its own, or interpolated between the cases at neighbouring peak pressures, {:.3g} "
+                  "to {:.3g} % apart, with what that misses the middle one of three by added to its heat. "
+                  "Cases without two such neighbours have launches of their own.",
+                  100.0 * study::assumed_load_spread, 100.0 * (study::least_load_ratio - 1.0),
+                  100.0 * (study::largest_load_ratio - 1.0)),
       {{"launched", study::RaisedLoad::launched}, {"interpolated", study::RaisedLoad::interpolated}},
-      &study::Study::raised_load)};
+      &Study::raised_load)};
 }
 
 /// Refuses a raised load that is to be interpolated where none is needed, or between no cases.
-void check_raised_load(const study::StudyFile& study) {
+void check_raised_load(const StudyFile& study) {
   if (study.study.raised_load == study::RaisedLoad::launched) return;
   if (!propagates_spread(study.study))
     refuse_at(study, "raised_load", "a raised load beside a stated input_uncertainty", "one of the two");
@@ -263,12 +257,12 @@ void check_raised_load(const study::StudyFile& study) {
                         100.0 * (study::least_load_ratio - 1.0), 100.0 * (study::largest_load_ratio - 1.0)));
 }
 
-void read_critical_gap(const StudySource& source, study::StudyFile& study) {
+void read_critical_gap(const StudySource& source, StudyFile& study) {
   read_references(source, study);
   refuse_if(read_cited_limits(source.root, study));
 }
 
-void make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
+void make_critical_gap_cases(const StudySource&, StudyFile& study) {
   if (settings_of<CriticalGapSettings>(study.study).surrogate) check_sweep_surrogate(study);
   refuse_if(make_factorial(study));
   check_raised_load(study);
@@ -281,25 +275,24 @@ void make_critical_gap_cases(const StudySource&, study::StudyFile& study) {
 
 std::vector<Failure> critical_gap_failures(const CriticalGapResult& result) {
   std::vector<Failure> failures = failures_of(result);
-  for (const study::CaseOutcome& each : result.details)
+  for (const CaseOutcome& each : result.details)
     for (const study::Confirmation& confirmation : each.confirmations)
-      add_failure(failures, label_with_skin(each, confirmation.gap), confirmation.outcome,
-                  confirmation.failure);
+      add_failure(failures, label_with_skin(each, confirmation.gap), confirmation);
   return failures;
 }
 
 }  // namespace
 
 bool CriticalGapResult::any_indeterminate() const {
-  return std::ranges::any_of(answers, [](const study::CaseAnswer& answer) {
-    return answer.critical.kind == study::CriticalGapKind::indeterminate ||
-           std::ranges::any_of(answer.verdicts, [](const study::GapVerdict& row) {
-             return row.judgement.verdict == study::Verdict::indeterminate;
+  return std::ranges::any_of(answers, [](const CaseAnswer& answer) {
+    return answer.critical.kind == CriticalGapKind::indeterminate ||
+           std::ranges::any_of(answer.verdicts, [](const GapVerdict& row) {
+             return row.judgement.verdict == Verdict::indeterminate;
            });
   });
 }
 
-CriticalGapResult run_critical_gap(const study::StudyFile& study, const StudyOptions& options) {
+CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& options) {
   return run_timed<CriticalGapResult>(study, options, [&](CriticalGapResult& result) {
     study.study.in_detail ? run_in_detail(result, options) : run_many(result, options);
   });

@@ -4,17 +4,12 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 
-#include <fmt/format.h>
-
 #include <span>
 
 namespace launchsafe::kinds {
 
-using keys::fixed, keys::kelvin, keys::scientific, keys::significant, keys::text;
-using report::centimetres, report::Column, report::Quantities, report::reads_as, report::ReportTable,
-    report::Row, report::Shown, report::Table, report::table_of;
-using study::AsCalibrated, study::CaseOutcome, study::Confirmation, study::FittedCurve, study::GapFit,
-    study::GapVerdict, study::Line, study::StudyCase;
+using keys::scientific;
+using study::AsCalibrated, study::Confirmation, study::FittedCurve, study::GapFit, study::Line;
 
 namespace {
 
@@ -35,7 +30,7 @@ const Quantities<CalibratedRow> calibrated_quantities{
      }},
     {quantity::temperature_max,
      [](const CalibratedRow& row) { return report::known(row.gap->maximum.temperature); }},
-    {"temperature_max_as_calibrated", "T max, as calibrated", keys::fixed(1, kelvin),
+    {"temperature_max_as_calibrated", "T max, as calibrated", fixed(1, kelvin),
      "Highest temperature with that constant as calibrated.", &CalibratedRow::constant,
      &AsCalibrated::temperature},
     {"ignites", "ignites then", text(), "Whether the gap ignites with it.", &CalibratedRow::constant,
@@ -50,8 +45,8 @@ std::string outcome_word(const Confirmation& each) {
 const Quantities<CaseOutcome> case_quantities{{quantity::case_name, &CaseOutcome::input, &StudyCase::label}};
 
 const auto coupled_quantities = with_whole(
-    case_quantities, keys::joined<Confirmation>(
-                         {{{quantity::gap, &Confirmation::gap},
+    case_quantities,
+    joined<Confirmation>({{{quantity::gap, &Confirmation::gap},
                            {"expected", "expected", text(), "What the bracket says of the gap.",
                             [](const Confirmation& run) { return ignition_word(run.expected_ignition); }},
                            {"outcome", "outcome", text(), "What the coupled run did.", outcome_word},
@@ -132,16 +127,15 @@ Quantities<FittedLine> line_quantities() {
        &LeastSquares::r_squared},
       {"residual_deviation", "residual deviation", fixed(2, kelvin), "Standard deviation of the residuals.",
        &GapFit::least_squares, &LeastSquares::residual_deviation},
-      {"reaches_ignition", "reaches ignition at", significant(4, keys::centimetre),
+      {"reaches_ignition", "reaches ignition at", significant(4, centimetre),
        "Gap at which the line reaches the ignition temperature.", &GapFit::reaches_ignition},
-      {"reaches_ignition_half_width", "within", significant(2, keys::centimetre),
+      {"reaches_ignition_half_width", "within", significant(2, centimetre),
        "Half the width of the band of 95 % there.", &GapFit::reaches_ignition_half_width}};
   for (auto& each : of_fit) each = for_programs(each);
-  return keys::joined<FittedLine>(
-      {{{quantity::case_name, &FittedLine::of, &CaseOutcome::input, &StudyCase::label},
-        {"line", "line", text(), "Which line it is.", &FittedLine::name}},
-       of_part<FittedLine>(of_line, &FittedLine::line),
-       of_part<FittedLine>(of_fit, &FittedLine::fit)});
+  return joined<FittedLine>({{{quantity::case_name, &FittedLine::of, &CaseOutcome::input, &StudyCase::label},
+                              {"line", "line", text(), "Which line it is.", &FittedLine::name}},
+                             of_part<FittedLine>(of_line, &FittedLine::line),
+                             of_part<FittedLine>(of_fit, &FittedLine::fit)});
 }
 
 /// A gap that does not ignite beside the lines through it and its neighbours.
@@ -150,7 +144,7 @@ struct FittedRow {
   std::size_t gap;
   const GapFit& fit() const { return *of->fit; }
   double residual(const std::optional<Line>& line) const {
-    return line ? line->residuals[gap] : study::not_a_number;
+    return line ? line->residuals[gap] : not_a_number;
   }
 };
 
@@ -173,7 +167,7 @@ const auto curve_quantities = with_whole(
     case_quantities,
     Quantities<FittedCurve>{
         {"curve", "curve", text(), "What was fitted.", &FittedCurve::name},
-        {"coefficients", "coefficients", keys::count(), "How many it has.", &FittedCurve::coefficients},
+        {"coefficients", "coefficients", count(), "How many it has.", &FittedCurve::coefficients},
         {"rms", "RMS", significant(2, kelvin), "Root mean square of the residuals.",
          &FittedCurve::root_mean_square},
         {"left_out_rms", "RMS left out", significant(2, kelvin),
@@ -196,8 +190,9 @@ Table air_energy_table(const CriticalGapResult& result) {
     const std::string label = result.details.size() > 1 ? outcome.input.label : std::string{};
     for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
   }
+  if (gaps.empty()) return {.columns = report::air_energy_columns()};
   const scene::Surface& surface = result.study.scene.scene.surface;
-  return air_energy_table(surface.air_model, gaps, surface.model == scene::GapModel::closing);
+  return air_energy_table(surface.air_model, gaps, surface.model == GapModel::closing);
 }
 
 /// Answers on other terms, where a case has them.
@@ -228,7 +223,7 @@ Table fit_table(const CriticalGapResult& result) {
     if (fit.published) rows.push_back({&outcome, "as published", &*fit.published});
   }
   Row facts = Row::object();
-  for (const FittedLine& row : rows) facts["lines"].push_back(report::json_of(line_quantities(), row));
+  for (const FittedLine& row : rows) facts["lines"].push_back(json_of(line_quantities(), row));
   return table_of("T max = intercept + slope * gap over the rows that do not ignite", line_quantities(), rows,
                   said("critical_gap.note.fit", facts));
 }
@@ -255,7 +250,7 @@ Table run_table(const CriticalGapResult& result) {
 }
 
 bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
-  return row.judgement.verdict == study::Verdict::indeterminate && !row.ignition && outcome.completed() &&
+  return row.judgement.verdict == Verdict::indeterminate && !row.ignition && outcome.completed() &&
          row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
 }
 
@@ -263,7 +258,7 @@ bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
 std::string undecided_text(const CriticalGapResult& result) {
   Row facts{{"several", result.details.size() > 1}, {"undecided", Row::array()}};
   for (const CaseOutcome& outcome : result.details) {
-    const study::CriticalGap& gap = outcome.critical;
+    const CriticalGap& gap = outcome.critical;
     Row row{{"case", outcome.input.label}, {"at_least", centimetres(gap.bounds.at_least)}};
     for (const GapVerdict& each : outcome.verdicts)
       if (is_within_bounds(outcome, each)) row["gaps"].push_back(centimetres(each.gap));
@@ -279,6 +274,24 @@ std::string undecided_text(const CriticalGapResult& result) {
   return text.empty() ? text : "## What keeps rows undecided\n\n" + text;
 }
 
+std::vector<ReportTable> detail_tables(const CriticalGapResult& result) {
+  const auto cases = of_each(result.details, [](const CaseOutcome& outcome) {
+    return report::NamedGap{outcome.input.label, &outcome.critical};
+  });
+  return {{as_calibrated_table(result), "", "as_calibrated", Shown::page},
+          {other_table(result, "In a barrel without end", longer_launch_quantities(),
+                       &CaseOutcome::longer_launch, "critical_gap.note.without_exit"),
+           "", "without_exit"},
+          {other_table(result, "Under both models of the air", film_quantities, &CaseOutcome::film,
+                       "critical_gap.note.air_models"),
+           "", "air_models"},
+          {air_energy_table(result), "", "air_energy"},
+          {report::gap_share_table(cases), "", "gap_shares", Shown::page},
+          {fit_table(result), "", "fit"},
+          {fitted_row_table(result), "", "fit_rows", Shown::page},
+          {curve_table(result), "", "fit_curves", Shown::page}};
+}
+
 }  // namespace
 
 Table coupled_run_table(const CriticalGapResult& result) {
@@ -286,7 +299,7 @@ Table coupled_run_table(const CriticalGapResult& result) {
   Table table = table_of("Coupled runs, on through combustion where they ignite", coupled_quantities, rows);
   const auto burnt = std::ranges::find_if(rows, [](const auto& row) { return bool(row.part->combustion); });
   if (burnt == rows.end()) return table;
-  const scene::Scene& scene = burnt->whole->input.scene.scene;
+  const Scene& scene = burnt->whole->input.scene.scene;
   table.notes = {report::flame_kinetics_note(scene)};
   for (const std::string& warning : run::combustion_validity_warnings(scene, *burnt->part->combustion))
     table.notes.push_back(fmt::format("What follows ignition is indicative: {}.", warning));
@@ -307,31 +320,15 @@ std::string limiter_remark(const CriticalGapResult& result) {
   return said_below("critical_gap.limiters", {{"runs", runs}});
 }
 
-void add_details(const CriticalGapResult& result, report::Report& report) {
-  for (ReportTable& table : closing_tables(result)) report.items.push_back(std::move(table));
+void add_details(const CriticalGapResult& result, Report& report) {
+  for (ReportTable& table : closing_tables(result)) report.add(std::move(table));
   if (auto plot = closing_plot(result))
     report.draw({"closing.svg", std::move(*plot), "T max where the gap closes"});
-  const auto cases = of_each(result.details, [](const CaseOutcome& outcome) {
-    return report::NamedGap{outcome.input.label, &outcome.critical};
-  });
-  for (ReportTable table :
-       {ReportTable{as_calibrated_table(result), "", "as_calibrated", Shown::page},
-        ReportTable{other_table(result, "In a barrel without end", longer_launch_quantities(),
-                                &CaseOutcome::longer_launch, "critical_gap.note.without_exit"),
-                    "", "without_exit"},
-        ReportTable{other_table(result, "Under both models of the air", film_quantities, &CaseOutcome::film,
-                                "critical_gap.note.air_models"),
-                    "", "air_models"},
-        ReportTable{air_energy_table(result), "", "air_energy"},
-        ReportTable{report::gap_share_table(cases), "", "gap_shares", Shown::page},
-        ReportTable{fit_table(result), "", "fit"},
-        ReportTable{fitted_row_table(result), "", "fit_rows", Shown::page},
-        ReportTable{curve_table(result), "", "fit_curves", Shown::page}})
-    report.items.push_back(std::move(table));
+  for (ReportTable& table : detail_tables(result)) report.add(std::move(table));
   report.say(undecided_text(result));
 }
 
-void add_runs(const CriticalGapResult& result, report::Report& report) {
+void add_runs(const CriticalGapResult& result, Report& report) {
   for (const CaseOutcome& outcome : result.details) {
     Table faces = report::interface_table(outcome.result.mechanics);
     if (result.details.size() > 1) faces.title += ", " + outcome.input.label;
@@ -342,16 +339,9 @@ void add_runs(const CriticalGapResult& result, report::Report& report) {
 }
 
 std::vector<ReportTable> detail_results() {
-  std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"},
-                               {as_calibrated_table({}), "", "as_calibrated"},
-                               {table_of({}, longer_launch_quantities(), {}), "", "without_exit"},
-                               {table_of({}, film_quantities, {}), "", "air_models"},
-                               {Table{.columns = report::air_energy_columns()}, "", "air_energy"},
-                               {report::gap_share_table({}), "", "gap_shares"},
-                               {fit_table({}), "", "fit"},
-                               {fitted_row_table({}), "", "fit_rows"},
-                               {curve_table({}), "", "fit_curves"},
-                               {report::run_table({}), "", "runs"}};
+  std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"}};
+  std::ranges::move(detail_tables({}), std::back_inserter(all));
+  all.push_back({run_table(CriticalGapResult()), "", "runs"});
   std::ranges::move(closing_results(), std::back_inserter(all));
   return all;
 }

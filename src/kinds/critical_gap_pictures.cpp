@@ -3,12 +3,9 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using report::Mark, report::Plot, report::Scale, report::Series, report::shown_gap, report::Style;
-using study::CaseAnswer, study::CriticalGap, study::CriticalGapKind, study::StudyCase;
+using report::Scale;
 
 namespace {
 
@@ -17,13 +14,13 @@ constexpr std::size_t most_pictures = 9, most_lines = 6;
 /// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
   std::size_t index;  ///< among the study's axes
-  report::ShownKey key;
+  ShownKey key;
   std::vector<double> values;
 };
 
-std::vector<SweptAxis> swept_axes(const study::Study& study) {
+std::vector<SweptAxis> swept_axes(const Study& study) {
   std::vector<SweptAxis> axes;
-  for (const study::Axis& each : study.axes) {
+  for (const Axis& each : study.axes) {
     SweptAxis& axis = axes.emplace_back(SweptAxis{axes.size(), report::shown(each), {}});
     axis.key.heading = report::plain_words(axis.key.heading);
     axis.values = of_each(each.values, [&](double value) { return axis.key.value(value); });
@@ -77,17 +74,11 @@ std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind 
   std::string label;
   for (const CaseAnswer& answer : answers) {
     if (answer.critical.kind != kind) continue;
-    const std::string text = report::reads_as(answer.critical);
+    const std::string text = reads_as(answer.critical);
     if (!label.empty() && text != label) return otherwise;
     label = text;
   }
   return label;
-}
-
-/// The kind as it is drawn: a value that is not finite is none.
-CriticalGapKind drawn_kind(const CriticalGap& gap) {
-  const bool broken = gap.kind == CriticalGapKind::value && !std::isfinite(gap.value);
-  return broken ? CriticalGapKind::indeterminate : gap.kind;
 }
 
 /// Critical gaps that are no values as marks along an axis, one series for every kind, in a colour that no
@@ -143,19 +134,15 @@ struct GapLines {
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
 
   void begin() {
-    const std::vector<double> nothing(along.values.size(), study::not_a_number);
+    const std::vector<double> nothing(along.values.size(), not_a_number);
     for (int i = 0; const double value : values_across) {
       values.push_back({.label = across == nullptr ? "critical gap" : label_of(value),
                         .x = along.values,
                         .y = nothing,
                         .colour = i});
-      lower_bounds.push_back({.label = i > 0               ? ""
-                                       : across == nullptr ? "its lower bound"
-                                                           : "lower bound of each",
-                              .x = along.values,
-                              .y = nothing,
-                              .style = Style::dashed_line,
-                              .colour = i++});
+      Series& lower = lower_bounds.emplace_back(values.back());
+      lower.label = i++ > 0 ? "" : across == nullptr ? "its lower bound" : "lower bound of each";
+      lower.style = Style::dashed_line;
     }
   }
 
@@ -163,10 +150,11 @@ struct GapLines {
     const double of = across == nullptr ? 0.0 : across->key.value(input.coordinates[across->index]);
     const std::size_t line = place_in(values_across, of);
     if (line == values_across.size() || values_across[line] != of) return;
-    const study::CriticalGap& gap = answer.critical;
+    const CriticalGap& gap = answer.critical;
     const double x = along.key.value(input.coordinates[along.index]);
-    const CriticalGapKind kind = drawn_kind(gap);
-    if (kind == CriticalGapKind::indeterminate) {
+    const CriticalGapKind kind = gap.kind;
+    const bool broken = kind == CriticalGapKind::value && !std::isfinite(gap.value);
+    if (broken || kind == CriticalGapKind::indeterminate) {
       ++unknown;
       return;
     }
@@ -229,7 +217,7 @@ struct GapLines {
     for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
     for (std::size_t i = 0; i < assumed.x.size(); ++i)
-      if (is_assumed_at(assumed.x[i])) assumed.y[i] = study::not_a_number;  // the hatching says it
+      if (is_assumed_at(assumed.x[i])) assumed.y[i] = not_a_number;  // the hatching says it
     if (known_of(assumed) > 0) plot.series.push_back(std::move(assumed));
     plot.vertical_bands = assumed_bands();
     // Room for their labels.
@@ -272,7 +260,8 @@ struct GapLines {
 };
 
 struct Drawn {
-  std::vector<Plot> plots;
+  const SweptAxis* across = nullptr;
+  std::vector<Plot> plots = {};
   std::size_t joined = 0;  ///< values that their lines join
 };
 
@@ -301,7 +290,7 @@ Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& ax
     }
     lines[place->second].add(input, result.answers[i]);
   }
-  Drawn drawn;
+  Drawn drawn{across};
   for (GapLines& each : lines)
     if (const std::size_t joined = each.joined(); joined > 0) {
       drawn.joined += joined;
@@ -310,28 +299,23 @@ Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& ax
   return drawn;
 }
 
-using AxisPair = std::pair<const SweptAxis*, const SweptAxis*>;
-
 /// Along the longer of the first two axes, a line for each value of the other; where no line joins values,
 /// along the axes that join most.
-AxisPair drawn_axes(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
-                    std::vector<const SweptAxis*> several) {
-  if (several.size() == 1) return {several[0], nullptr};
+Drawn most_joined(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
+                  std::vector<const SweptAxis*> several) {
+  if (several.size() == 1) return plots_of(result, axes, *several[0], nullptr);
   if (several[1]->values.size() > several[0]->values.size()) std::swap(several[0], several[1]);
-  AxisPair best{several[0], several[1]};
-  Drawn most = plots_of(result, axes, *best.first, best.second);
-  if (most.joined > 0) return best;
+  Drawn most = plots_of(result, axes, *several[0], several[1]);
+  if (most.joined > 0) return most;
   for (const SweptAxis* along : several)
     for (const SweptAxis* across : several) {
       if (along == across) continue;
       Drawn drawn = plots_of(result, axes, *along, across);
-      if (drawn.joined < most.joined ||
-          (drawn.joined == most.joined && drawn.plots.size() >= most.plots.size()))
-        continue;
-      best = {along, across};
-      most = std::move(drawn);
+      if (drawn.joined > most.joined ||
+          (drawn.joined == most.joined && drawn.plots.size() < most.plots.size()))
+        most = std::move(drawn);
     }
-  return best;
+  return most;
 }
 
 }  // namespace
@@ -342,8 +326,7 @@ GapPictures gap_pictures(const CriticalGapResult& result) {
   for (const SweptAxis& axis : axes)
     if (axis.values.size() > 1) several.push_back(&axis);
   if (several.empty() || result.answers.empty()) return {};
-  const auto [along, across] = drawn_axes(result, axes, several);
-  std::vector<Plot> plots = plots_of(result, axes, *along, across).plots;
+  auto [across, plots, joined] = most_joined(result, axes, several);
   GapPictures made;
   if (plots.size() > most_pictures)
     made.remarks.push_back(fmt::format(

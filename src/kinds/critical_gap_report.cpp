@@ -5,20 +5,13 @@
 #include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include <array>
 #include <cctype>
-#include <limits>
 #include <set>
 
 namespace launchsafe::kinds {
 
-using keys::significant, keys::text;
-using report::Mark, report::Picture, report::Plot, report::ReportTable, report::Row, report::Series,
-    report::Shown, report::shown_gap, report::Style, report::Table;
-using study::CaseOutcome, study::StudyCase, study::Use, surface::Extent;
+using study::Use, surface::Extent;
 
 namespace {
 
@@ -30,9 +23,9 @@ struct Line {
 };
 
 struct Effect {
-  double temperature = study::not_a_number;                            ///< K
-  double critical = study::not_a_number;                               ///< m
-  double lowest = study::not_a_number, highest = study::not_a_number;  ///< of the axis, SI
+  double temperature = not_a_number;  ///< K
+  double critical = not_a_number;     ///< m
+  Extent values;                      ///< of the axis, SI
 };
 
 void raise(double& most, double value) {
@@ -42,23 +35,22 @@ void raise(double& most, double value) {
 /// Of all cases, or of those with a crack below its flaw.
 Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_flaw) {
   std::map<std::vector<double>, Line> lines;
-  Extent extent;
+  Effect effect;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
-    const study::CaseAnswer& answer = result.answers[i];
+    const CaseAnswer& answer = result.answers[i];
     if (input.coordinates.size() <= axis || !answer.completed()) continue;
     if (below_flaw && input.crack_radius >= input.flaw_size) continue;
     std::vector<double> others = input.coordinates;
-    extent.include(others[axis]);
+    effect.values.include(others[axis]);
     others[axis] = 0.0;
     Line& line = lines[others];
     line.critical.include(report::value_of(answer.critical));
-    for (const study::GapVerdict& row : answer.verdicts) {
+    for (const GapVerdict& row : answer.verdicts) {
       if (row.ignition) line.ignited.insert(row.gap);
       line.temperature[row.gap].include(row.maximum.temperature);
     }
   }
-  Effect effect{study::not_a_number, study::not_a_number, extent.lowest, extent.highest};
   for (const auto& [others, line] : lines) {
     raise(effect.critical, line.critical.highest - line.critical.lowest);
     for (const auto& [gap, range] : line.temperature)
@@ -69,20 +61,20 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_f
 
 struct EffectRow {
   std::string axis;
-  report::ShownKey key;
+  ShownKey key;
   Effect effect;
 };
 
-const report::Quantities<EffectRow> effect_quantities{
+const Quantities<EffectRow> effect_quantities{
     {"axis", "axis", text(), "The axis.", &EffectRow::axis},
     {"from", "from", text(), "Its lowest value.",
-     [](const EffectRow& row) { return row.key.text(row.effect.lowest); }},
+     [](const EffectRow& row) { return row.key.text(row.effect.values.lowest); }},
     {"to", "to", text(), "Its highest value.",
-     [](const EffectRow& row) { return row.key.text(row.effect.highest); }},
-    {"temperature_max_change", "T max by at most", significant(3, keys::kelvin),
+     [](const EffectRow& row) { return row.key.text(row.effect.values.highest); }},
+    {"temperature_max_change", "T max by at most", significant(3, kelvin),
      "Largest change of T max over the axis, all else the same, where nothing ignites.", &EffectRow::effect,
      &Effect::temperature},
-    {"critical_gap_change", "critical gap by at most", significant(3, keys::centimetre),
+    {"critical_gap_change", "critical gap by at most", significant(3, centimetre),
      "Largest change of the critical gap over the axis, all else the same.", &EffectRow::effect,
      &Effect::critical}};
 
@@ -90,27 +82,25 @@ const report::Quantities<EffectRow> effect_quantities{
 Row crack_facts(const CriticalGapResult& result, const Effect& below) {
   constexpr double little = 5.0;  // K
   if (!(below.temperature <= little)) return {};
-  const bool friction_varies = std::ranges::any_of(result.study.study.axes, [](const study::Axis& axis) {
+  const bool friction_varies = std::ranges::any_of(result.study.study.axes, [](const Axis& axis) {
     return axis.key.name == "charge.face_friction" || axis.key.name == "charge.crack_friction";
   });
-  return {{"temperature", report::in_words(below.temperature, significant(2, keys::kelvin))},
-          {"critical_gap", report::in_words(below.critical, significant(2, keys::centimetre))},
+  return {{"temperature", in_words(below.temperature, significant(2, kelvin))},
+          {"critical_gap", in_words(below.critical, significant(2, centimetre))},
           {"held", result.study.scene.scene.charge().strength.face_friction > 0.0 && !friction_varies}};
 }
 
 /// Of a table on the page; the files have all.
 constexpr std::size_t most_rows = 200;
 
-/// How many cases and verdicts came out how.
 Row counts_json(const CriticalGapResult& result) {
-  using study::CriticalGapKind, study::Verdict;
   std::map<CriticalGapKind, std::size_t> kinds;
   std::map<Verdict, std::size_t> verdicts;
   std::size_t limited = 0;
-  for (const study::CaseAnswer& answer : result.answers) {
+  for (const CaseAnswer& answer : result.answers) {
     limited += report::acted(answer.run.limiters) ? 1 : 0;
     ++kinds[answer.critical.kind];
-    for (const study::GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
+    for (const GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
   }
   Row counts{{"cases", result.answers.size()},
              {"failed", count_failed(result.answers)},
@@ -123,9 +113,8 @@ Row counts_json(const CriticalGapResult& result) {
   return counts;
 }
 
-/// What the answer about many cases is filled with.
 Row facts_of(const CriticalGapResult& result) {
-  const study::Study& study = result.study.study;
+  const Study& study = result.study.study;
   const auto keys = report::shown_axes(study);
   Row facts = counts_json(result);
   for (std::size_t i = 0; i < keys.size(); ++i)
@@ -140,16 +129,16 @@ Row facts_of(const CriticalGapResult& result) {
   // The case with the smallest critical gap that is a value, and those that ignite at every gap: their
   // critical gap is below every value. `end`: the largest gap that the searches which met no ignition came
   // to.
-  double best = study::not_a_number, end = study::not_a_number;
+  double best = not_a_number, end = not_a_number;
   std::size_t without_safe = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::CriticalGap& gap = result.answers[i].critical;
+    const CriticalGap& gap = result.answers[i].critical;
     if (std::isfinite(report::value_of(gap)) && !(gap.value >= best)) {
       best = gap.value;
       facts["smallest"] = report::measured_text(gap) + ", at " + name_of(keys, result.study.cases[i]);
     }
-    if (gap.kind == study::CriticalGapKind::all_safe && !(gap.lower >= end)) end = gap.lower;
-    if (gap.kind == study::CriticalGapKind::all_ignite && without_safe++ == 0)
+    if (gap.kind == CriticalGapKind::all_safe && !(gap.lower >= end)) end = gap.lower;
+    if (gap.kind == CriticalGapKind::all_ignite && without_safe++ == 0)
       facts["without_safe"] = name_of(keys, result.study.cases[i]);
   }
   facts["end_of_search_cm"] = report::number(shown_gap(end));
@@ -161,7 +150,7 @@ Row facts_of(const CriticalGapResult& result) {
 std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
   for (const CaseOutcome& outcome : result.details) {
-    Row row = report::json_of(report::bounded_gap_quantities(), outcome.critical);
+    Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update({{"why", outcome.critical.reason},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
@@ -174,14 +163,13 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
-nlohmann::ordered_json json_of_study(const CriticalGapResult& result, const Table& gaps) {
-  nlohmann::ordered_json members{
-      {"axes", report::axes_json(result.study.study)},
-      // Of the only case; where there are several, each has its own.
-      {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
-      {"early_time_ms", report::shown_value(result.study.study.early_time, report::quantity::time(2).form)},
-      {"counts", counts_json(result)},
-      {"notes", report::mesh_notes(result.study)}};
+Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
+  Row members{{"axes", report::axes_json(result.study.study)},
+              // Of the only case; where there are several, each has its own.
+              {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
+              {"early_time_ms", shown_value(result.study.study.early_time, report::quantity::time(2).form)},
+              {"counts", counts_json(result)},
+              {"notes", report::mesh_notes(result.study)}};
   if (!result.details.empty()) members["timing"] = report::timing_json(result.timing);
   return members;
 }
@@ -201,10 +189,10 @@ void give_look(std::size_t index, Series& series) {
 /// What did not ignite, of one verdict or of all, with its uncertainty: the model form, whose sign is known,
 /// counts upwards alone.
 Series inert_series(const CaseOutcome& outcome, const std::string& label,
-                    std::optional<study::Verdict> verdict = {}) {
+                    std::optional<Verdict> verdict = {}) {
   Series series{.label = label, .style = Style::vertical_bars, .mark = Mark::circle};
   if (!outcome.completed()) return series;  // temperatures of a part of the launch
-  for (const study::GapVerdict& row : outcome.verdicts) {
+  for (const GapVerdict& row : outcome.verdicts) {
     const double temperature = row.maximum.temperature;
     if (row.ignition || !std::isfinite(temperature)) continue;
     if (verdict && row.judgement.verdict != *verdict) continue;
@@ -220,7 +208,7 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label,
 /// What ignited: the temperature is that of the burning skin, of which the uncertainty says nothing.
 Series ignited_series(const CaseOutcome& outcome) {
   Series series{.style = Style::points, .mark = Mark::cross};
-  for (const study::GapVerdict& row : outcome.verdicts) {
+  for (const GapVerdict& row : outcome.verdicts) {
     if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
     series.add(shown_gap(row.gap), row.maximum.temperature);
   }
@@ -243,8 +231,7 @@ void add_only_case(const CaseOutcome& outcome, Plot& plot) {
     series.colour = colour;
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
-  for (const auto& [verdict, colour] :
-       {std::pair{study::Verdict::safe, green}, {study::Verdict::indeterminate, orange}})
+  for (const auto& [verdict, colour] : {std::pair{Verdict::safe, green}, {Verdict::indeterminate, orange}})
     add(inert_series(outcome, study::to_string(verdict), verdict), colour);
   add(ignited_series(outcome), vermilion);
 }
@@ -276,8 +263,8 @@ void cut_above(double ignition, Plot& plot) {
 /// What the picture shows of the only case, with its numbers.
 std::string finding_of(const CaseOutcome& outcome) {
   const double safe = study::largest_safe_gap(outcome.verdicts);
-  return fmt::format("Critical gap {}; {}", report::reads_as(outcome.critical),
-                     std::isfinite(safe) ? "of the computed gaps SAFE up to " + report::centimetres(safe)
+  return fmt::format("Critical gap {}; {}", reads_as(outcome.critical),
+                     std::isfinite(safe) ? "of the computed gaps SAFE up to " + centimetres(safe)
                                          : "none of the computed gaps is SAFE");
 }
 
@@ -294,7 +281,7 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
                                           {"published, " + to_string(Use::held_out), Mark::open_circle}};
   for (const auto& [label, mark] : marks) {
     Series series{.label = label, .style = Style::points, .colour = 6, .mark = mark};
-    for (const study::Reference& each : result.study.study.references)
+    for (const Reference& each : result.study.study.references)
       if (label == (foreign ? "published" : "published, " + report::used_for(each)) &&
           std::isfinite(each.maximum_temperature))
         series.add(shown_gap(each.gap), each.maximum_temperature);
@@ -304,9 +291,9 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
 
 /// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
 void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
-  const study::CriticalGap& gap = outcome.critical;
-  if (gap.kind != study::CriticalGapKind::value) {
-    plot.subtitle = "critical gap: " + report::reads_as(gap);
+  const CriticalGap& gap = outcome.critical;
+  if (gap.kind != CriticalGapKind::value) {
+    plot.subtitle = "critical gap: " + reads_as(gap);
     return;
   }
   const double value = shown_gap(gap.value);
@@ -320,12 +307,11 @@ void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
 
 Plot temperature_plot(const CriticalGapResult& result) {
   const bool only = result.details.size() == 1;
-  Plot plot;
-  plot.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom";
-  plot.x.label = quantity::gap.label();
-  plot.y.label = quantity::temperature_max.label();
-  // The legend stands below and takes two cases a line.
-  plot.height = 600 + 14 * static_cast<int>(result.details.size());
+  Plot plot{.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom",
+            .x = {.label = quantity::gap.label()},
+            .y = {.label = quantity::temperature_max.label()},
+            // The legend stands below and takes two cases a line.
+            .height = 600 + 14 * static_cast<int>(result.details.size())};
   for (std::size_t i = 0; i < result.details.size(); ++i)
     only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
   // One entry of the legend for the ignitions of all cases.
@@ -337,16 +323,16 @@ Plot temperature_plot(const CriticalGapResult& result) {
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
   cut_above(ignition, plot);
   plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + report::in_words(ignition, keys::significant(4, keys::kelvin))});
+      {ignition, "ignition temperature: " + in_words(ignition, significant(4, kelvin))});
   return plot;
 }
 
-report::Table axis_effect_table(const CriticalGapResult& result) {
+Table axis_effect_table(const CriticalGapResult& result) {
   std::vector<EffectRow> rows;
   Row facts = Row::object();
   const auto keys = report::shown_axes(result.study.study);
-  const auto add = [&](const report::ShownKey& key, const char* which, const Effect& effect) {
-    if (effect.lowest < effect.highest) rows.push_back({key.heading + which, key, effect});
+  const auto add = [&](const ShownKey& key, const char* which, const Effect& effect) {
+    if (effect.values.lowest < effect.values.highest) rows.push_back({key.heading + which, key, effect});
   };
   for (std::size_t axis = 0; axis < keys.size(); ++axis) {
     add(keys[axis], "", effect_of(result, axis, false));
@@ -355,8 +341,8 @@ report::Table axis_effect_table(const CriticalGapResult& result) {
     add(keys[axis], ", below the flaw size", below);
     facts["cracks"] = crack_facts(result, below);
   }
-  return report::table_of("What each axis changes", effect_quantities, rows,
-                          said("critical_gap.note.axis_effects", facts));
+  return table_of("What each axis changes", effect_quantities, rows,
+                  said("critical_gap.note.axis_effects", facts));
 }
 
 std::string answer(const CriticalGapResult& result) {
@@ -367,9 +353,9 @@ std::string answer(const CriticalGapResult& result) {
   return answer_of(std::move(lines), result.study);
 }
 
-report::Report report_of(const CriticalGapResult& result) {
+Report report_of(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.launch = scene::launch_sentence(result.study.scene.scene);
   const Table gaps = critical_gap_table(result);
   report.add({verdict_table(result), "verdicts.csv", "verdicts",

@@ -4,20 +4,13 @@
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/study/case_uncertainty.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
-
-using keys::fixed, keys::text;
-using report::Column, report::Quantities, report::Table, report::table_of;
-using study::CaseAnswer, study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary,
-    study::Study, study::StudyFile, study::Verdict;
 
 namespace {
 
 /// A case with its answer, and what a study in detail knows besides; null in others.
 struct JudgedCase : AnsweredCase {
-  const study::CaseOutcome* detail;
+  const CaseOutcome* detail;
 };
 
 struct JudgedGap {
@@ -28,7 +21,7 @@ struct JudgedGap {
 /// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
 Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
   Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch;
-  const study::StudyCase first = study.cases.empty() ? study::StudyCase{} : study.cases.front();
+  const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
   const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure, first.peak_pressure},
                                                     {quantity::crack_radius, first.crack_radius},
                                                     {quantity::flaw_size, first.flaw_size}};
@@ -45,15 +38,10 @@ Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
 }
 
 Quantities<JudgedGap> judged_gap_quantities(const StudyFile& study) {
-  return keys::joined<JudgedGap>(
+  return joined<JudgedGap>(
       {{{quantity::gap, &JudgedGap::gap, &GapVerdict::gap}},
        of_part<JudgedGap>(launch_quantities(study), &JudgedGap::of, &AnsweredCase::coordinates),
        of_part<JudgedGap>(report::verdict_quantities(study.study), &JudgedGap::gap)});
-}
-
-/// "0.04 cm".
-std::string gap_label(const Study& study, std::size_t place) {
-  return study.gaps_by_cooling ? "the gap by cooling" : report::centimetres(study.gaps[place]);
 }
 
 /// T max at the smallest and the largest gap among those judged; at one of them where they are the same.
@@ -62,8 +50,9 @@ Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
   if (gaps.empty()) return {};
   const auto at = [&](auto gap, const char* name) {
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
+    const std::string where = study.gaps_by_cooling ? "the gap by cooling" : centimetres(*gap);
     return report::Quantity<AnsweredCase>(
-        name, "T max at " + gap_label(study, place), fixed(1, keys::kelvin),
+        name, "T max at " + where, fixed(1, kelvin),
         "Highest temperature at that gap; of one that ignites the burning skin's.",
         [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
@@ -93,7 +82,7 @@ Quantities<JudgedCase> place_quantities(const Study& study, bool in_detail) {
 
 /// How the run of a case went, which a study in detail has in a table of its own.
 Quantities<AnsweredCase> run_quantities(const Study& study) {
-  return keys::joined<AnsweredCase>(
+  return joined<AnsweredCase>(
       {outer_gap_quantities(study),
        {{for_programs(quantity::status), [](const AnsweredCase& row) { return status_of(*row.answer); }},
         {for_programs(quantity::energy_drift), &AnsweredCase::answer, &CaseAnswer::run,
@@ -113,13 +102,13 @@ std::string verdict_ranges(const std::vector<GapVerdict>& verdicts) {
     if (const auto next = std::next(each); next != by_gap.end() && next->second == each->second) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
                         each->second == Verdict::indeterminate ? "INDET." : study::to_string(each->second),
-                        report::digits_of(each->first, quantity::gap.form));
+                        digits_of(each->first, quantity::gap.form));
   }
   return text;
 }
 
 const Column largest_safe_gap =
-    for_programs(Column{"largest_safe_gap", "largest SAFE gap", keys::significant(6, keys::centimetre),
+    for_programs(Column{"largest_safe_gap", "largest SAFE gap", significant(6, centimetre),
                         "Largest computed gap that, with all smaller ones, is SAFE."});
 
 /// `closes`: with what its gap does where it closes. A study in detail has that in a table of its own.
@@ -130,7 +119,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
       {for_programs(Column{"coupled_runs", "coupled runs", text(),
                            "What the coupled runs on both sides of the bracket did."}),
        [](const JudgedCase& row) { return confirmation_text(*row.detail); }}};
-  return keys::joined<JudgedCase>(
+  return joined<JudgedCase>(
       {place_quantities(study, in_detail),
        of_part<JudgedCase>(report::bounded_gap_quantities(), &AnsweredCase::answer, &CaseAnswer::critical),
        {{largest_safe_gap, &AnsweredCase::answer, &CaseAnswer::verdicts, study::largest_safe_gap}},
@@ -154,7 +143,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
 }
 
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.
-std::string air_energy_note(const CriticalGapResult& result, const std::vector<report::ShownKey>& keys) {
+std::string air_energy_note(const CriticalGapResult& result, const std::vector<ShownKey>& keys) {
   std::vector<report::AuditedGap> worst;
   for (std::size_t i = 0; i < result.answers.size(); ++i)
     for (const GapVerdict& row : result.answers[i].verdicts) {
@@ -163,7 +152,7 @@ std::string air_energy_note(const CriticalGapResult& result, const std::vector<r
         worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
     }
   const scene::Surface& surface = result.study.scene.scene.surface;
-  return air_energy_statement(surface.air_model, worst, surface.model == scene::GapModel::closing);
+  return air_energy_statement(surface.air_model, worst, surface.model == GapModel::closing);
 }
 
 /// What the published temperature at the early time was used for.
@@ -203,7 +192,7 @@ Quantities<ComparedRow> comparison_quantities(double early_time) {
           {difference_of(temperature_max), &GapVerdict::misfit},
           {temperature_max_place, [](ComparedRow row) { return row->until_exit.point; }},
           {published_place(temperature_max), &GapVerdict::reference, &Reference::point},
-          {"temperature_early_used_for", "used for at " + report::milliseconds(early_time), text(),
+          {"temperature_early_used_for", "used for at " + milliseconds(early_time), text(),
            "The same of the temperature at early_time.", &GapVerdict::reference, early_used_for},
           {early, [](ComparedRow row) { return row->early.temperature; }},
           {published(early), &GapVerdict::reference, &Reference::early_temperature},
@@ -228,7 +217,7 @@ Table verdict_table(const CriticalGapResult& result) {
 
 Table critical_gap_table(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
-  const bool closes = result.study.scene.scene.surface.model == scene::GapModel::closing;
+  const bool closes = result.study.scene.scene.surface.model == GapModel::closing;
   const auto rows = of_each(answered(result.study, result.answers), [&](const AnsweredCase& each) {
     return JudgedCase{each, in_detail ? &result.details[each.index] : nullptr};
   });
@@ -258,30 +247,28 @@ Table comparison_table(const CriticalGapResult& result) {
         worst = std::max(worst, std::isfinite(row.misfit()) ? std::abs(row.misfit()) : HUGE_VAL);
       rows.push_back(&row);
     }
-  report::Row facts{{"ignited", ignited}};
+  Row facts{{"ignited", ignited}};
   if (!(worst <= calibration_slack))
-    facts["not_met"] = std::isfinite(worst)
-                           ? "computed - published: " + report::in_words(worst, fixed(1, keys::kelvin))
-                           : std::string("one of them ignites");
+    facts["not_met"] = std::isfinite(worst) ? "computed - published: " + in_words(worst, fixed(1, kelvin))
+                                            : std::string("one of them ignites");
   return table_of("Against the published results", comparison_quantities(result.study.study.early_time), rows,
                   said("critical_gap.note.comparison", facts));
 }
 
-std::vector<report::ReportTable> critical_gap_results() {
+std::vector<ReportTable> critical_gap_results() {
   StudyFile file;
   file.study.gaps = {0.0, 0.4e-3};
-  const auto cases =
-      keys::joined<JudgedCase>({judged_case_quantities(file.study, true, false),
-                                of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer),
-                                of_part<JudgedCase>(run_quantities(file.study))});
-  std::vector<report::ReportTable> tables{
+  const auto cases = joined<JudgedCase>({judged_case_quantities(file.study, true, false),
+                                         of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer),
+                                         of_part<JudgedCase>(run_quantities(file.study))});
+  std::vector<ReportTable> tables{
       {table_of({}, judged_gap_quantities(file), {}), "verdicts.csv", "verdicts"},
       {table_of({}, comparison_quantities(file.study.early_time), {}), "", "comparison"},
       {table_of({}, cases, {}), "critical_gaps.csv", "cases"},
       {Table{.columns = report::cited_limit_columns()}, "", "cited_limits"},
       {surrogate_table({}), "", "surrogate"},
       {axis_effect_table({}), "", "axis_effects"}};
-  for (report::ReportTable& each : detail_results()) tables.push_back(std::move(each));
+  std::ranges::move(detail_results(), std::back_inserter(tables));
   return tables;
 }
 

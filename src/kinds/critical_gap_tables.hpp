@@ -8,38 +8,38 @@
 namespace launchsafe::kinds {
 
 /// What the coupled runs did: "0.038 cm does not ignite; 0.0381 cm ignites".
-std::string confirmation_text(const study::CaseOutcome& outcome);
+std::string confirmation_text(const CaseOutcome& outcome);
 
 /// Computed and published temperatures side by side; what the coupled runs came to that confirm critical
 /// gaps.
-report::Table comparison_table(const CriticalGapResult& result);
-report::Table coupled_run_table(const CriticalGapResult& result);
+Table comparison_table(const CriticalGapResult& result);
+Table coupled_run_table(const CriticalGapResult& result);
 
 /// T max (of cases in detail) and the critical gap where the gap closes, and a picture of one case in detail;
 /// nothing where no gap does.
-std::vector<report::ReportTable> closing_tables(const CriticalGapResult& result);
-report::Table closing_bound_table(const CriticalGapResult& result);
-std::optional<report::Plot> closing_plot(const CriticalGapResult& result);
+std::vector<ReportTable> closing_tables(const CriticalGapResult& result);
+Table closing_bound_table(const CriticalGapResult& result);
+std::optional<Plot> closing_plot(const CriticalGapResult& result);
 /// Both nominal bounds of a case, in words; in how many cases each ignites.
-report::Quantities<study::CaseAnswer> closing_gap_quantities();
+Quantities<CaseAnswer> closing_gap_quantities();
 std::vector<std::string> closing_answer(const CriticalGapResult& result);
 
 /// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided; then
 /// how its runs went, and what they took.
-void add_details(const CriticalGapResult& result, report::Report& report);
-void add_runs(const CriticalGapResult& result, report::Report& report);
+void add_details(const CriticalGapResult& result, Report& report);
+void add_runs(const CriticalGapResult& result, Report& report);
 /// What these tables hold.
-std::vector<report::ReportTable> closing_results(), detail_results();
+std::vector<ReportTable> closing_results(), detail_results();
 /// What must be said where limiters acted in cases of a study in detail.
 std::string limiter_remark(const CriticalGapResult& result);
 
 /// Refuses a study whose cases, all combinations of its axes, are none that can be fitted and held against
 /// others.
-void check_sweep_surrogate(const study::StudyFile& study);
+void check_sweep_surrogate(const StudyFile& study);
 
 /// T max of every gap and the critical gap, fitted. Held out are all cases with an inner value that is, in
 /// their order, the third, sixth, ... of its axis: they lie between values that are fitted.
 study::SurrogateRecord sweep_surrogate(const CriticalGapResult& result);
-report::Table surrogate_table(const study::SurrogateRecord& record);
+Table surrogate_table(const study::SurrogateRecord& record);
 
 }  // namespace launchsafe::kinds

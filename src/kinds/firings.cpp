@@ -1,16 +1,13 @@
 // A calibration on firings, with its tables, page and files.
-#include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/study/gap_analysis.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace launchsafe::kinds {
 
-using report::Column, report::Quantities, report::Row;
-using study::Firing, study::Posterior, study::PosteriorPoint, study::StudyOptions;
+using study::Firing, study::Posterior, study::PosteriorPoint;
 
 namespace {
 
@@ -19,33 +16,22 @@ constexpr double least_above_hottest = 20.0;  ///< K, of an ignition temperature
 constexpr double least_tail = 0.01;           ///< of study::tail_probability
 
 void run_conditions(FiringResult& result, const StudyOptions& options) {
-  for (const study::StudyCase& input : result.study.cases) result.conditions.push_back({input});
+  for (const StudyCase& input : result.study.cases) result.conditions.emplace_back(input);
   study::run_every_case(
-      result.study, options, result.timing, [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
+      result.study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
         CalibrationRun& condition = result.conditions[i];
-        condition.take(finished.front());
+        static_cast<FinishedRun&>(condition) = finished.front();
         if (condition.failure.empty())
-          condition.failure = calibration_validity_warnings(condition.input.scene.scene, condition.mechanics);
+          condition.failure =
+              calibration_validity_warnings(condition.input.scene.scene, condition.mechanics());
       });
-}
-
-/// By the rounds of the same pressure, temperature and gap.
-void count_rounds(FiringRow& row, const std::vector<Firing>& firings) {
-  for (const Firing& each : firings) {
-    if (each.pressure != row.firing.pressure || each.temperature != row.firing.temperature ||
-        each.gap != row.firing.gap)
-      continue;
-    row.rounds += each.rounds;
-    row.ignited += each.ignited ? each.rounds : 0;
-  }
-  row.shown = math::clopper_pearson(row.ignited, row.rounds, 0.9);
 }
 
 /// K, of T max of a skin that does not react.
 double rise_of(const CalibrationRun& condition, double gap) {
-  const surface::SkinModel model = study::without_reaction(surface::skin_model(condition.input.scene.scene));
-  const auto skin = surface::integrate_skin(model, condition.mechanics.trace, gap);
-  return surface::maximum_at_stations(skin, condition.mechanics.trace).temperature -
+  const SkinModel model = study::without_reaction(surface::skin_model(condition.input.scene.scene));
+  const auto skin = surface::integrate_skin(model, condition.mechanics().trace, gap);
+  return surface::maximum_at_stations(skin, condition.mechanics().trace).temperature -
          condition.input.scene.scene.initial_temperature;
 }
 
@@ -55,14 +41,18 @@ double log_heat_spread(const CalibrationRun& condition, const Firing& firing) {
                     firing.temperature_spread / rise_of(condition, firing.gap));
 }
 
+/// Each firing with the rounds of its pressure, temperature and gap.
 std::vector<FiringRow> rows_of(const std::vector<Firing>& firings) {
   const std::vector<std::size_t> conditions = conditions_of(firings);
   std::vector<FiringRow> rows;
-  for (std::size_t i = 0; i < firings.size(); ++i) {
-    FiringRow& row = rows.emplace_back();
-    row.firing = firings[i];
-    row.condition = conditions[i];
-    count_rounds(row, firings);
+  for (const Firing& firing : firings) {
+    FiringRow& row = rows.emplace_back(FiringRow{firing, conditions[rows.size()]});
+    for (std::size_t i = 0; i < firings.size(); ++i) {
+      if (conditions[i] != row.condition || firings[i].gap != firing.gap) continue;
+      row.rounds += firings[i].rounds;
+      row.ignited += firings[i].ignited ? firings[i].rounds : 0;
+    }
+    row.shown = math::clopper_pearson(row.ignited, row.rounds, 0.9);
   }
   return rows;
 }
@@ -75,7 +65,7 @@ std::vector<study::FiredLaunch> launches_of(FiringResult& result, const study::F
     const CalibrationRun& condition = result.conditions[row.condition];
     row.log_heat_spread = log_heat_spread(condition, row.firing);
     boundaries[i] = surface::IgnitionBoundary::find(surface::skin_model(condition.input.scene.scene),
-                                                    condition.mechanics.trace, row.firing.gap,
+                                                    condition.mechanics().trace, row.firing.gap,
                                                     widest.log_products(), widest.ignition_temperatures());
   });
   std::vector<study::FiredLaunch> launches;
@@ -100,27 +90,26 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(mean_of(of_each(values, [](double value) { return std::log(value); })));
 }
 
+/// The middle 90 % of values that are equally probable, about one in their middle.
+math::Estimate middle_of(const std::vector<double>& values, double centre) {
+  return {centre, study::quantile_of(values, 0.05), study::quantile_of(values, 0.95)};
+}
+
 std::vector<ConstantRange> ranges_of(const Posterior& prior, const Posterior& posterior,
                                      const Posterior& coarser) {
   const auto range_of = [&](const char* name, auto number) {
     const auto before = of_each(prior, number), after = of_each(posterior, number);
     const double centre = geometric_mean(after);
-    return ConstantRange{name,
-                         study::quantile_of(before, 0.05),
-                         geometric_mean(before),
-                         study::quantile_of(before, 0.95),
-                         study::quantile_of(after, 0.05),
-                         centre,
-                         study::quantile_of(after, 0.95),
+    return ConstantRange{name, middle_of(before, geometric_mean(before)), middle_of(after, centre),
                          geometric_mean(of_each(coarser, number)) / centre - 1.0};
   };
-  return {
-      range_of("friction.localisation",
-               [](const PosteriorPoint& each) { return each.constants.localisation; }),
-      range_of("gap.exchange_time", [](const PosteriorPoint& each) { return each.constants.exchange_time; }),
-      range_of("kinetics.ignition_temperature",
-               [](const PosteriorPoint& each) { return each.constants.ignition_temperature; }),
-      range_of("scatter", [](const PosteriorPoint& each) { return each.scatter; })};
+  const auto constant = [&](const char* name, double SurfaceConstants::*member) {
+    return range_of(name, [member](const PosteriorPoint& each) { return each.constants.*member; });
+  };
+  return {constant("friction.localisation", &SurfaceConstants::localisation),
+          constant("gap.exchange_time", &SurfaceConstants::exchange_time),
+          constant("kinetics.ignition_temperature", &SurfaceConstants::ignition_temperature),
+          range_of("scatter", &PosteriorPoint::scatter)};
 }
 
 /// Bits that an outcome of probability p decides.
@@ -141,9 +130,9 @@ std::vector<NextFiring> next_firings(const FiringResult& result, const Posterior
   for (std::size_t place = 0; place < result.conditions.size(); ++place) {
     const CalibrationRun& condition = result.conditions[place];
     const FiringRow& row = *std::ranges::find(result.rows, place, &FiringRow::condition);
-    const surface::SkinModel model = surface::skin_model(condition.input.scene.scene);
+    const SkinModel model = surface::skin_model(condition.input.scene.scene);
     for (const double gap : gaps) {
-      const auto boundary = study::boundary_for(posterior, model, condition.mechanics.trace, gap);
+      const auto boundary = study::boundary_for(posterior, model, condition.mechanics().trace, gap);
       if (!boundary) continue;
       const auto probabilities = study::ignition_probabilities(posterior, *boundary, row.log_heat_spread);
       const double mean = mean_of(probabilities), open = mean_of(of_each(probabilities, entropy));
@@ -155,15 +144,16 @@ std::vector<NextFiring> next_firings(const FiringResult& result, const Posterior
 }
 
 /// The study's scene with the constants at the middle of their posterior.
-scene::Scene calibrated_scene(const FiringResult& result, const std::vector<ConstantRange>& ranges) {
-  scene::Scene scene = result.study.scene.scene;
-  put({ranges[0].centre, ranges[1].centre, ranges[2].centre}, scene.surface, scene.charge().kinetics);
+Scene calibrated_scene(const FiringResult& result, const std::vector<ConstantRange>& ranges) {
+  Scene scene = result.study.scene.scene;
+  put({ranges[0].after.value, ranges[1].after.value, ranges[2].after.value}, scene.surface,
+      scene.charge().kinetics);
   scene.accepted.clear();
   return scene;
 }
 
 /// What the record says of the thickest gap that did not ignite, or of the first firing where all ignited.
-study::CalibrationEvidence evidence_of(const FiringResult& result, const scene::Scene& calibrated,
+study::CalibrationEvidence evidence_of(const FiringResult& result, const Scene& calibrated,
                                        const study::FiringEvidence& firings,
                                        const std::vector<study::FiredLaunch>& launches) {
   std::size_t place = 0;
@@ -175,12 +165,12 @@ study::CalibrationEvidence evidence_of(const FiringResult& result, const scene::
     place = i;
     largest = firing.gap;
   }
-  const surface::SurfaceConstants constants = surface::constants_of(surface::skin_model(calibrated));
+  const SurfaceConstants constants = surface::constants_of(surface::skin_model(calibrated));
   double factor = 1.0;
   for (const Posterior* posterior : {&firings.posterior, &firings.of_doubled_prior})
     factor = std::max(factor, study::heat_factor(*posterior, launches[place].boundary, constants));
   CalibrationRun condition = result.conditions[result.rows[place].condition];
-  scene::Scene& scene = condition.input.scene.scene;
+  Scene& scene = condition.input.scene.scene;
   scene.surface.localisation = calibrated.surface.localisation;
   scene.surface.exchange_time = calibrated.surface.exchange_time;
   const double friction = rise_of(condition, 0.0), all = rise_of(condition, result.rows[place].firing.gap);
@@ -216,41 +206,40 @@ void calibrate_on_firings(FiringResult& result) {
     FiringRow& row = result.rows[i];
     const auto probabilities =
         study::ignition_probabilities(firings.posterior, launches[i].boundary, row.log_heat_spread);
-    row.predicted = {mean_of(probabilities), study::quantile_of(probabilities, 0.05),
-                     study::quantile_of(probabilities, 0.95)};
+    row.predicted = middle_of(probabilities, mean_of(probabilities));
     if (study::tail_probability(probabilities, row.ignited, row.rounds) < least_tail)
       result.contradicting.push_back(row.firing.name);
   }
   if (!result.contradicting.empty()) return;
   result.next = next_firings(result, firings.posterior, settings.next_gaps);
-  const scene::Scene calibrated = calibrated_scene(result, result.constants);
+  const Scene calibrated = calibrated_scene(result, result.constants);
   const study::CalibrationEvidence evidence = evidence_of(result, calibrated, firings, launches);
-  result.record = study::CalibrationRecord{
-      .title = result.study.study.title,
-      .calibration = {calibrated, evidence,
-                      std::make_shared<const study::FiringEvidence>(std::move(firings))}};
+  result.record =
+      CalibrationRecord{.title = result.study.study.title,
+                        .calibration = {calibrated, evidence,
+                                        std::make_shared<const study::FiringEvidence>(std::move(firings))}};
 }
 
 // --- tables, page and files ---
 
-const Column initial_temperature{"initial_temperature", "T before", keys::significant(4, keys::kelvin),
+const Column initial_temperature{"initial_temperature", "T before", significant(4, kelvin),
                                  "Temperature of charge and air before."};
 
 Column probability(const char* name, const char* heading, const char* meaning) {
-  return {name, heading, keys::significant(3, keys::percent), meaning};
+  return {name, heading, significant(3, percent), meaning};
 }
 
 const Quantities<Firing> firing_quantities{
-    {"name", "firing", keys::text(), "What the rounds are called.", &Firing::name},
-    {"rounds", "rounds", keys::count(), "How many there were.", &Firing::rounds},
+    {"name", "firing", text(), "What the rounds are called.", &Firing::name},
+    {"rounds", "rounds", count(), "How many there were.", &Firing::rounds},
     {quantity::peak_pressure, &Firing::pressure},
     {initial_temperature, &Firing::temperature},
     {quantity::gap, &Firing::gap},
-    {"gap_most", "gap at most", keys::significant(6, keys::centimetre), "The largest that it can have been.",
+    {"gap_most", "gap at most", significant(6, centimetre), "The largest that it can have been.",
      &Firing::most_gap},
-    {"ignited", "ignited", keys::text(), "Whether the rounds ignited.", &Firing::ignited}};
+    {"ignited", "ignited", text(), "Whether the rounds ignited.", &Firing::ignited}};
 
-const auto row_quantities = keys::joined<FiringRow>(
+const auto row_quantities = joined<FiringRow>(
     {of_part<FiringRow>(firing_quantities, &FiringRow::firing),
      {{probability("shown_lowest", "more than",
                    "With 95 % the probability of a round is more, by the rounds of this kind alone."),
@@ -266,31 +255,32 @@ const auto row_quantities = keys::joined<FiringRow>(
        &FiringRow::predicted, &math::Estimate::upper}}});
 
 Column bound(const char* name, const char* heading, const char* meaning) {
-  return {name, heading, keys::significant(4), meaning};
+  return {name, heading, significant(4), meaning};
 }
 
 const Quantities<ConstantRange> range_quantities{
-    {"key", "constant", keys::text(), "Key of the scene, SI; or the scatter between rounds.",
-     &ConstantRange::name},
-    {bound("prior_lowest", "before: 5 %", "5 % of the prior lie below."), &ConstantRange::prior_lowest},
-    {bound("prior_centre", "mean", "Geometric mean of the prior."), &ConstantRange::prior_centre},
-    {bound("prior_highest", "95 %", "95 % of the prior lie below."), &ConstantRange::prior_highest},
-    {bound("lowest", "after: 5 %", "5 % of the posterior lie below."), &ConstantRange::lowest},
+    {"key", "constant", text(), "Key of the scene, SI; or the scatter between rounds.", &ConstantRange::name},
+    {bound("prior_lowest", "before: 5 %", "5 % of the prior lie below."), &ConstantRange::before,
+     &Estimate::lower},
+    {bound("prior_centre", "mean", "Geometric mean of the prior."), &ConstantRange::before, &Estimate::value},
+    {bound("prior_highest", "95 %", "95 % of the prior lie below."), &ConstantRange::before,
+     &Estimate::upper},
+    {bound("lowest", "after: 5 %", "5 % of the posterior lie below."), &ConstantRange::after,
+     &Estimate::lower},
     {bound("centre", "mean", "Geometric mean of the posterior, which the record has as the constant."),
-     &ConstantRange::centre},
-    {bound("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::highest},
-    {"change_of_coarser", "coarser lattice", keys::significant(2, keys::percent),
+     &ConstantRange::after, &Estimate::value},
+    {bound("highest", "95 %", "95 % of the posterior lie below."), &ConstantRange::after, &Estimate::upper},
+    {"change_of_coarser", "coarser lattice", significant(2, percent),
      "By how much the mean is higher on a lattice of half as many values a constant.",
      &ConstantRange::change_of_coarser}};
-
 const Quantities<NextFiring> next_quantities{
     {quantity::peak_pressure, &NextFiring::pressure},
     {initial_temperature, &NextFiring::temperature},
     {quantity::gap, &NextFiring::gap},
     {probability("ignition_probability", "ignites", "Probability that the round ignites, after all firings."),
      &NextFiring::ignition},
-    {"information", "tells [bit]", keys::significant(2),
-     "What its outcome tells of the constants, on average.", &NextFiring::information}};
+    {"information", "tells [bit]", significant(2), "What its outcome tells of the constants, on average.",
+     &NextFiring::information}};
 
 Row facts_of(const FiringResult& result) {
   Row facts{{"failure", result.failure},
@@ -302,19 +292,19 @@ Row facts_of(const FiringResult& result) {
   for (const FiringRow& row : result.rows) {
     Row& rounds = facts[row.firing.ignited ? "ignited" : "quiet"];
     rounds = rounds.get<int>() + row.firing.rounds;
-    Row& facts_of_row = facts["rows"].emplace_back(report::json_of(row_quantities, row));
+    Row& facts_of_row = facts["rows"].emplace_back(json_of(row_quantities, row));
     facts_of_row["ignited_rounds"] = row.ignited;
     facts_of_row["counted_rounds"] = row.rounds;
   }
-  if (!result.next.empty()) facts["next"] = report::json_of(next_quantities, result.next.front());
-  if (result.record) facts["largest"] = report::centimetres(result.record->calibration.evidence.largest_gap);
+  if (!result.next.empty()) facts["next"] = json_of(next_quantities, result.next.front());
+  if (result.record) facts["largest"] = centimetres(result.record->calibration.evidence.largest_gap);
   return facts;
 }
 
-std::vector<report::ReportTable> tables_of(const FiringResult& result) {
+std::vector<ReportTable> tables_of(const FiringResult& result) {
   const Row facts = facts_of(result);
   const auto table = [&](const char* title, const auto& quantities, const auto& rows, const char* notes) {
-    return report::table_of(title, quantities, rows, said(notes, facts));
+    return table_of(title, quantities, rows, said(notes, facts));
   };
   return {{table("Firings, and the probability that such a round ignites", row_quantities, result.rows,
                  "calibration.note.firings"),
@@ -328,7 +318,7 @@ std::vector<report::ReportTable> tables_of(const FiringResult& result) {
 
 }  // namespace
 
-FiringResult run_firings(const study::StudyFile& study, const StudyOptions& options) {
+FiringResult run_firings(const StudyFile& study, const StudyOptions& options) {
   return study::run_timed<FiringResult>(
       study, options, [&](FiringResult& result) { run_conditions(result, options); }, calibrate_on_firings);
 }
@@ -337,18 +327,18 @@ std::string answer(const FiringResult& result) {
   return said("calibration.firings.answer", facts_of(result)).front();
 }
 
-report::Report report_of(const FiringResult& result) {
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+Report report_of(const FiringResult& result) {
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   if (result.record) report.files.push_back({"calibration.json", study::to_json_text(*result.record)});
-  for (report::ReportTable& table : tables_of(result)) report.add(std::move(table));
+  for (ReportTable& table : tables_of(result)) report.add(std::move(table));
   report.say("## Setup\n\n" + report::setup_text(result.study));
-  report.add({run_table(result.conditions), "", "runs", report::Shown::page});
+  report.add({run_table(result.conditions), "", "runs", Shown::page});
   report.say(report::timing_sentence(result.timing));
   report.json = study_json(result.study, report,
                            {{"failure", result.failure}, {"timing", report::timing_json(result.timing)}});
   return report;
 }
 
-std::vector<report::ReportTable> firing_results() { return tables_of({}); }
+std::vector<ReportTable> firing_results() { return tables_of({}); }
 
 }  // namespace launchsafe::kinds

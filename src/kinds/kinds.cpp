@@ -1,14 +1,11 @@
 // The table of kinds, and what several kinds share.
 #include "answer_tables.hpp"
 
-#include <fmt/format.h>
 #include <fnmatch.h>
 
 #include <cassert>
 
 namespace launchsafe::kinds {
-
-using study::CaseAnswer, study::StudyFile;
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
@@ -24,9 +21,9 @@ const Kind& kind_named(std::string_view name) {
   return *found;
 }
 
-const Kind& kind_of(const study::Study& study) { return kind_named(study.kind.name); }
+const Kind& kind_of(const Study& study) { return kind_named(study.kind.name); }
 
-StudyOutcome run_study(const study::StudyFile& study, const study::StudyOptions& options) {
+StudyOutcome run_study(const StudyFile& study, const StudyOptions& options) {
   return kind_of(study.study).run(study, options);
 }
 
@@ -35,8 +32,7 @@ bool may_write(const Kind& kind, std::string_view name) {
          std::ranges::any_of(
              kind.files,
              [&](const char* each) { return ::fnmatch(each, std::string(name).c_str(), 0) == 0; }) ||
-         std::ranges::any_of(kind.results(),
-                             [name](const report::ReportTable& table) { return table.csv == name; });
+         std::ranges::any_of(kind.results(), [name](const ReportTable& table) { return table.csv == name; });
 }
 
 std::size_t count_failed(const std::vector<CaseAnswer>& answers) {
@@ -48,12 +44,12 @@ std::string status_of(const CaseAnswer& answer) {
   return answer.run.status == run::RunStatus::completed ? "failed" : run::to_string(answer.run.status);
 }
 
-std::string name_of(const std::vector<report::ShownKey>& keys, const study::StudyCase& input) {
+std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input) {
   std::string place = place_text(keys, input.coordinates);
   return place.empty() ? input.label : place;
 }
 
-std::string failures_list(const std::vector<report::ShownKey>& keys, const StudyFile& study,
+std::string failures_list(const std::vector<ShownKey>& keys, const StudyFile& study,
                           const std::vector<CaseAnswer>& answers) {
   constexpr std::size_t named = 3;
   std::vector<std::string> list;
@@ -92,7 +88,7 @@ std::vector<AnsweredCase> answered(const StudyFile& study, const std::vector<Cas
   });
 }
 
-report::Quantities<AnsweredCase> answered_axes(const study::Study& study) {
+Quantities<AnsweredCase> answered_axes(const Study& study) {
   return of_part<AnsweredCase>(report::axis_quantities(study), &AnsweredCase::coordinates);
 }
 

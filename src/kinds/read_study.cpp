@@ -7,30 +7,24 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <regex>
 #include <set>
 #include <unordered_map>
 
 namespace launchsafe::kinds {
 
-using study::StudyFile;
-
 namespace {
 
-using scene::Dimension, scene::InputError, scene::Place;
+using scene::InputError;
 
-/// Changes the study's scene by a table of scene keys.
 void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   const auto& [table_name, node] = overrides;
   if (!node) return;
   if (!node->is_table())
-    refuse_if(scene::error_at(scene::place_of(*node, study.file), table_name, scene::found_text(*node),
-                              fmt::format("a table, written [{}], of scene keys", table_name)));
-  std::vector<study::Change> changes;
-  for (const study::Leaf& leaf : study::leaves_as_written(*node->as_table())) {
+    refuse_if(error_at(scene::place_of(*node, study.file), table_name, found_text(*node),
+                       fmt::format("a table, written [{}], of scene keys", table_name)));
+  std::vector<Change> changes;
+  for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
     const Place place = scene::place_of(*leaf.node, study.file);
     const auto key = taken(scene::describe_key(study.scene, leaf.name, place), table_name);
     const auto value = taken(scene::read_value(*leaf.node, key, study.file), table_name);
@@ -44,16 +38,16 @@ void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
 }
 
 void check_scene(const StudyFile& study) {
-  const scene::Scene& scene = study.scene.scene;
+  const Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     refuse_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (scene.surface.model == scene::GapModel::closing &&
+  if (scene.surface.model == GapModel::closing &&
       study.study.kind.closing_gaps == study::ClosingGaps::refused)
     refuse_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
   if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load))
-    refuse_at(study, "early_time", scene::format_quantity(study.study.early_time, Dimension::time),
+    refuse_at(study, "early_time", format_quantity(study.study.early_time, Dimension::time),
               "a time within the load's duration, " +
-                  scene::format_quantity(scene::end_time(scene.load), Dimension::time));
+                  format_quantity(scene::end_time(scene.load), Dimension::time));
 }
 
 /// Whether a kind has a key or a table of that name for itself.
@@ -91,14 +85,14 @@ void check_former(const toml::table& root, const std::string& file) {
   const toml::node* kind = root.get("kind");
   const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
   if (name == "sweep")
-    refuse_if(scene::error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
-                              "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
-                              "kind = \"critical-gap\""));
+    refuse_if(error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
+                       "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
+                       "kind = \"critical-gap\""));
   for (const FormerKey& former : former_keys)
     if (const toml::node* node = root.get(former.name);
         node != nullptr && (former.kind.empty() || former.kind == name))
-      refuse_if(scene::error_at(scene::place_of(*node, file), former.name, "a key of an earlier version",
-                                former.now));
+      refuse_if(
+          error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now));
 }
 
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
@@ -114,15 +108,15 @@ const Kind& read_kind(const toml::table& root, const std::string& file) {
       for (const StudyTable& table : kind.tables)
         if (std::ranges::find(tables, table.name) == tables.end()) tables.push_back(table.name);
     }
-    throw Refusal{scene::read_described(root, scene::descriptions_of(keys), tables, file).error()};
+    throw scene::read_described(root, scene::descriptions_of(keys), tables, file).error();
   }
   return kind_named(
       std::get<std::string>(taken(scene::read_value(*node, *scene::find_key(common_keys(), "kind"), file))));
 }
 
 /// The keys of the file, and the tables that are read apart from the keys.
-std::vector<study::Leaf> names_in(const toml::table& root) {
-  std::vector<study::Leaf> names;
+std::vector<Leaf> names_in(const toml::table& root) {
+  std::vector<Leaf> names;
   for (const auto& [key, node] : root) {
     const std::string name(key.str());
     const toml::table* table = node.as_table();
@@ -130,7 +124,7 @@ std::vector<study::Leaf> names_in(const toml::table& root) {
       names.push_back({name, &node});
       continue;
     }
-    for (const study::Leaf& leaf : study::leaves_as_written(*table))
+    for (const Leaf& leaf : study::leaves_as_written(*table))
       names.push_back({name + "." + leaf.name, leaf.node});
   }
   return names;
@@ -138,15 +132,15 @@ std::vector<study::Leaf> names_in(const toml::table& root) {
 
 /// The first key or table of another kind, which would silently do nothing.
 void check_kind(const toml::table& root, const Kind& kind, const std::string& file) {
-  std::vector<study::Leaf> others = names_in(root);
+  std::vector<Leaf> others = names_in(root);
   std::erase_if(others,
                 [&](const auto& each) { return kinds_with(each.name).empty() || has(kind, each.name); });
   if (others.empty()) return;
-  const study::Leaf first =
-      std::ranges::min(others, {}, [](const study::Leaf& each) { return each.node->source().begin.line; });
-  refuse_if(scene::error_at(scene::place_of(*first.node, file), first.name,
-                            "a key of kind " + scene::quoted_list(kinds_with(first.name)),
-                            "keys of kind \"" + kind.traits.name + '"'));
+  const Leaf first =
+      std::ranges::min(others, {}, [](const Leaf& each) { return each.node->source().begin.line; });
+  refuse_if(error_at(scene::place_of(*first.node, file), first.name,
+                     "a key of kind " + scene::quoted_list(kinds_with(first.name)),
+                     "keys of kind \"" + kind.traits.name + '"'));
 }
 
 void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
@@ -159,7 +153,6 @@ void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys,
   refuse_if(check_twice(study, "gaps", Dimension::length, study.study.gaps));
 }
 
-/// What varies, and the cases that follow.
 void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (kind.read != nullptr) kind.read(source, study);
   if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
@@ -183,15 +176,15 @@ InputError unnumbered(InputError error, const std::string& file) {
 
 }  // namespace
 
-scene::SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
-                                  const std::string& key, const Place& place) {
+SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
+                           const std::string& key, const Place& place) {
   const std::filesystem::path path = folder / name;
   std::error_code status;
   if (std::filesystem::exists(path, status)) return taken(scene::read_scene(path));
   const auto missing = scene::read_text_file(path);
-  throw Refusal{scene::error_at(place, key, fmt::format("\"{}\", which does not exist", name),
-                                "a scene file, by its path from the study file's folder",
-                                missing ? std::string{} : missing.error().suggestion)};
+  throw error_at(place, key, fmt::format("\"{}\", which does not exist", name),
+                 "a scene file, by its path from the study file's folder",
+                 missing ? std::string{} : missing.error().suggestion);
 }
 
 study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
@@ -209,11 +202,11 @@ study::AccuracyRecords settle_scene(const StudySource& source, const std::vector
 }
 
 void settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFile& study) {
-  std::vector<scene::KeyDescription> known = scene::acceptable_keys(study.scene.scene);
+  std::vector<KeyDescription> known = scene::acceptable_keys(study.scene.scene);
   known.insert(known.end(), keys.begin(), keys.end());
   auto accepted = taken(scene::read_acceptances(root, known, study.file));
   for (const auto& key : keys) {
-    const scene::Value value = key.get(study.study);
+    const Value value = key.get(study.study);
     if (!study.places.contains(key.name) || scene::is_plausible(key, value)) continue;
     study.study.implausible.push_back(
         scene::implausible(accepted, key, key.name, value, scene::plausible_text(key)));
@@ -222,8 +215,8 @@ void settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFil
     if (!scene::find_key(keys, each.key)) scene::accept(study.scene.scene.accepted, std::move(each));
 }
 
-scene::Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
-                                            std::size_t most_cases) try {
+Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
+                                     std::size_t most_cases) try {
   StudyFile study;
   study.file = file;
   study.most_cases = most_cases;
@@ -239,19 +232,19 @@ scene::Expected<StudyFile> read_study_table(const StudySource& source, const std
   if (!study.study.kind.own_scenes) settle_uncertainty(study, records);
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
-} catch (const Refusal& refusal) {
-  return unnumbered(refusal.error, file);
+} catch (const InputError& error) {
+  return unnumbered(error, file);
 }
 
-scene::Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
-                                       const StudyRequest& request) {
+Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,
+                                const StudyRequest& request) {
   const auto table = scene::parse_toml(text, path.string());
   if (!table) return table.error();
   return read_study_table({*table, text, path.parent_path(), request.tolerance}, path.string(),
                           request.most_cases);
 }
 
-scene::Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
+Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
   const auto text = scene::read_text_file(file);
   if (!text) return text.error();
   return parse_study(*text, file, request);

@@ -1,78 +1,69 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using study::Study, study::StudyFile;
-
 namespace {
-
-using scene::Dimension;
 
 /// Whole numbers that a double holds exactly.
 constexpr double largest_seed = 9007199254740992.0;
 
-constexpr auto assumed = scene::Standing::assumed;
-using scene::number_key;
+constexpr auto assumed = Standing::assumed;
 
-const std::vector<scene::Key<SensitivitySettings>> sensitivity_keys{
-    scene::word_key(
-        "method", assumed,
-        "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to fewer "
-        "runs and held against others.",
-        {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
-        &SensitivitySettings::method),
-    number_key("seed", Dimension::count, scene::between(0, largest_seed), assumed,
+const std::vector<Key<SensitivitySettings>> sensitivity_keys{
+    word_key("method", assumed,
+             "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to "
+             "fewer runs and held against others.",
+             {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
+             &SensitivitySettings::method),
+    number_key("seed", Dimension::count, between(0, largest_seed), assumed,
                "Seed of the design and of the bootstrap.", &SensitivitySettings::seed),
-    number_key("resamples", Dimension::count, scene::between(100, 1e6), assumed,
-               "Resamples of the bootstrap.", &SensitivitySettings::resamples),
-    number_key("confidence", Dimension::number, scene::between(0.5, 0.999), assumed,
-               "Confidence of the intervals.", &SensitivitySettings::confidence),
-    scene::word_key("design", assumed,
-                    "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
-                    {{"scrambled-sobol", math::Design::scrambled_sobol},
-                     {"latin-hypercube", math::Design::latin_hypercube},
-                     {"monte-carlo", math::Design::monte_carlo}},
-                    &SensitivitySettings::design),
-    number_key("samples", Dimension::count, scene::between(2, 1e6), assumed,
+    number_key("resamples", Dimension::count, between(100, 1e6), assumed, "Resamples of the bootstrap.",
+               &SensitivitySettings::resamples),
+    number_key("confidence", Dimension::number, between(0.5, 0.999), assumed, "Confidence of the intervals.",
+               &SensitivitySettings::confidence),
+    word_key("design", assumed,
+             "How the samples are laid out; a power of two of them is best for scrambled-sobol.",
+             {{"scrambled-sobol", math::Design::scrambled_sobol},
+              {"latin-hypercube", math::Design::latin_hypercube},
+              {"monte-carlo", math::Design::monte_carlo}},
+             &SensitivitySettings::design),
+    number_key("samples", Dimension::count, between(2, 1e6), assumed,
                "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
                &SensitivitySettings::samples),
-    number_key("held_out", Dimension::count, scene::between(10, 1e6), assumed,
+    number_key("held_out", Dimension::count, between(10, 1e6), assumed,
                "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
                &SensitivitySettings::held_out),
-    number_key("error_of_temperature", Dimension::temperature_difference, scene::above(0), assumed,
-               "Of polynomial-chaos: runs are added where the fit is least sure until no "
-               "prediction of T max has a larger error.",
+    number_key("error_of_temperature", Dimension::temperature_difference, above(0), assumed,
+               "Of polynomial-chaos: runs are added where the fit is least sure until no prediction of T max "
+               "has a larger error.",
                &SensitivitySettings::temperature_error),
-    number_key("error_of_critical_gap", Dimension::length, scene::above(0), assumed,
-               "Likewise of the critical gap.", &SensitivitySettings::critical_gap_error),
-    number_key("most_samples", Dimension::count, scene::between(2, 1e6), assumed,
+    number_key("error_of_critical_gap", Dimension::length, above(0), assumed, "Likewise of the critical gap.",
+               &SensitivitySettings::critical_gap_error),
+    number_key("most_samples", Dimension::count, between(2, 1e6), assumed,
                "With such an error: samples that are fitted at the most.",
                &SensitivitySettings::most_samples),
-    scene::flag_key("surrogate", assumed,
-                    "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
-                    "polynomial-chaos always has one.",
-                    &SensitivitySettings::surrogate),
+    flag_key("surrogate", assumed,
+             "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
+             "polynomial-chaos always has one.",
+             &SensitivitySettings::surrogate),
 };
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
 void check_limits(const StudyFile& study, const std::vector<double>& coordinates) {
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const study::Axis& axis = study.study.axes[i];
-    const scene::KeyDescription& key = axis.key;
+    const Axis& axis = study.study.axes[i];
+    const KeyDescription& key = axis.key;
     if (key.limits.contain(coordinates[i])) continue;
-    const std::string value = scene::format_quantity(coordinates[i], key.dimension);
+    const std::string value = format_quantity(coordinates[i], key.dimension);
     if (axis.distribution->kind == math::Distribution::Kind::log_normal)
       refuse_at(study, axis.study_key, fmt::format("a sample of {} {}", key.name, value),
-                "the record of a calibration that knows it better: " + scene::allowed_text(key));
+                "the record of a calibration that knows it better: " + allowed_text(key));
     refuse_at(study, axis.values_key, fmt::format("a sample of {}", value),
-              "a range that cuts the normal off: " + scene::allowed_text(key));
+              "a range that cuts the normal off: " + allowed_text(key));
   }
 }
 
@@ -85,9 +76,8 @@ void add_evaluations(StudyFile& study, const std::function<std::string(std::size
   };
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
     check_limits(study, coordinates(evaluation));
-  refuse_if(add_varied_cases(study, count, coordinates, [&](std::size_t evaluation, const study::StudyCase&) {
-    return label(evaluation);
-  }));
+  refuse_if(add_varied_cases(study, count, coordinates,
+                             [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); }));
 }
 
 void make_saltelli(StudyFile& study) {
@@ -120,9 +110,7 @@ void check_fit_of_draws(const StudyFile& study) {
               fmt::format("{} to {} samples", fewest, most_fitted));
 }
 
-bool is_closing(const StudyFile& study) {
-  return study.scene.scene.surface.model == scene::GapModel::closing;
-}
+bool is_closing(const StudyFile& study) { return study.scene.scene.surface.model == GapModel::closing; }
 
 /// Errors are asked of a fit, and leave it room for more samples.
 void check_asked_errors(const StudyFile& study) {
@@ -165,7 +153,7 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
   if (gaps.size() != 1) {
     const char* whose = study.places.contains("gaps") ? "" : "no gap, and the scene's ";
     refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
-              fmt::format("gaps = \"{}\"", scene::format_quantity(gaps.back(), Dimension::length)));
+              fmt::format("gaps = \"{}\"", format_quantity(gaps.back(), Dimension::length)));
   }
   // Each draw is launched at that gap where it closes.
   if (is_closing(study))
@@ -178,11 +166,11 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
 }
 
 double number_of(const OutputSensitivity& of, const SensitivityResult& result, std::size_t evaluation) {
-  const study::CaseAnswer& answer = result.answers[evaluation];
+  const CaseAnswer& answer = result.answers[evaluation];
   if (of.output == SensitivityOutput::critical_gap) return critical_gap_number(answer);
   const double temperature = temperature_of(answer, 0, of.inert);
   if (of.output == SensitivityOutput::maximum_temperature) return temperature;
-  const study::StudyCase input = result.study.cases[evaluation];
+  const StudyCase input = result.study.cases[evaluation];
   return input.scene.scene.charge().kinetics.ignition_temperature - temperature;
 }
 
@@ -249,7 +237,7 @@ std::vector<SensitivityInput> inputs_of(const Study& study) {
 }
 
 study::UncertainInputs uncertain_inputs(const Study& study) {
-  return {of_each(study.axes, [](const study::Axis& axis) { return *axis.distribution; }),
+  return {of_each(study.axes, [](const Axis& axis) { return *axis.distribution; }),
           settings_of<SensitivitySettings>(study).correlated};
 }
 
@@ -264,7 +252,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
   output.output = which;
   output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::CaseAnswer& answer = result.answers[i];
+    const CaseAnswer& answer = result.answers[i];
     output.values.push_back(number_of(output, result, i));
     if (std::isfinite(output.values.back())) continue;
     ++output.missing;
@@ -273,7 +261,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
   return output;
 }
 
-SensitivityResult run_sensitivity(const study::StudyFile& study, const study::StudyOptions& options) {
+SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
   return run_timed<SensitivityResult>(
       study, options,
       [&](SensitivityResult& result) {

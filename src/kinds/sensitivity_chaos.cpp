@@ -1,14 +1,10 @@
-#include "answer_tables.hpp"
 #include "sensitivity_parts.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <numeric>
 
 namespace launchsafe::kinds {
 
-using study::Study, study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
+using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 
 namespace {
 
@@ -29,7 +25,7 @@ SurrogateRecord launches_of(const SensitivityResult& result) {
   const int held_out = is_by_fit(study) ? own.held_out : own.samples;
   SurrogateRecord record{.scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
-                         .keys = of_each(study.axes, [](const study::Axis& axis) { return axis.key.name; }),
+                         .keys = of_each(study.axes, [](const Axis& axis) { return axis.key.name; }),
                          .inputs = uncertain_inputs(study),
                          .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
@@ -70,7 +66,7 @@ math::SobolIndices process_indices(const Study& study, const Surrogate& surrogat
 double asked_error(const Study& study, SensitivityOutput output) {
   const auto& own = settings_of<SensitivitySettings>(study);
   if (output == SensitivityOutput::maximum_temperature) return own.temperature_error;
-  return output == SensitivityOutput::critical_gap ? own.critical_gap_error : study::not_a_number;
+  return output == SensitivityOutput::critical_gap ? own.critical_gap_error : not_a_number;
 }
 
 /// Launches that would lessen the error that is most times what is asked; none where all are reached.
@@ -98,28 +94,27 @@ std::vector<double> next_points(const SensitivityResult& result, std::size_t cou
 }
 
 /// Computes launches at these points and adds them; false where they are not all there.
-bool add_round(SensitivityResult& result, const std::vector<double>& points,
-               const study::StudyOptions& options) {
+bool add_round(SensitivityResult& result, const std::vector<double>& points, const StudyOptions& options) {
   const study::UncertainInputs inputs = uncertain_inputs(result.study.study);
   const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
   const auto& own = settings_of<SensitivitySettings>(result.study);
   const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
-  study::StudyFile round = result.study;
+  StudyFile round = result.study;
   round.cases = {};
   if (add_varied_cases(
           round, points.size() / axes,
           [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
           [&](std::size_t row, const auto&) { return fmt::format("added {}", known - designed + row + 1); }))
     return false;
-  study::StudyOptions of_round = options;
+  StudyOptions of_round = options;
   if (options.progress)
     of_round.progress = [&](study::Progress progress) {
       progress.cases += known;
       progress.cases_done += known;
       options.progress(progress);
     };
-  const std::vector<study::CaseAnswer> answers = answer_cases(round, of_round, result.timing);
-  if (std::ranges::count(answers, study::RunOutcome::not_stored, &study::CaseAnswer::outcome) > 0 ||
+  const std::vector<CaseAnswer> answers = answer_cases(round, of_round, result.timing);
+  if (std::ranges::count(answers, RunOutcome::not_stored, &CaseAnswer::outcome) > 0 ||
       stop_requested(options))
     return false;
   for (std::size_t row = 0; row < answers.size(); ++row) {
@@ -180,7 +175,7 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
     }
 }
 
-void add_launches(SensitivityResult& result, const study::StudyOptions& options) {
+void add_launches(SensitivityResult& result, const StudyOptions& options) {
   constexpr std::size_t round = 8;
   const auto& own = settings_of<SensitivitySettings>(result.study);
   if (!options.shard.whole()) return;

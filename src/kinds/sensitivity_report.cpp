@@ -1,10 +1,6 @@
 // The answer, the tables, the pictures, the page and the files of a sensitivity study.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cctype>
@@ -12,10 +8,6 @@
 #include <span>
 
 namespace launchsafe::kinds {
-
-using keys::count, keys::fixed, keys::percent, keys::significant, keys::text;
-using report::Column, report::Quantities, report::ReportTable, report::Row, report::Series, report::Shown,
-    report::shown_value, report::Table, report::table_of;
 
 namespace {
 
@@ -25,7 +17,7 @@ struct ShownInput {
   std::string distribution;  ///< "uniform from 400 to 600 MPa"
 };
 
-std::vector<ShownInput> shown_inputs(const study::Study& study) {
+std::vector<ShownInput> shown_inputs(const Study& study) {
   const auto keys = report::shown_axes(study);
   std::vector<ShownInput> inputs;
   for (const SensitivityInput& input : inputs_of(study)) {
@@ -71,7 +63,6 @@ Row method_facts(const SensitivityResult& result) {
           {"confidence", own.confidence}};
 }
 
-/// Method, design, N, evaluations, seed and confidence in a sentence or two.
 std::string method_text(const SensitivityResult& result) {
   const auto& own = settings_of<SensitivitySettings>(result.study);
   Row facts = method_facts(result);
@@ -97,16 +88,13 @@ Groups ranked(const std::vector<math::InputIndices>& inputs) {
   std::vector<std::size_t> order(inputs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   // What has no value goes last; where an interval is missing nothing can be told apart.
-  const auto value = [&](std::size_t i) {
-    return std::isfinite(inputs[i].total.value) ? inputs[i].total.value : -infinite;
+  const auto known = [](double number, double otherwise) {
+    return std::isfinite(number) ? number : otherwise;
   };
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
-  const auto lower = [&](std::size_t i) {
-    return std::isfinite(inputs[i].total.lower) ? inputs[i].total.lower : -infinite;
-  };
-  const auto upper = [&](std::size_t i) {
-    return std::isfinite(inputs[i].total.upper) ? inputs[i].total.upper : infinite;
-  };
+  const auto lower = [&](std::size_t i) { return known(inputs[i].total.lower, -infinite); };
+  const auto upper = [&](std::size_t i) { return known(inputs[i].total.upper, infinite); };
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](std::size_t i) { return known(inputs[i].total.value, -infinite); });
   Groups groups;
   double lowest_before = infinite;
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -143,18 +131,17 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
   return what + ": " + said("sensitivity.answer", facts).front();
 }
 
-/// What became of the errors that are asked of the fit.
 std::vector<std::string> asked_text(const SensitivityResult& result) {
   const auto& own = settings_of<SensitivitySettings>(result.study);
   const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
   return of_each(asked_errors(result), [&](const AskedError& error) {
     const ShownOutput& shown = shown_output(error.output);
-    const keys::Form form = significant(3, {shown.column.form.dimension, shown.column.form.unit});
+    const Form form = significant(3, {shown.column.form.dimension, shown.column.form.unit});
     Row facts{
-        {"output", shown.phrase},     {"asked", report::in_words(error.asked, form)},
+        {"output", shown.phrase},     {"asked", in_words(error.asked, form)},
         {"reached", error.reached()}, {"fitted", fitted},
         {"most", own.most_samples},   {"used_up", fitted >= static_cast<std::size_t>(own.most_samples)}};
-    if (std::isfinite(error.found)) facts["found"] = report::in_words(error.found, form);
+    if (std::isfinite(error.found)) facts["found"] = in_words(error.found, form);
     return said("sensitivity.asked", facts).front();
   });
 }
@@ -201,7 +188,7 @@ Quantities<IndexRow> index_quantities() {
       return row.indices() != nullptr ? std::optional(count(row.output->sobol)) : std::nullopt;
     };
   };
-  return keys::joined<IndexRow>(
+  return joined<IndexRow>(
       {{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
         {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
        interval_quantities("first_order", "first", &math::InputIndices::first,
@@ -215,7 +202,7 @@ Quantities<IndexRow> index_quantities() {
 }
 
 /// The same below each other for all outputs.
-const Quantities<IndexRow> all_index_quantities = keys::joined<IndexRow>(
+const Quantities<IndexRow> all_index_quantities = joined<IndexRow>(
     {{{quantity::output, [](const IndexRow& row) { return shown_output(row.output->output).column.name; }},
       {quantity::unit, [](const IndexRow&) { return ""; }},
       {quantity::reason, &IndexRow::output, &OutputSensitivity::reason}},
@@ -225,10 +212,10 @@ Quantities<OutputSensitivity> output_quantities() {
   const auto shown = [](double OutputSensitivity::*member) {
     return [member](const OutputSensitivity& row) { return shown_output(row.output).value(row.*member); };
   };
-  return keys::joined<OutputSensitivity>(
+  return joined<OutputSensitivity>(
       {{{quantity::output, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::name},
         {quantity::unit, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::form,
-         &keys::Form::unit},
+         &Form::unit},
         {"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs.",
          shown(&OutputSensitivity::mean)},
         {"standard_deviation", "standard deviation", significant(3), "Standard deviation over them.",
@@ -241,24 +228,24 @@ Quantities<OutputSensitivity> output_quantities() {
        {{quantity::reason, &OutputSensitivity::reason}}});
 }
 
-Quantities<AnsweredCase> evaluation_quantities(const study::Study& study,
+Quantities<AnsweredCase> evaluation_quantities(const Study& study,
                                                const std::vector<OutputSensitivity>& outputs) {
   Quantities<AnsweredCase> of_outputs;
   for (const OutputSensitivity& output : outputs)
     of_outputs.emplace_back(shown_output(output.output).column,
                             [&output](const AnsweredCase& row) { return output.values[row.index]; });
-  return keys::joined<AnsweredCase>(
+  return joined<AnsweredCase>(
       {{{"number", "number", count(), "Number of the evaluation.",
          [](const AnsweredCase& row) { return row.index + 1; }},
         {"evaluation", "evaluation", text(), "Its place in the design.", &AnsweredCase::label}},
        answered_axes(study),
        of_outputs,
-       {{for_programs(quantity::critical_gap_kind), &AnsweredCase::answer, &study::CaseAnswer::critical,
-         &study::CriticalGap::kind},
+       {{for_programs(quantity::critical_gap_kind), &AnsweredCase::answer, &CaseAnswer::critical,
+         &CriticalGap::kind},
         {quantity::critical_gap_reads_as,
-         [](const AnsweredCase& row) { return report::reads_as(row.answer->critical); }},
+         [](const AnsweredCase& row) { return reads_as(row.answer->critical); }},
         {quantity::status, [](const AnsweredCase& row) { return status_of(*row.answer); }},
-        {headed("failure", quantity::reason), &AnsweredCase::answer, &study::CaseAnswer::failure}}});
+        {headed("failure", quantity::reason), &AnsweredCase::answer, &CaseAnswer::failure}}});
 }
 
 /// Whether the estimates of an input contradict each other: no true total order is below the first.
@@ -296,17 +283,15 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
 
 const ShownOutput& shown_output(SensitivityOutput output) {
   static const std::array<ShownOutput, 3> all{
-      {{{"temperature_max", "T max", significant(6, keys::kelvin), quantity::temperature_max.meaning},
-        "T max"},
+      {{{"temperature_max", "T max", significant(6, kelvin), quantity::temperature_max.meaning}, "T max"},
        {quantity::critical_gap, "the critical gap"},
-       {{"margin", "margin", significant(6, keys::kelvin), "Ignition temperature less T max."},
-        "the margin"}}};
+       {{"margin", "margin", significant(6, kelvin), "Ignition temperature less T max."}, "the margin"}}};
   return all.at(static_cast<std::size_t>(output));
 }
 
-std::string at_gap(const study::Study& study, SensitivityOutput output) {
+std::string at_gap(const Study& study, SensitivityOutput output) {
   if (output == SensitivityOutput::critical_gap) return {};
-  return " at a gap of " + report::centimetres(study.gaps.front());
+  return " at a gap of " + centimetres(study.gaps.front());
 }
 
 std::string answer(const SensitivityResult& result) {
@@ -327,8 +312,8 @@ std::string answer(const SensitivityResult& result) {
   return answer_of(std::move(lines), result.study);
 }
 
-report::Report report_of(const SensitivityResult& result) {
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+Report report_of(const SensitivityResult& result) {
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.add({sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
   report.add({output_table(result), "", "outputs", has_fit(result) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
@@ -340,7 +325,7 @@ report::Report report_of(const SensitivityResult& result) {
                    "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.add({quantile_table(result), "quantiles.csv", "quantiles"});
-  if (report::Plot plot = histogram_plot(result); !plot.panels.empty())
+  if (Plot plot = histogram_plot(result); !plot.panels.empty())
     report.draw(
         {"histogram.svg", std::move(plot), "the draws, and how their interval settles with their number"});
   report.add({histogram_table(result), "histogram.csv", "histogram", Shown::file});
@@ -354,7 +339,7 @@ report::Report report_of(const SensitivityResult& result) {
   method["text"] = method_text(result);
   report.json = study_json(result.study, report,
                            {{"method", method},
-                            {"gap_cm", report::number(report::shown_gap(result.study.study.gaps.front()))},
+                            {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
                             {"inputs", report::axes_json(result.study.study)},
                             {"ignition", ignition_json(result)},
                             {"failed", count_failed(result.answers)},
@@ -384,7 +369,7 @@ Table evaluation_table(const SensitivityResult& result) {
                   answered(result.study, result.answers));
 }
 
-std::vector<report::ReportTable> sensitivity_results() {
+std::vector<ReportTable> sensitivity_results() {
   std::vector<OutputSensitivity> outputs(3);
   outputs[0].output = SensitivityOutput::maximum_temperature;
   outputs[1].output = SensitivityOutput::critical_gap;
@@ -397,15 +382,15 @@ std::vector<report::ReportTable> sensitivity_results() {
 }
 
 // Inputs below each other, the one with the largest total order at the top.
-report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
+Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
   constexpr int blue = 0, orange = 1, black = 6;
   const auto shown = shown_inputs(result.study.study);
-  const study::Study& study = result.study.study;
+  const Study& study = result.study.study;
   std::vector<std::size_t> order(shown.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::greater(),
                            [&](std::size_t i) { return output.sobol.inputs[i].total.value; });
-  report::Plot plot;
+  Plot plot;
   plot.title =
       fmt::format("{} makes {} % of the variance of {}", report::plain_words(shown[order.front()].name),
                   report::fixed(100.0 * output.sobol.inputs[order.front()].total.value, 0),
@@ -413,15 +398,13 @@ report::Plot sensitivity_plot(const SensitivityResult& result, const OutputSensi
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);
   plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
-  Series bars{.label = "total: with interactions", .style = report::Style::filled_bars, .colour = blue};
-  Series total{.label = "its interval",
-               .style = report::Style::horizontal_bars,
-               .colour = black,
-               .mark = report::Mark::square};
+  Series bars{.label = "total: with interactions", .style = Style::filled_bars, .colour = blue};
+  Series total{
+      .label = "its interval", .style = Style::horizontal_bars, .colour = black, .mark = Mark::square};
   Series first{.label = "first: by the input alone",
-               .style = report::Style::horizontal_bars,
+               .style = Style::horizontal_bars,
                .colour = orange,
-               .mark = report::Mark::diamond};
+               .mark = Mark::diamond};
   for (std::size_t place = 0; place < order.size(); ++place) {
     const double y = static_cast<double>(order.size() - place);
     const math::InputIndices& indices = output.sobol.inputs[order[place]];

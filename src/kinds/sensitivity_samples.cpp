@@ -1,15 +1,8 @@
-#include "answer_tables.hpp"
 #include "sensitivity_parts.hpp"
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <array>
 
 namespace launchsafe::kinds {
-
-using report::centimetres, report::Column, report::Plot, report::Table;
-using study::not_a_number;
 
 namespace {
 
@@ -19,10 +12,10 @@ constexpr double ignition_level = 0.95;
 constexpr std::array quantile_shares{0.025, 0.05, 0.5, 0.95, 0.975};
 
 /// Its place in the order of the draws; NaN where nothing is known.
-double ranked(const OutputSensitivity& output, const study::CaseAnswer& answer, double value) {
+double ranked(const OutputSensitivity& output, const CaseAnswer& answer, double value) {
   if (output.output != SensitivityOutput::critical_gap || !answer.completed()) return value;
-  if (answer.critical.kind == study::CriticalGapKind::all_ignite) return -infinite;
-  return answer.critical.kind == study::CriticalGapKind::all_safe ? infinite : value;
+  if (answer.critical.kind == CriticalGapKind::all_ignite) return -infinite;
+  return answer.critical.kind == CriticalGapKind::all_safe ? infinite : value;
 }
 
 struct OutputSample {
@@ -77,7 +70,7 @@ std::vector<const OutputSensitivity*> told_outputs(const SensitivityResult& resu
 /// "0.0278 cm", "ignites without a gap", "> 0.4 cm".
 std::string quantile_text(const SensitivityResult& result, double gap) {
   if (std::isnan(gap)) return "n/a";
-  if (std::isfinite(gap)) return report::in_words(gap, keys::significant(3, keys::centimetre));
+  if (std::isfinite(gap)) return in_words(gap, significant(3, centimetre));
   return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
 }
 
@@ -124,16 +117,21 @@ Histogram histogram_of(const OutputSample& sample, const ShownOutput& shown) {
   return histogram;
 }
 
+constexpr int panel_width = 620, panel_height = 460;
+
 Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) {
   const ShownOutput& shown = shown_output(output.output);
   const OutputSample sample = sample_of(result, output);
   const Histogram histogram = histogram_of(sample, shown);
-  Plot panel;
+  Plot panel{.title = title_of(result, output),
+             .x = {.label = shown.column.label()},
+             .y = {.label = "draws", .minimum = 0.0},
+             .width = panel_width,
+             .height = panel_height};
   if (histogram.counts.empty()) return panel;
   const double low = shown.value(sample.quantile(quantile_shares.front())),
                high = shown.value(sample.quantile(quantile_shares.back()));
   const std::string unit = " " + shown.column.form.unit;
-  panel.title = title_of(result, output);
   if (std::isfinite(low) && std::isfinite(high)) {
     panel.title +=
         fmt::format(": {} to {}{} in 95 %", report::significant(low, 3), report::significant(high, 3), unit);
@@ -144,9 +142,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
     panel.subtitle += fmt::format("; {} ignite without a gap", count);
   if (const std::size_t count = sample.none_ignites())
     panel.subtitle += fmt::format("; {} ignite at no gap", count);
-  panel.x.label = shown.column.label();
-  panel.y = {.label = "draws", .minimum = 0.0};
-  report::Series steps{.style = report::Style::steps, .colour = 0};
+  Series steps{.style = Style::steps, .colour = 0};
   steps.add(histogram.edge(0), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i)
     steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
@@ -155,10 +151,8 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   if (const double half = shown.value(sample.quantile(0.5)); std::isfinite(half))
     panel.vertical_lines.push_back({half, "half: " + report::significant(half, 3) + unit});
   if (output.output == SensitivityOutput::critical_gap)
-    panel.vertical_lines.push_back({report::shown_gap(result.study.study.gaps.front()),
+    panel.vertical_lines.push_back({shown_gap(result.study.study.gaps.front()),
                                     "the gap asked for: " + centimetres(result.study.study.gaps.front())});
-  panel.width = 620;
-  panel.height = 460;
   return panel;
 }
 
@@ -167,7 +161,12 @@ Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& outp
   constexpr std::size_t fewest = 4, steps = 40;
   const ShownOutput& shown = shown_output(output.output);
   const std::size_t all = sample_of(result, output).values.size();
-  Plot panel;
+  Plot panel{.title = {},
+             .x = {.label = "draws"},
+             .y = {.label = shown.column.label()},
+             .width = panel_width,
+             .height = panel_height,
+             .named_in_place = true};
   if (all < 2 * fewest) return panel;
   const auto at = [&](std::size_t draws, double share) {
     return shown.value(sample_of(result, output, draws).quantile(share));
@@ -177,20 +176,15 @@ Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& outp
     panel.title =
         fmt::format("its half moved by {} {} over the last {} draws",
                     report::significant(std::abs(now - before), 2), shown.column.form.unit, all - all / 2);
-  panel.x.label = "draws";
-  panel.y.label = shown.column.label();
-  panel.named_in_place = true;
   for (const auto& [label, share] :
        {std::pair{"2.5 %", quantile_shares.front()}, {"half", 0.5}, {"97.5 %", quantile_shares.back()}}) {
-    report::Series& line = panel.series.emplace_back(
-        report::Series{.label = label, .style = report::Style::line, .colour = share == 0.5 ? 0 : 7});
+    Series& line = panel.series.emplace_back(
+        Series{.label = label, .style = Style::line, .colour = share == 0.5 ? 0 : 7});
     for (std::size_t step = 0; step <= steps; ++step) {
       const std::size_t draws = fewest + (all - fewest) * step / steps;
       line.add(static_cast<double>(draws), at(draws, share));
     }
   }
-  panel.width = 620;
-  panel.height = 460;
   return panel;
 }
 
@@ -202,9 +196,8 @@ struct QuantileRow {
   double temperature;  ///< K
 };
 
-const report::Quantities<QuantileRow> quantile_quantities{
-    {"share", "share at or below", keys::significant(3, keys::percent), "Share of the draws.",
-     &QuantileRow::share},
+const Quantities<QuantileRow> quantile_quantities{
+    {"share", "share at or below", significant(3, percent), "Share of the draws.", &QuantileRow::share},
     {for_programs(quantity::critical_gap), &QuantileRow::gap},
     {quantity::critical_gap_reads_as, &QuantileRow::gap_reads_as},
     {quantity::temperature_max, [](const QuantileRow& row) { return report::known(row.temperature); }}};
@@ -217,21 +210,20 @@ struct HistogramRow {
   std::int64_t draws;
 };
 
-using keys::significant, keys::text;
-const report::Quantities<HistogramRow> histogram_quantities{
+const Quantities<HistogramRow> histogram_quantities{
     {quantity::output, &HistogramRow::shown, &ShownOutput::column, &Column::name},
-    {quantity::unit, &HistogramRow::shown, &ShownOutput::column, &Column::form, &keys::Form::unit},
+    {quantity::unit, &HistogramRow::shown, &ShownOutput::column, &Column::form, &Form::unit},
     {"from", "from", significant(6), "Begin of the interval.", &HistogramRow::from},
     {"to", "to", significant(6), "End of the interval.", &HistogramRow::to},
     {"reads_as", "without a number", text(), "What those have that have no number.", &HistogramRow::reads_as},
-    {"draws", "draws", keys::count(), "Draws of the interval.", &HistogramRow::draws}};
+    {"draws", "draws", count(), "Draws of the interval.", &HistogramRow::draws}};
 
 }  // namespace
 
-nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
+Row ignition_json(const SensitivityResult& result) {
   std::size_t igniting = 0, completed = 0, failed = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const study::CaseAnswer& answer = result.answers[i];
+    const CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
     ++(answer.completed() ? completed : failed);
     igniting += answer.completed() && answer.verdicts.front().ignition;
@@ -250,7 +242,7 @@ nlohmann::ordered_json ignition_json(const SensitivityResult& result) {
 }
 
 std::string samples_text(const SensitivityResult& result) {
-  report::Row facts = ignition_json(result);
+  Row facts = ignition_json(result);
   if (facts["completed"] == 0 && facts["failed"] == 0) return {};
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
@@ -283,7 +275,7 @@ Table quantile_table(const SensitivityResult& result) {
   std::vector<std::string> notes = said("sensitivity.draws", {{"is_fit", is_by_fit(result.study.study)}});
   if (!rows.empty())
     notes.insert(notes.begin(), {sample_note(result, *gap), sample_note(result, *temperature)});
-  return report::table_of("Quantiles over the draws from the inputs", quantile_quantities, rows, notes);
+  return table_of("Quantiles over the draws from the inputs", quantile_quantities, rows, notes);
 }
 
 Table histogram_table(const SensitivityResult& result) {
@@ -303,12 +295,12 @@ Table histogram_table(const SensitivityResult& result) {
     without_number(sample.none_ignites(), quantile_text(result, infinite));
     without_number(sample.missing, "not known");
   }
-  return report::table_of("Histogram of the draws", histogram_quantities, rows);
+  return table_of("Histogram of the draws", histogram_quantities, rows);
 }
 
 Plot histogram_plot(const SensitivityResult& result) {
   Plot plot;
-  const nlohmann::ordered_json ignition = ignition_json(result);
+  const Row ignition = ignition_json(result);
   plot.title = fmt::format("At {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
                            ignition["igniting"].get<std::size_t>(), ignition["completed"].get<std::size_t>());
   const auto add = [&plot](Plot panel) {

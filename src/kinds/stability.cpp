@@ -4,14 +4,7 @@
 #include "answer_tables.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
 namespace launchsafe::kinds {
-
-using keys::kelvin, report::Row;
-using study::CaseAnswer, study::GapVerdict, study::not_a_number, study::StudyFile;
 
 namespace {
 
@@ -30,7 +23,7 @@ constexpr double most_made_in_air = 1e-6;
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
 bool was_computed(const CaseAnswer& answer) {
-  return answer.outcome == study::RunOutcome::ran || answer.outcome == study::RunOutcome::reused;
+  return answer.outcome == RunOutcome::ran || answer.outcome == RunOutcome::reused;
 }
 
 // --- of a run by itself ---
@@ -43,7 +36,7 @@ Finding judge_reader(const StressCase& asked) {
   return {Outcome::caught, fmt::format("refused: \"{}\"; {}", asked.refused, asked.refusal)};
 }
 
-Finding judge_stopped(const StressCase& asked, const run::MechanicsResult& mechanics) {
+Finding judge_stopped(const StressCase& asked, const MechanicsResult& mechanics) {
   const std::string text =
       fmt::format("{} after {} steps{}", run::to_string(mechanics.status), mechanics.steps,
                   mechanics.reason.empty() ? "" : ", " + mechanics.reason);
@@ -60,8 +53,7 @@ std::string numbers_of(const run::CombustionHistory& c) {
 }
 
 /// Of a run through the ignition of one gap.
-Finding judge_burn(const StressCase& asked, const scene::Scene& scene, double gap,
-                   const run::CaseResult& result) {
+Finding judge_burn(const StressCase& asked, const Scene& scene, double gap, const run::CaseResult& result) {
   const auto& combustion = result.gaps.front().combustion;
   if (!combustion) return {Outcome::degraded, "nothing ignited"};
   const Sentences violations = violations_of({scene, result.mechanics, {gap}, &*combustion}, asked);
@@ -73,7 +65,7 @@ Finding judge_burn(const StressCase& asked, const scene::Scene& scene, double ga
 }
 
 /// Of a launch in which a gap closes.
-Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double gap,
+Finding judge_closing(const StressCase& asked, const Scene& scene, double gap,
                       const run::CaseResult& result) {
   const run::GapResult& closed = result.gaps.front();
   Sentences violations = violations_of({scene, result.mechanics, {gap}}, asked);
@@ -95,9 +87,9 @@ Finding judge_closing(const StressCase& asked, const scene::Scene& scene, double
 }
 
 /// Of the launch of one gap alone.
-Finding judge_gap(const StressCase& asked, const study::StudyCase& input, double gap,
+Finding judge_gap(const StressCase& asked, const StudyCase& input, double gap,
                   const run::CaseResult& result) {
-  const run::MechanicsResult& mechanics = result.mechanics;
+  const MechanicsResult& mechanics = result.mechanics;
   Finding finding{Outcome::caught, run::to_string(mechanics.status) + ", " + mechanics.reason};
   if (mechanics.status == run::RunStatus::completed)
     finding = (input.closing ? judge_closing : judge_burn)(asked, input.scene.scene, gap, result);
@@ -108,12 +100,11 @@ Finding judge_gap(const StressCase& asked, const study::StudyCase& input, double
   return finding;
 }
 
-Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mechanics,
-                      const CaseAnswer& answer) {
+Sentences reserves_of(const Scene& scene, const MechanicsResult& mechanics, const CaseAnswer& answer) {
   Sentences reserves = run::validity_warnings(scene, mechanics);
   if (const std::string limited = run::to_string(mechanics.limiters); !limited.empty())
     reserves.push_back("limiters acted: " + limited);
-  for (const study::GapVerdict& gap : answer.verdicts)
+  for (const GapVerdict& gap : answer.verdicts)
     if (!std::isfinite(gap.maximum.temperature)) reserves.emplace_back("a temperature is not a number");
   return reserves;
 }
@@ -121,7 +112,7 @@ Sentences reserves_of(const scene::Scene& scene, const run::MechanicsResult& mec
 /// `runs`: the launch, then those through the ignition of gaps or in which they close. How far one came that
 /// was cut off depends on the machine, and says nothing of the computation: that leaves the case without a
 /// finding.
-StressRun run_from(const StudyFile& study, std::size_t index, std::vector<study::FinishedRun>& runs) {
+StressRun run_from(const StudyFile& study, std::size_t index, std::vector<FinishedRun>& runs) {
   StressRun run;
   // After a launch that was stopped no other is begun.
   const std::size_t begun = runs.front().failure.empty() ? runs.size() : 1;
@@ -135,9 +126,9 @@ StressRun run_from(const StudyFile& study, std::size_t index, std::vector<study:
   const StressCase& asked = *std::ranges::find_if(
       settings_of<StabilitySettings>(study.study).cases,
       [index](const StressCase& each) { return each.run == index || each.against == index; });
-  const scene::Scene& scene = study.cases[index].scene.scene;
-  const run::MechanicsResult& mechanics = runs.front().result.mechanics;
-  study::Study judged = study.study;
+  const Scene& scene = study.cases[index].scene.scene;
+  const MechanicsResult& mechanics = runs.front().result.mechanics;
+  Study judged = study.study;
   judged.gaps = asked.gaps;
   run.answer = answer_of(judged, study.cases[index], mechanics);
   run.answer.outcome = runs.front().outcome;
@@ -162,7 +153,7 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
   const bool checked = compared && !row.deviations.empty() && row.asked.has("same-temperature");
   bool wrong = false;
   for (std::size_t i = 0; i < row.answer.verdicts.size(); ++i) {
-    const study::GapVerdict& gap = row.answer.verdicts[i];
+    const GapVerdict& gap = row.answer.verdicts[i];
     const double deviation = row.deviations.empty() ? not_a_number : row.deviations[i];
     const double uncertainty = gap.uncertainty.total();
     const bool off = checked && std::abs(deviation) > uncertainty;
@@ -171,8 +162,7 @@ Finding judge_launch(const StressCaseRow& row, const StressRun& run, bool compar
     if (off)
       faults.push_back(fmt::format("off the safe computation by {:.3g} K, more than {:.3g} K",
                                    std::abs(deviation), uncertainty));
-    if (gap.judgement.verdict != study::Verdict::indeterminate && (off || !run.violations.empty()))
-      wrong = true;
+    if (gap.judgement.verdict != Verdict::indeterminate && (off || !run.violations.empty())) wrong = true;
     numbers.push_back(fmt::format("{:.6g} cm: T max {:.1f} K, {}", 100.0 * gap.gap, gap.maximum.temperature,
                                   to_string(gap.judgement.verdict)));
     if (std::isfinite(deviation))
@@ -241,11 +231,10 @@ struct GapRow {
   std::optional<std::size_t> gap;
 
   const GapVerdict* verdict() const { return gap ? &of->answer.verdicts[*gap] : nullptr; }
-  const study::RunSummary* run() const { return gap ? &of->answer.run : nullptr; }
+  const RunSummary* run() const { return gap ? &of->answer.run : nullptr; }
 };
 
-using keys::text;
-const report::Quantities<StressCaseRow> stress_case_quantities{
+const Quantities<StressCaseRow> stress_case_quantities{
     {"group", "group", text(), "Group of the case.", &StressCaseRow::asked, &StressCase::group},
     {quantity::case_name, &StressCaseRow::asked, &StressCase::name},
     {"outcome", "outcome", text(), "held, degraded, caught, WRONG, or not computed.", outcome_text},
@@ -255,19 +244,18 @@ const report::Quantities<StressCaseRow> stress_case_quantities{
     {"finding", "finding", text(), "Why it came out so, and the numbers behind it.", finding_text}};
 
 /// What there is to say of a case and of one of its gaps, which may have none of the numbers.
-report::Quantities<GapRow> stability_quantities() {
-  using keys::fixed, study::RunSummary;
+Quantities<GapRow> stability_quantities() {
   const auto of_list = [](std::vector<double> StressCaseRow::*list) {
     return [list](const GapRow& row) {
       const std::vector<double>& values = row.of->*list;
-      return row.gap && *row.gap < values.size() ? values[*row.gap] : study::not_a_number;
+      return row.gap && *row.gap < values.size() ? values[*row.gap] : not_a_number;
     };
   };
-  return keys::joined<GapRow>(
+  return joined<GapRow>(
       {of_part<GapRow>(stress_case_quantities, &GapRow::of),
        {{quantity::status, &GapRow::run, &RunSummary::status},
-        {"end_time", "until", fixed(4, keys::millisecond), "Instant that the run reached.",
-         [](const GapRow& row) { return row.gap ? row.of->end_time : study::not_a_number; }},
+        {"end_time", "until", fixed(4, millisecond), "Instant that the run reached.",
+         [](const GapRow& row) { return row.gap ? row.of->end_time : not_a_number; }},
         {quantity::steps, &GapRow::run, &RunSummary::steps},
         {quantity::particles, &GapRow::run, &RunSummary::particles},
         {quantity::energy_drift, &GapRow::run, &RunSummary::energy_drift},
@@ -287,14 +275,14 @@ report::Quantities<GapRow> stability_quantities() {
 }
 
 /// A row for every gap of every case: what must hold, what became of it, why, and the numbers behind it.
-report::Table stability_table(const StabilityResult& result) {
+Table stability_table(const StabilityResult& result) {
   std::vector<GapRow> rows;
   for (const StressCaseRow& row : result.rows) {
     const std::size_t gaps = row.computed() ? row.answer.verdicts.size() : 0;
     for (std::size_t i = 0; i < gaps; ++i) rows.push_back({&row, i});
     if (gaps == 0) rows.push_back({&row, std::nullopt});
   }
-  return report::table_of("Stress cases", stability_quantities(), rows);
+  return table_of("Stress cases", stability_quantities(), rows);
 }
 
 std::size_t count_missing(const StabilityResult& result) {
@@ -304,10 +292,10 @@ std::size_t count_missing(const StabilityResult& result) {
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
 /// How many cases of every group came out how: a bar of parts, the first group on top.
-report::Plot outcome_plot(const StabilityResult& result) {
+Plot outcome_plot(const StabilityResult& result) {
   constexpr int green = 2, orange = 4, blue = 0, black = 6;
   constexpr int colours[] = {green, orange, blue, black};
-  report::Plot plot;
+  Plot plot;
   plot.x = {.label = "cases", .minimum = 0.0};
   std::map<std::string, double> places;
   std::map<std::pair<std::string, Outcome>, double> cases;
@@ -320,9 +308,8 @@ report::Plot outcome_plot(const StabilityResult& result) {
   for (const Outcome outcome : all_outcomes) {
     const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
     plot.title += (plot.title.empty() ? "" : ", ") + label;
-    report::Series& series = plot.series.emplace_back(report::Series{.label = label});
-    series.style = report::Style::filled_bars;
-    series.colour = colours[static_cast<std::size_t>(outcome)];
+    Series& series = plot.series.emplace_back(Series{
+        .label = label, .style = Style::filled_bars, .colour = colours[static_cast<std::size_t>(outcome)]});
     for (const auto& [group, place] : places) {
       const double count = cases[{group, outcome}], end = ends[group] + count;
       if (count > 0) series.add(end, place, std::exchange(ends[group], end), end);
@@ -332,19 +319,18 @@ report::Plot outcome_plot(const StabilityResult& result) {
   return plot;
 }
 
-std::string legend(const study::Study& study) {
+std::string legend(const Study& study) {
   Row invariants = Row::array();
   for (const Invariant& each : all_invariants())
     invariants.push_back({{"name", each.name}, {"words", each.words}});
   return fmt::format(
       "{}\nInvariants, with an uncertainty of T max of {} unless the case states its own:\n\n{}",
-      said_below("stability.outcomes"),
-      report::in_words(study.numerical_uncertainty, keys::significant(3, kelvin)),
+      said_below("stability.outcomes"), in_words(study.numerical_uncertainty, significant(3, kelvin)),
       said_below("stability.invariants", {{"invariants", invariants}}));
 }
 
-nlohmann::ordered_json counts_json(const StabilityResult& result) {
-  nlohmann::ordered_json counts;
+Row counts_json(const StabilityResult& result) {
+  Row counts;
   counts["cases"] = result.rows.size();
   for (const Outcome outcome : all_outcomes) counts[to_string(outcome)] = result.count(outcome);
   counts["not_as_expected"] = std::ranges::count_if(result.rows, [](const StressCaseRow& row) {
@@ -355,15 +341,15 @@ nlohmann::ordered_json counts_json(const StabilityResult& result) {
 }
 
 /// A row for every case that is not held, with the reason in a few words.
-report::Table not_held_table(const StabilityResult& result) {
+Table not_held_table(const StabilityResult& result) {
   std::vector<StressCaseRow> rows;
   std::ranges::copy_if(result.rows, std::back_inserter(rows),
                        [](const StressCaseRow& row) { return !row.is(Outcome::held); });
-  return report::table_of<StressCaseRow>(
+  return table_of<StressCaseRow>(
       "Not held",
       {{quantity::case_name, [](const StressCaseRow& row) { return row.asked.label(); }},
-       {"outcome", "outcome", keys::text(), "What became of it.", outcome_text},
-       {"why", "why", keys::text(), "Why.",
+       {"outcome", "outcome", text(), "What became of it.", outcome_text},
+       {"why", "why", text(), "Why.",
         [](const StressCaseRow& row) {  // without the numbers behind it
           const std::string text = finding_text(row);
           return text.substr(0, std::min(text.find(", "), text.find("; ")));
@@ -392,13 +378,12 @@ std::size_t StabilityResult::count(Outcome outcome) const {
       std::ranges::count_if(rows, [outcome](const StressCaseRow& row) { return row.is(outcome); }));
 }
 
-StabilityResult run_stability(const StudyFile& study, const study::StudyOptions& options) {
+StabilityResult run_stability(const StudyFile& study, const StudyOptions& options) {
   const auto compute = [&](StabilityResult& result) {
     std::vector<StressRun> runs(study.cases.size());
-    run_every_case(study, options, result.timing,
-                   [&](std::size_t i, std::vector<study::FinishedRun>& finished) {
-                     runs[i] = run_from(study, i, finished);
-                   });
+    run_every_case(study, options, result.timing, [&](std::size_t i, std::vector<FinishedRun>& finished) {
+      runs[i] = run_from(study, i, finished);
+    });
     for (const StressCase& asked : settings_of<StabilitySettings>(study.study).cases) {
       if (asked.run)
         result.rows.push_back(
@@ -422,21 +407,21 @@ std::string answer(const StabilityResult& result) {
   return fmt::format("{}", fmt::join(said("stability.answer", facts), "\n"));
 }
 
-report::Report report_of(const StabilityResult& result) {
-  report::Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
+Report report_of(const StabilityResult& result) {
+  Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.items = {
-      report::Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
-      report::ReportTable{not_held_table(result)},
+      Picture{"outcomes.svg", outcome_plot(result), "How many cases of every group came out how"},
+      ReportTable{not_held_table(result)},
       report::Statement{"All cases with their numbers: `stability.csv`.\n"},
-      report::ReportTable{stability_table(result), "stability.csv", "cases", report::Shown::file},
+      ReportTable{stability_table(result), "stability.csv", "cases", Shown::file},
       report::Statement{"## What the outcomes mean\n\n" + legend(result.study.study)},
   };
   report.json = study_json(result.study, report, {{"counts", counts_json(result)}});
   return report;
 }
 
-std::vector<report::ReportTable> stability_results() {
-  return {{report::table_of({}, stability_quantities(), {}), "stability.csv", "cases"}};
+std::vector<ReportTable> stability_results() {
+  return {{table_of({}, stability_quantities(), {}), "stability.csv", "cases"}};
 }
 
 }  // namespace launchsafe::kinds

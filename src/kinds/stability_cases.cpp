@@ -1,43 +1,35 @@
 // A study of kind stability as a file: its keys, and [[group]] with its cases.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "study_keys.hpp"
-
-#include <fmt/format.h>
 
 #include <array>
 
 namespace launchsafe::kinds {
 
 using keys::words_key;
-using study::Change, study::StudyFile;
 
 namespace {
 
-using scene::Dimension, scene::Expected, scene::Key, scene::SceneFile, scene::Standing;
-
 /// Of a [[group]], which its cases take over, and of a case.
 const std::vector<Key<StressCase>> case_keys{
-    scene::text_key("name", Standing::input, "Of the group, or of a case of it, unique in the group.", "load",
-                    &StressCase::name) |
-        scene::required(),
-    scene::text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
-                    "stability/thin_shell.toml", &StressCase::scene),
+    text_key("name", Standing::input, "Of the group, or of a case of it, unique in the group.", "load",
+             &StressCase::name) |
+        required(),
+    text_key("scene", Standing::input, "Path of a scene of its own, from the study file's folder.",
+             "stability/thin_shell.toml", &StressCase::scene),
     words_key("expect", Standing::input, "Outcomes that are expected; anything but WRONG if absent.",
               {"held", "degraded", "caught"}, &StressCase::expected),
     words_key("invariants", Standing::input, "What must hold; all if absent.",
               of_each(all_invariants(), &Invariant::name), &StressCase::invariants),
-    scene::text_key(
-        "refused", Standing::input,
-        "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
-        "at least 0", &StressCase::refused),
-    scene::number_key("caught_within", Dimension::count, scene::between(0, 1e9), Standing::input,
-                      "Steps within which a broken computation must be caught; 0: any number.",
-                      &StressCase::caught_within),
-    scene::number_key("numerical_uncertainty", Dimension::temperature_difference, scene::between(0, 1000),
-                      Standing::input,
-                      "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
-                      &StressCase::numerical_uncertainty),
+    text_key("refused", Standing::input,
+             "What the reader must say of the scene: then the case is one of the reader, and nothing runs.",
+             "at least 0", &StressCase::refused),
+    number_key("caught_within", Dimension::count, between(0, 1e9), Standing::input,
+               "Steps within which a broken computation must be caught; 0: any number.",
+               &StressCase::caught_within),
+    number_key("numerical_uncertainty", Dimension::temperature_difference, between(0, 1000), Standing::input,
+               "Uncertainty of the maximum temperature with these numerics; the study's if absent.",
+               &StressCase::numerical_uncertainty),
 };
 
 /// One case while it is read.
@@ -50,8 +42,7 @@ struct CaseReader {
 
   [[noreturn]] void refuse(const std::string& key, std::string found, std::string allowed) const {
     const toml::node* at = table.get(key);
-    throw Refusal{
-        scene::error_at(scene::place_of(at ? *at : table, study.file), "group.cases." + key, found, allowed)};
+    throw error_at(scene::place_of(at ? *at : table, study.file), "group.cases." + key, found, allowed);
   }
 };
 
@@ -66,10 +57,10 @@ Changed with_keys(const SceneFile& start, const std::vector<OverrideTable>& all,
     if (!node) continue;
     std::vector<Change> earlier = std::exchange(changes, {});
     if (!node->is_table())
-      refuse_if(scene::error_at(scene::place_of(*node, file), name, scene::found_text(*node),
-                                "a table of scene keys, written { key = value, ... }"));
-    for (const study::Leaf& leaf : study::leaves_as_written(*node->as_table())) {
-      const scene::Place place = scene::place_of(*leaf.node, file);
+      refuse_if(error_at(scene::place_of(*node, file), name, found_text(*node),
+                         "a table of scene keys, written { key = value, ... }"));
+    for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
+      const Place place = scene::place_of(*leaf.node, file);
       const auto key = taken(scene::describe_key(start, leaf.name, place), name);
       const auto value = scene::read_value(*leaf.node, key, file);
       if (!value) return scene::within(name, value.error());
@@ -97,7 +88,7 @@ SceneFile starting_scene(const CaseReader& reader) {
 std::size_t add_run(const CaseReader& reader, const std::string& label, SceneFile scene) {
   if (!scene::has_charge(scene.scene))
     reader.refuse("scene", "a scene without a charge", "a scene with a charge");
-  study::StudyCase made = study::case_of(label, std::move(scene));
+  StudyCase made = study::case_of(label, std::move(scene));
   const double own = reader.launch.numerical_uncertainty;
   made.numerical_uncertainty = std::isfinite(own) ? own : reader.study.study.numerical_uncertainty;
   reader.study.cases.add(std::move(made));
@@ -125,7 +116,7 @@ void read_runs(CaseReader& reader, const SceneFile& scene) {
   SceneFile own = scene;
   std::vector<double>& gaps = own.scene.surface.gaps;
   launch.gaps = gaps != study.scene.scene.surface.gaps ? gaps : study.study.gaps;
-  const bool closes = own.scene.surface.model == scene::GapModel::closing;
+  const bool closes = own.scene.surface.model == GapModel::closing;
   if (own.scene.coupling == scene::Coupling::two_way || closes) gaps = launch.gaps;
   launch.run = add_run(reader, launch.label(), std::move(own));
   const bool of_case = reader.table.contains("against");
@@ -140,7 +131,7 @@ void read_runs(CaseReader& reader, const SceneFile& scene) {
       taken(with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file));
   // A safe computation of the launch alone.
   safe.scene.coupling = scene::Coupling::one_way;
-  safe.scene.surface.model = scene::GapModel::reservoir;
+  safe.scene.surface.model = GapModel::reservoir;
   launch.against = add_run(reader, launch.label() + ", against", std::move(safe));
 }
 
@@ -167,9 +158,9 @@ void read_group(const toml::table& group, const StudySource& source, StudyFile& 
   taken(scene::read_table(group, case_keys, {"set", "against", "cases"}, study.file, defaults), "group");
   const toml::node* cases = group.get("cases");
   if (!cases || !cases->is_array_of_tables())
-    refuse_if(scene::error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
-                              cases ? scene::found_text(*cases) : "nothing; the key is missing",
-                              "an array of tables, written [{ name = \"...\", set = { ... } }, ...]"));
+    refuse_if(error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
+                       cases ? found_text(*cases) : "nothing; the key is missing",
+                       "an array of tables, written [{ name = \"...\", set = { ... } }, ...]"));
   for (const toml::node& element : *cases->as_array())
     read_case({study, source, group, *element.as_table(), defaults});
 }
@@ -177,14 +168,14 @@ void read_group(const toml::table& group, const StudySource& source, StudyFile& 
 void make_stability_cases(const StudySource& source, StudyFile& study) {
   if (!std::isfinite(study.study.numerical_uncertainty))
     refuse_at(study, "numerical_uncertainty", "nothing; the key is missing",
-              "the uncertainty that verdicts of the table are judged with: with a large one assumed "
-              "nothing could be WRONG");
+              "the uncertainty that verdicts of the table are judged with: with a large one assumed nothing "
+              "could be WRONG");
   const std::string allowed = "at least one table, written [[group]], with a case that has a run";
   for (const toml::table* group : taken(scene::tables_of(source.root, "group", study.file, allowed)))
     read_group(*group, source, study);
   if (study.cases.empty())
-    refuse_if(scene::error_at(place_of_key(study, source.root.contains("group") ? "group" : "kind"), "group",
-                              "no case that runs", allowed));
+    refuse_if(error_at(place_of_key(study, source.root.contains("group") ? "group" : "kind"), "group",
+                       "no case that runs", allowed));
 }
 
 /// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.
@@ -192,10 +183,11 @@ std::vector<Failure> stability_failures(const StabilityResult& result) {
   std::vector<Failure> failures;
   for (const StressCaseRow& row : result.rows) {
     if (row.is_as_expected()) continue;
-    const std::string unexpected = fmt::format("{}, which is not what the study expects: {}",
-                                               to_string(row.finding.outcome), row.finding.text);
-    add_failure(failures, row.asked.label(), row.answer.outcome,
-                row.computed() ? unexpected : row.answer.failure);
+    CaseAnswer answer = row.answer;
+    if (row.computed())
+      answer.failure = fmt::format("{}, which is not what the study expects: {}",
+                                   to_string(row.finding.outcome), row.finding.text);
+    add_failure(failures, row.asked.label(), answer);
   }
   return failures;
 }

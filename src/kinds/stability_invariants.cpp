@@ -104,10 +104,10 @@ void check_momentum(const CompletedRun& run, Sentences& violations) {
   for (const MonitorSample& sample : monitor)
     if (!(std::abs(sample.momentum) <= largest)) largest = std::abs(sample.momentum);
   const double scale = std::max(impulse.value + impulse.error, run::least_judged_impulse(run.scene));
-  require(largest <= momentum_share * scale, violations,
-          "the momentum relative to the co-moving frame reaches {:.3g} kg m/s; the load's impulse is "
-          "{:.4g} N s",
-          largest, impulse.value);
+  require(
+      largest <= momentum_share * scale, violations,
+      "the momentum relative to the co-moving frame reaches {:.3g} kg m/s; the load's impulse is {:.4g} N s",
+      largest, impulse.value);
 }
 
 double largest_energy(const std::vector<MonitorSample>& monitor) {

@@ -2,23 +2,12 @@
 
 #include "launchsafe/store/sha256.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
 namespace launchsafe::kinds {
-
-using study::Reference, study::Study, study::StudyFile;
 
 namespace {
 
-using scene::flag_key, scene::number_key, scene::required, scene::text_key;
-
-using scene::above_to, scene::any_number, scene::at_least, scene::between;
-using scene::Dimension, scene::Key, scene::plausibly, scene::Standing;
-
 template <class Number>
-Key<Study> study_number(std::string name, Dimension dimension, scene::Limits limits, std::string sentence,
+Key<Study> study_number(std::string name, Dimension dimension, Limits limits, std::string sentence,
                         Number Study::*member) {
   return number_key<Study>(std::move(name), dimension, limits, Standing::assumed, std::move(sentence),
                            member);
@@ -31,10 +20,10 @@ Key<Study> because_key(const std::string& name, double Study::*member) {
   Key<Study> key{keys::description(name + because_part, scene::KeyKind::text, Standing::input,
                                    "Where that comes from, in words; told beside verdicts.")};
   key.example = "mesh study of this shell, 2.5 and 1.25 mm";
-  key.set = [name, member](Study& study, const scene::Value& value) {
+  key.set = [name, member](Study& study, const Value& value) {
     study.stated.push_back({name, study.*member, std::get<std::string>(value)});
   };
-  key.get = [](const Study&) { return scene::Value(std::string{}); };
+  key.get = [](const Study&) { return Value(std::string{}); };
   return key;
 }
 
@@ -60,10 +49,8 @@ Key<Study> kind_key() {
   key.sentence = "What is asked.";
   key.required = true;
   for (const Kind& each : kinds()) key.words.push_back(each.traits.name);
-  key.set = [](Study& study, const scene::Value& value) {
-    study.kind = traits_of(std::get<std::string>(value));
-  };
-  key.get = [](const Study& study) { return scene::Value(study.kind.name); };
+  key.set = [](Study& study, const Value& value) { study.kind = traits_of(std::get<std::string>(value)); };
+  key.get = [](const Study& study) { return Value(study.kind.name); };
   return key;
 }
 
@@ -96,8 +83,8 @@ const std::vector<Key<Reference>> published_row_keys{
     flag_key("calibrated", Standing::input,
              "True where constants, and a load that is fitted, are fitted to it.", &Reference::calibrated),
     flag_key("selection", Standing::input,
-             "True where its other numbers were seen when a form of the model was picked; they are "
-             "held out if not.",
+             "True where its other numbers were seen when a form of the model was picked; they are held out "
+             "if not.",
              &Reference::selection),
 };
 
@@ -115,8 +102,8 @@ void read_shared_references(const StudySource& source, StudyFile& study) {
   const toml::table table = taken(scene::parse_toml(text, file));
   for (const auto& [each, node] : table)
     if (each.str() != table_name)
-      refuse_if(scene::error_at(scene::place_of(node, file), std::string(each.str()),
-                                "a key of another kind of file", fmt::format("only {}", tables)));
+      refuse_if(error_at(scene::place_of(node, file), std::string(each.str()),
+                         "a key of another kind of file", fmt::format("only {}", tables)));
   refuse_if(study::read_rows(table, table_name, published_row_keys, file, study, study.study.references));
 }
 
@@ -126,7 +113,7 @@ void check_references(const StudyFile& study) {
     for (std::size_t j = 0; j < i; ++j)
       if (std::abs(references[i].gap - references[j].gap) <= 1e-9)
         refuse_at(study, fmt::format("reference.{}.gap", i),
-                  scene::format_quantity(references[i].gap, Dimension::length) + " twice", "each gap once");
+                  format_quantity(references[i].gap, Dimension::length) + " twice", "each gap once");
   const study::ReferenceLine& line = study.study.reference_line;
   if (std::isnan(line.slope) == std::isnan(line.intercept)) return;
   const bool slope = !std::isnan(line.slope);
@@ -147,8 +134,8 @@ const StudyKeys& common_keys() {
                "scene_155mm.toml", &Study::scene) |
           required(),
       flag_key("demonstration", Standing::input,
-               "True where the shell, its launch or its firings are invented: every verdict and every "
-               "page says so, of studies that rest on such firings too.",
+               "True where the shell, its launch or its firings are invented: every verdict and every page "
+               "says so, of studies that rest on such firings too.",
                &Study::demonstration),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),
@@ -157,8 +144,8 @@ const StudyKeys& common_keys() {
 }
 
 StudyKeys gaps_keys() {
-  return {scene::list_key("gaps", Dimension::length, between(0, 0.01), Standing::assumed,
-                          "Gaps to judge; those of the scene if absent.", &Study::gaps)};
+  return {list_key("gaps", Dimension::length, between(0, 0.01), Standing::assumed,
+                   "Gaps to judge; those of the scene if absent.", &Study::gaps)};
 }
 
 StudyKeys search_keys() {
@@ -182,27 +169,27 @@ StudyKeys judging_keys() {
 }
 
 StudyKeys calibration_record_keys() {
-  return {text_key(
-      "calibration", Standing::input,
-      "Path of the record of a calibration, calibration.json, from the study file's folder; its load and "
-      "constants replace the scene's, and hold where the calibrated launch is the study's.",
-      "../reports/calibrate_table8/calibration.json", &Study::calibration_record)};
+  return {
+      text_key("calibration", Standing::input,
+               "Path of the record of a calibration, calibration.json, from the study file's folder; its "
+               "load and constants replace the scene's, and hold where the calibrated launch is the study's.",
+               "../reports/calibrate_table8/calibration.json", &Study::calibration_record)};
 }
 
 StudyKeys uncertainty_keys() {
   const StudyKeys records{
       text_key("accuracy", Standing::input,
-               "Path of the record of an accuracy study, accuracy.json, from the study file's folder; "
-               "it gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that "
-               "which was made of such a scene; one of gaps that close is of them alone.",
+               "Path of the record of an accuracy study, accuracy.json, from the study file's folder; it "
+               "gives the numerical uncertainty of every setting in it. Of several, \"a, b\", that which was "
+               "made of such a scene; one of gaps that close is of them alone.",
                "../reports/accuracy/accuracy_155mm.json", &Study::accuracy),
       study_number("setting_tolerance", Dimension::temperature_difference, above_to(0, 1000),
                    "Replaces the scene's numerics by the cheapest setting of the record that knows the "
                    "maximum temperature to this; on the command line --tolerance.",
                    &Study::setting_tolerance),
       text_key("model_form", Standing::input,
-               "Path of the record of other models, model_form.json, from the study file's folder; it "
-               "says how far they move the critical gap towards ignition.",
+               "Path of the record of other models, model_form.json, from the study file's folder; it says "
+               "how far they move the critical gap towards ignition.",
                "../reports/model_form/model_form.json", &Study::model_form_record),
   };
   return joined(
@@ -238,7 +225,7 @@ StudyKeys reference_keys() {
   };
 }
 
-std::string default_text(const scene::KeyDescription& key, const scene::Value& value) {
+std::string default_text(const KeyDescription& key, const Value& value) {
   const auto* number = std::get_if<double>(&value);
   const auto* numbers = std::get_if<std::vector<double>>(&value);
   const bool none = key.required || (number && !std::isfinite(*number)) ||
@@ -254,11 +241,10 @@ void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, co
   for (const std::string& name : uncertainties_in(keys)) {
     const toml::node* node = root.get(name);
     if (node == nullptr || (node->is_table() && !node->as_table()->empty())) continue;
-    const std::string value = node->is_string() ? scene::found_text(*node) : "\"1 K\"";
-    refuse_if(scene::error_at(scene::place_of(*node, file), name,
-                              scene::found_text(*node) + " without a source",
-                              "a value with where it comes from, in words",
-                              fmt::format("{{ value = {}, because = \"...\" }}", value)));
+    const std::string value = node->is_string() ? found_text(*node) : "\"1 K\"";
+    refuse_if(error_at(scene::place_of(*node, file), name, found_text(*node) + " without a source",
+                       "a value with where it comes from, in words",
+                       fmt::format("{{ value = {}, because = \"...\" }}", value)));
   }
 }
 
@@ -284,17 +270,15 @@ void read_references(const StudySource& source, StudyFile& study) {
   check_references(study);
 }
 
-scene::Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
+Expected<std::vector<Reference>> read_references(const std::filesystem::path& file) {
   // A study's file would be told by its path from the study's folder.
   if (const auto text = scene::read_text_file(file); !text) return text.error();
-  StudyFile study;
-  study.study.references_file = file.string();
-  try {
+  return scene::caught([&] {
+    StudyFile study;
+    study.study.references_file = file.string();
     read_references({toml::table(), {}, {}, {}}, study);
-  } catch (const Refusal& refusal) {
-    return refusal.error;
-  }
-  return study.study.references;
+    return study.study.references;
+  });
 }
 
 }  // namespace launchsafe::kinds

@@ -2,29 +2,36 @@
 // from, and [[vary]].
 #pragma once
 
-#include "launchsafe/kinds/kind.hpp"
+#include "answer_tables.hpp"
+#include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 
 namespace launchsafe::kinds {
 
-using StudyKeys = std::vector<scene::Key<study::Study>>;
+// What all readers of study files speak of.
+using scene::above, scene::above_to, scene::any_number, scene::at_least, scene::between, scene::plausibly,
+    scene::required, scene::usually;
+using scene::allowed_text, scene::error_at, scene::found_text;
+using scene::Dimension, scene::Key, scene::KeyDescription, scene::Place, scene::Standing, scene::Value;
+using scene::Expected, scene::Limits, scene::range_key, scene::SceneFile;
+using scene::flag_key, scene::list_key, scene::number_key, scene::text_key, scene::word_key;
+using study::Change, study::Leaf;
 
-/// What is wrong with a study file. Its readers throw it; `read_study_table` and `read_references` give it
-/// back as a value.
-struct Refusal {
-  scene::InputError error;
-};
+using StudyKeys = std::vector<Key<Study>>;
+
+// Readers of study files throw what is wrong; `read_study_table` and `read_references` give it back as a
+// value.
 inline void refuse_if(const study::Fault& fault) {
-  if (fault) throw Refusal{*fault};
+  if (fault) throw *fault;
 }
-[[noreturn]] inline void refuse_at(const study::StudyFile& study, const std::string& key, std::string found,
+[[noreturn]] inline void refuse_at(const StudyFile& study, const std::string& key, std::string found,
                                    std::string allowed, std::string suggestion = {}) {
-  throw Refusal{fault_at(study, key, std::move(found), std::move(allowed), std::move(suggestion))};
+  throw fault_at(study, key, std::move(found), std::move(allowed), std::move(suggestion));
 }
 /// What was read, or else refused; `table`: of the study file, in which it stands.
 template <class Read>
-Read taken(scene::Expected<Read> read, const std::string& table = {}) {
-  if (!read) throw Refusal{table.empty() ? read.error() : scene::within(table, read.error())};
+Read taken(Expected<Read> read, const std::string& table = {}) {
+  if (!read) throw table.empty() ? read.error() : scene::within(table, read.error());
   return std::move(*read);
 }
 
@@ -37,33 +44,29 @@ StudyKeys gaps_keys(), search_keys(), judging_keys(), calibration_record_keys(),
 /// Refuses an uncertainty that is stated by hand as a bare number, "1 K".
 void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, const std::string& file);
 /// Likewise one without a source in words, and a source without its value.
-void check_stated_uncertainties(const StudyKeys& keys, const study::StudyFile& study);
-
-using keys::joined;
+void check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study);
 
 /// The settings of a kind as keys of the study that holds them.
 template <class Settings>
-StudyKeys own_keys(const std::vector<scene::Key<Settings>>& keys) {
+StudyKeys own_keys(const std::vector<Key<Settings>>& keys) {
   StudyKeys result;
-  for (const scene::Key<Settings>& key : keys) {
-    scene::Key<study::Study> lifted{scene::KeyDescription(key), {}, {}};
-    lifted.set = [key](study::Study& study, const scene::Value& value) {
-      key.set(settings_of<Settings>(study), value);
-    };
-    lifted.get = [key](const study::Study& study) { return key.get(settings_of<Settings>(study)); };
+  for (const Key<Settings>& key : keys) {
+    Key<Study> lifted{KeyDescription(key), {}, {}};
+    lifted.set = [key](Study& study, const Value& value) { key.set(settings_of<Settings>(study), value); };
+    lifted.get = [key](const Study& study) { return key.get(settings_of<Settings>(study)); };
     result.push_back(std::move(lifted));
   }
   return result;
 }
 
 /// The default of a key for documentation; empty for a value that stands for none.
-std::string default_text(const scene::KeyDescription& key, const scene::Value& value);
+std::string default_text(const KeyDescription& key, const Value& value);
 
 /// A table of a study file with the keys of one of its entries, for documentation.
 template <class Owner>
-StudyTable study_table_of(const std::string& name, const std::vector<scene::Key<Owner>>& keys) {
+StudyTable study_table_of(const std::string& name, const std::vector<Key<Owner>>& keys) {
   StudyTable table{name, {}};
-  for (const scene::Key<Owner>& key : keys) {
+  for (const Key<Owner>& key : keys) {
     scene::DocumentedKey entry{key, default_text(key, key.default_value())};
     entry.description.name = name + "." + key.name;
     table.keys.push_back(std::move(entry));
@@ -75,7 +78,7 @@ StudyTable study_table_of(const std::string& name, const std::vector<scene::Key<
 StudyTable reference_table(), cited_limit_table(), vary_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
-void read_references(const StudySource& source, study::StudyFile& study);
+void read_references(const StudySource& source, StudyFile& study);
 
 /// Scene keys with other values than the scene has: a table of the study file, by its name there. No node:
 /// none.
@@ -85,34 +88,30 @@ struct OverrideTable {
 };
 
 /// kinds::read_study of a table; `file` is named in errors.
-scene::Expected<study::StudyFile> read_study_table(const StudySource& source, const std::string& file,
-                                                   std::size_t most_cases);
+Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
+                                     std::size_t most_cases);
 
 /// Reads a scene by its path from the study file's folder; the fault of a missing one is at `key`.
-scene::SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
-                                  const std::string& key, const scene::Place& place);
+SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
+                           const std::string& key, const Place& place);
 
 /// Reads the scene that the study names, then the overrides, in their order, then the constants of a
 /// calibration, then the numerics that a tolerance (K, of T max) picks from the accuracy records that the
 /// study names, which are returned.
 study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
-                                    study::StudyFile& study);
+                                    StudyFile& study);
 
 /// The acceptances of a table: those of scene keys go to the study's scene, those of its own keys beside what
 /// it states. Needs the overrides.
-void settle_acceptances(const toml::table& table, const StudyKeys& keys, study::StudyFile& study);
+void settle_acceptances(const toml::table& table, const StudyKeys& keys, StudyFile& study);
 
 /// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
 /// kind does not admit is refused.
-void read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study);
+void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study);
 
-/// One of the variants of an entry as read, without its tables.
-struct VariantText {
-  std::string name, description, calibration;
-};
-std::vector<scene::Key<VariantText>> variant_keys();
-
+/// Of one of the variants of an entry, besides its tables.
+std::vector<Key<Variant>> variant_keys();
 /// The tables of the entry with variants.
-std::vector<const toml::table*> variants_in(const StudySource& source, const study::StudyFile& study);
+std::vector<const toml::table*> variants_in(const StudySource& source, const StudyFile& study);
 
 }  // namespace launchsafe::kinds

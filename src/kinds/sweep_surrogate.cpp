@@ -2,21 +2,19 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "study_keys.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::kinds {
 
-using report::number, report::Row, report::shown_value;
-using study::Axis, study::StudyFile, study::SurrogateOutput, study::SurrogateRecord;
+using report::number;
+using study::SurrogateOutput, study::SurrogateRecord;
 
 namespace {
 
 /// Shown numbers are SI times the scale.
-double scale_of(const keys::Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
+double scale_of(const Form& form) { return shown_value(1.0, form) - shown_value(0.0, form); }
 
 Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_t input,
                const math::Interval& range) {
-  const report::ShownKey key = report::shown_axes(study.study)[input];
+  const ShownKey key = report::shown_axes(study.study)[input];
   const math::Distribution& distribution = record.inputs.distributions[input];
   return {{"name", key.name},
           {"heading", key.heading},
@@ -35,7 +33,7 @@ Row input_json(const SurrogateRecord& record, const StudyFile& study, std::size_
 
 Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
   const study::Surrogate surrogate(record, output);
-  const report::Column column = shown(output);
+  const Column column = shown(output);
   const math::FittedForm& form =
       std::visit([](const auto& fit) -> const math::FittedForm& { return fit.form(); }, surrogate.fit());
   Row json{{"name", output.name},
@@ -60,8 +58,7 @@ Row output_json(const SurrogateRecord& record, const SurrogateOutput& output) {
 
 /// The page with the fit as JSON, in which no tag of the page can end.
 std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
-  Row fit{{"gap_cm", report::shown_gap(record.gap)},
-          {"largest_gap_cm", report::shown_gap(study.study.largest_gap)}};
+  Row fit{{"gap_cm", shown_gap(record.gap)}, {"largest_gap_cm", shown_gap(study.study.largest_gap)}};
   const std::vector<math::Interval> ranges = ranges_of(record);
   for (std::size_t input = 0; input < record.keys.size(); ++input)
     fit["inputs"].push_back(input_json(record, study, input, ranges[input]));
@@ -100,7 +97,7 @@ math::Distribution range_of_axis(const Axis& axis) {
 }
 
 void check_axis(const StudyFile& study, const Axis& axis) {
-  if (axis.key.dimension == scene::Dimension::count)
+  if (axis.key.dimension == Dimension::count)
     refuse_at(study, axis.study_key, axis.key.name + ", a whole number, in a study with surrogate = true",
               "a key that may take any number between two");
   // What a launch may change by a leap with.
@@ -125,7 +122,7 @@ SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t 
                          .values = of_each(result.answers, [&](const auto& answer) {
                            return temperature_of(answer, gap, inert);
                          })};
-  if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", report::shown_gap(gaps[gap]));
+  if (gaps.size() > 1) output.name += fmt::format("_{:.6g}cm", shown_gap(gaps[gap]));
   return output;
 }
 
@@ -137,7 +134,7 @@ SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
   return output;
 }
 
-const report::Quantities<SurrogateOutput> surrogate_quantities = keys::joined<SurrogateOutput>(
+const Quantities<SurrogateOutput> surrogate_quantities = joined<SurrogateOutput>(
     {{{quantity::output, &SurrogateOutput::name},
       {quantity::unit, [](const SurrogateOutput& output) { return shown(output).form.unit; }}},
      fit_quantities(),
@@ -145,16 +142,14 @@ const report::Quantities<SurrogateOutput> surrogate_quantities = keys::joined<Su
 
 }  // namespace
 
-report::Column shown(const SurrogateOutput& output) {
-  if (output.name == quantity::critical_gap.name)
-    return {output.name, "critical gap", keys::fixed(5, keys::centimetre)};
-  std::string heading = "T max at a gap of " + report::centimetres(output.gap);
+Column shown(const SurrogateOutput& output) {
+  if (output.name == quantity::critical_gap.name) return {output.name, "critical gap", fixed(5, centimetre)};
+  std::string heading = "T max at a gap of " + centimetres(output.gap);
   if (output.inert) heading += ", without reaction";
-  return {output.name, std::move(heading), keys::fixed(1, keys::kelvin)};
+  return {output.name, std::move(heading), fixed(1, kelvin)};
 }
 
-report::Quantities<SurrogateOutput> fit_quantities() {
-  using keys::count, keys::significant, keys::text;
+Quantities<SurrogateOutput> fit_quantities() {
   const auto of_fit = [](auto get) {
     return [=](const SurrogateOutput& output) {
       return output.fit.chaos.points > 0 ? std::optional(get(output)) : std::nullopt;
@@ -177,7 +172,7 @@ report::Quantities<SurrogateOutput> fit_quantities() {
           {"process_leave_one_out", "of the process", significant(2), "The same of the Gaussian process.",
            error_of([](const SurrogateOutput& output) {
              const math::GaussianProcess& process = output.fit.process;
-             return process.reason.empty() ? process.leave_one_out : study::not_a_number;
+             return process.reason.empty() ? process.leave_one_out : not_a_number;
            })},
           {"held_out", "held out", count(), "Evaluations that were not fitted.",
            of_fit([](const SurrogateOutput& output) { return output.error.launches; })},
@@ -200,7 +195,7 @@ void check_sweep_surrogate(const StudyFile& study) {
   if (study.study.gaps_by_cooling)
     refuse_at(study, "surrogate", "true with gap.opens_by_cooling", "surrogate = false, or gap.thickness");
   // A fit over what the reservoir says would answer for gaps of which it is not the model.
-  if (study.scene.scene.surface.model != scene::GapModel::reservoir)
+  if (study.scene.scene.surface.model != GapModel::reservoir)
     refuse_at(study, "surrogate", "true for a gap that closes",
               "surrogate = false, or gap.model = \"reservoir\"");
   if (axes.empty())
@@ -247,9 +242,9 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
   return record;
 }
 
-report::Table surrogate_table(const SurrogateRecord& record) {
-  return report::table_of("What the fit of these cases misses", surrogate_quantities, record.outputs,
-                          said("critical_gap.surrogate"));
+Table surrogate_table(const SurrogateRecord& record) {
+  return table_of("What the fit of these cases misses", surrogate_quantities, record.outputs,
+                  said("critical_gap.surrogate"));
 }
 
 }  // namespace launchsafe::kinds

@@ -1,81 +1,71 @@
 // [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, with a range
 // and a count, or with a distribution; or a calibration whose constants vary together; or named variants.
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "study_keys.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::kinds {
 
 namespace {
 
 using math::Distribution;
-using scene::Dimension, scene::KeyDescription, scene::Place;
 
 constexpr const char *table_name = "vary", *variants_key = "variants", *calibration_key = "calibration";
 
 struct VaryText {
   std::string name;
-  scene::KeyDescription key;   ///< of the scene
+  KeyDescription key;          ///< of the scene
   std::vector<double> values;  ///< SI
   int count = 0;               ///< values in the range
   /// SI; what is not given is infinite or NaN. `range` is its lower and upper end.
   math::Distribution distribution{math::Distribution::Kind::uniform, -std::numeric_limits<double>::infinity(),
-                                  std::numeric_limits<double>::infinity(), study::not_a_number,
-                                  study::not_a_number};
+                                  std::numeric_limits<double>::infinity(), not_a_number, not_a_number};
 };
 
-std::vector<scene::Key<Distribution>> distribution_keys(const KeyDescription& scene_key) {
+std::vector<Key<Distribution>> distribution_keys(const KeyDescription& scene_key) {
   using Kind = Distribution::Kind;
   const Dimension dimension = scene_key.dimension;
   return {
-      scene::range_key("range", dimension, scene_key.limits, scene::Standing::input,
-                       "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
-                       &Distribution::lower, &Distribution::upper),
-      scene::word_key(
-          "distribution", scene::Standing::input,
-          "How values are distributed that are not known exactly; of kind sensitivity.",
-          {{"uniform", Kind::uniform}, {"log-uniform", Kind::log_uniform}, {"normal", Kind::normal}},
-          &Distribution::kind),
-      scene::number_key("mean", dimension, scene::any_number(), scene::Standing::input,
-                        "Mean of a normal before it is cut off, in a unit of the key.",
-                        &Distribution::centre),
-      scene::number_key("deviation", scene::difference_of(dimension), scene::above(0), scene::Standing::input,
-                        "Standard deviation of a normal before it is cut off, in a unit of the key.",
-                        &Distribution::deviation),
+      range_key("range", dimension, scene_key.limits, Standing::input,
+                "Least and greatest value, in a unit of the key; of a normal, where it is cut off.",
+                &Distribution::lower, &Distribution::upper),
+      word_key("distribution", Standing::input,
+               "How values are distributed that are not known exactly; of kind sensitivity.",
+               {{"uniform", Kind::uniform}, {"log-uniform", Kind::log_uniform}, {"normal", Kind::normal}},
+               &Distribution::kind),
+      number_key("mean", dimension, any_number(), Standing::input,
+                 "Mean of a normal before it is cut off, in a unit of the key.", &Distribution::centre),
+      number_key("deviation", scene::difference_of(dimension), above(0), Standing::input,
+                 "Standard deviation of a normal before it is cut off, in a unit of the key.",
+                 &Distribution::deviation),
   };
 }
 
 /// The keys of an entry that varies this key of a scene.
-std::vector<scene::Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
-  return keys::joined<VaryText>(
-      {{scene::text_key(
-            "key", scene::Standing::input,
-            "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
-            "peak_pressure", &VaryText::name) |
-            scene::required(),
-        scene::list_key("values", scene_key.dimension, scene_key.limits, scene::Standing::input,
-                        "Its values, in a unit of the key; every combination with other keys is a case.",
-                        &VaryText::values),
-        scene::number_key("count", Dimension::count, scene::between(2, 1e6), scene::Standing::input,
-                          "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
+std::vector<Key<VaryText>> vary_keys(const KeyDescription& scene_key) {
+  return joined<VaryText>(
+      {{text_key("key", Standing::input,
+                 "What varies: peak_pressure, crack_radius, flaw_size, or a scene key that takes one number.",
+                 "peak_pressure", &VaryText::name) |
+            required(),
+        list_key("values", scene_key.dimension, scene_key.limits, Standing::input,
+                 "Its values, in a unit of the key; every combination with other keys is a case.",
+                 &VaryText::values),
+        number_key("count", Dimension::count, between(2, 1e6), Standing::input,
+                   "Instead of values: how many, evenly spaced over the range.", &VaryText::count)},
        keys::keys_of_part("", &VaryText::distribution, distribution_keys(scene_key))});
 }
 
 /// Of the entry that names the record of a calibration, by its path.
-const std::vector<scene::Key<VaryText>> vary_record_keys{
-    scene::text_key("calibration", scene::Standing::input,
-                    "Instead of the other keys: the calibration.json whose fitted constants vary "
-                    "together, by the covariance of its fit; of kind sensitivity.",
-                    "../reports/calibrate_table8/calibration.json", &VaryText::name)};
+const std::vector<Key<VaryText>> vary_record_keys{
+    text_key("calibration", Standing::input,
+             "Instead of the other keys: the calibration.json whose fitted constants vary together, by the "
+             "covariance of its fit; of kind sensitivity.",
+             "../reports/calibrate_table8/calibration.json", &VaryText::name)};
 
 /// One entry while it is read.
 struct VaryReader {
-  study::StudyFile& study;
+  StudyFile& study;
   const toml::table& table;
   std::size_t index;
   VaryText text = {};
@@ -91,14 +81,13 @@ struct VaryReader {
   }
   [[noreturn]] void refuse(const std::string& key, std::string found, std::string allowed,
                            std::string suggestion = {}) const {
-    throw Refusal{scene::error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed),
-                                  std::move(suggestion))};
+    throw error_at(place_of(key), "vary." + key, std::move(found), std::move(allowed), std::move(suggestion));
   }
   /// Refuses an entry such as `what`, which needs this key, without it.
   void need(const std::string& key, const std::string& what) const {
     if (!given(key))
       refuse(key, fmt::format("nothing; {} needs it", what),
-             scene::allowed_text(*scene::find_key(vary_keys(text.key), key)));
+             allowed_text(*scene::find_key(vary_keys(text.key), key)));
   }
 };
 
@@ -122,8 +111,7 @@ void check_given(const VaryReader& reader) {
 }
 
 std::string range_text(double lower, double upper, Dimension dimension) {
-  return fmt::format("{} to {}", scene::format_quantity(lower, dimension),
-                     scene::format_quantity(upper, dimension));
+  return fmt::format("{} to {}", format_quantity(lower, dimension), format_quantity(upper, dimension));
 }
 
 /// A normal without a range must in practice stay within the limits of its key. The range to write for one
@@ -140,7 +128,7 @@ void check_reach(const VaryReader& reader) {
   reader.refuse("deviation",
                 fmt::format("values of {} within {:g} deviations, outside the limits of {}",
                             range_text(lower, upper, key.dimension), deviations_within_limits, key.name),
-                "a range that cuts the normal off: " + scene::allowed_text(key),
+                "a range that cuts the normal off: " + allowed_text(key),
                 from < to && may_be(from) && may_be(to)
                     ? fmt::format("range = \"{}\"", range_text(from, to, key.dimension))
                     : "");
@@ -159,8 +147,8 @@ void check_distribution(const VaryReader& reader) {
   if (!math::is_valid(of))
     reader.refuse("range",
                   fmt::format("{}, where a normal of mean {} and deviation {} has no share", range,
-                              scene::format_quantity(of.centre, dimension),
-                              scene::format_quantity(of.deviation, scene::difference_of(dimension))),
+                              format_quantity(of.centre, dimension),
+                              format_quantity(of.deviation, scene::difference_of(dimension))),
                   "a range near the mean");
 }
 
@@ -170,7 +158,7 @@ void check_distribution(const VaryReader& reader) {
 KeyDescription read_scene_key(VaryReader& reader, const Varied& admitted) {
   const toml::node* node = reader.table.get("key");
   const KeyDescription description = *scene::find_key(vary_keys({}), "key");
-  if (!node) reader.refuse("key", "nothing; the key is missing", scene::allowed_text(description));
+  if (!node) reader.refuse("key", "nothing; the key is missing", allowed_text(description));
   const std::string name =
       std::get<std::string>(taken(scene::read_value(*node, description, reader.study.file), table_name));
   const Place place = scene::place_of(*node, reader.study.file);
@@ -214,7 +202,7 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
       taken(scene::read_table(reader.table, vary_keys(key), {}, reader.study.file, reader.text), table_name);
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
   refuse_if(check_free(reader.study, key.name, reader.place_of("key"), "vary.key"));
-  study::Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};
+  Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};
   if (admitted.distributions) {
     for (const char* given : {"values", "count"})
       if (reader.given(given))
@@ -236,9 +224,9 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
 /// Entries of other forms have no other key.
 void check_variants(const VaryReader& reader, const Varied& admitted) {
   if (!admitted.variants)
-    refuse_if(scene::error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file),
-                              "vary.variants", "variants in a study of kind " + reader.study.study.kind.name,
-                              "a key of the scene; variants are compared by kind comparison"));
+    refuse_if(error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file), "vary.variants",
+                       "variants in a study of kind " + reader.study.study.kind.name,
+                       "a key of the scene; variants are compared by kind comparison"));
   taken(scene::read_described(reader.table, {}, {variants_key}, reader.study.file), table_name);
 }
 
@@ -246,14 +234,14 @@ void check_variants(const VaryReader& reader, const Varied& admitted) {
 
 /// Whether the study's scene and keys allow constants of a record to vary.
 void check_place_of_record(const VaryReader& reader) {
-  const study::StudyFile& study = reader.study;
+  const StudyFile& study = reader.study;
   if (settings_of<SensitivitySettings>(study.study).correlated)
     reader.refuse("calibration", "a second calibration", "one calibration among what varies");
   if (!study.study.calibration_record.empty())
     reader.refuse("calibration", "a calibration beside that of the study",
                   "one of both: the constants vary around those of the record that [[vary]] names",
                   "leave out calibration = \"" + study.study.calibration_record + "\"");
-  const scene::Load& load = study.scene.scene.load;
+  const Load& load = study.scene.scene.load;
   if (!load.curve_time.empty() || load.shape != scene::LoadShape::bell)
     reader.refuse("calibration",
                   fmt::format("constants of a bell for a scene whose load is {}",
@@ -263,13 +251,10 @@ void check_place_of_record(const VaryReader& reader) {
 }
 
 /// The record, with a covariance.
-study::CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
-  const std::string& name = reader.text.name;
+CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
-  const std::string text =
-      taken(study::read_named_file(reader.study, folder, reader.study_key("calibration"), name, wanted));
-  auto record = taken(study::parse_calibration_record(text, (folder / name).string()));
-  reader.study.records.push_back(store::sha256(text));
+  auto record = taken(study::read_named_record(reader.study, folder, reader.study_key("calibration"),
+                                               reader.text.name, wanted, study::parse_calibration_record));
   if (!record.failure.empty())
     reader.refuse("calibration", "a record without constants: " + record.failure, wanted);
   if (record.covariance.empty())
@@ -284,13 +269,13 @@ void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
   const std::string study_key = reader.study_key("calibration");
   reader.study.places[study_key] = place;
   check_place_of_record(reader);
-  const study::CalibrationRecord record = read_covariance(reader, folder);
+  const CalibrationRecord record = read_covariance(reader, folder);
   constexpr std::size_t count = study::fitted_keys.size();
   auto factor = math::covariance_factor(record.covariance, count);
   if (!factor)
     reader.refuse("calibration", "a record whose covariance is not positive definite",
                   "the record of a calibration whose fit is not singular");
-  study::Study& study = reader.study.study;
+  Study& study = reader.study.study;
   settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
   for (std::size_t i = 0; i < count; ++i) {
     const std::string key_name = study::fitted_keys[i];
@@ -305,19 +290,18 @@ void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::vector<scene::Key<VariantText>> variant_keys() {
-  using scene::Standing;
+std::vector<Key<Variant>> variant_keys() {
   return {
-      scene::text_key("name", Standing::input, "What it is called in tables; each once.", "bonded charge",
-                      &VariantText::name) |
-          scene::required(),
-      scene::text_key("description", Standing::input, "What it is, a phrase.",
-                      "the charge is glued to the wall", &VariantText::description),
-      scene::text_key("calibration", Standing::input,
-                      "Path of the record of its own calibration, from the study file's folder; the study's "
-                      "if absent, or where the record found no constants. Its scene keys are in the table "
-                      "set, and what it accepts in accept.",
-                      "../reports/calibrate_table8/calibration.json", &VariantText::calibration),
+      text_key("name", Standing::input, "What it is called in tables; each once.", "bonded charge",
+               &Variant::name) |
+          required(),
+      text_key("description", Standing::input, "What it is, a phrase.", "the charge is glued to the wall",
+               &Variant::description),
+      text_key("calibration", Standing::input,
+               "Path of the record of its own calibration, from the study file's folder; the study's if "
+               "absent, or where the record found no constants. Its scene keys are in the table set, and "
+               "what it accepts in accept.",
+               "../reports/calibrate_table8/calibration.json", &Variant::record),
   };
 }
 
@@ -330,7 +314,7 @@ StudyTable vary_table() {
   return table;
 }
 
-void read_vary(const StudySource& source, const Varied& admitted, study::StudyFile& study) {
+void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study) {
   const auto tables =
       taken(admitted.needed.empty() ? study::tables_of(source.root, table_name, study.file)
                                     : some_tables_of(source.root, table_name, study, admitted.needed));
@@ -345,20 +329,20 @@ void read_vary(const StudySource& source, const Varied& admitted, study::StudyFi
   }
 }
 
-std::vector<const toml::table*> variants_in(const StudySource& source, const study::StudyFile& study) {
+std::vector<const toml::table*> variants_in(const StudySource& source, const StudyFile& study) {
   const toml::node* entries = source.root.get(table_name);
   std::vector<const toml::table*> variants;
   for (const toml::node& entry : *entries->as_array()) {
     const toml::table& table = *entry.as_table();
     if (!table.contains(variants_key)) continue;
     if (!variants.empty())
-      refuse_if(scene::error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                                "all variants in one [[vary]]"));
+      refuse_if(error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
+                         "all variants in one [[vary]]"));
     variants = taken(study::tables_of(table, variants_key, study.file), table_name);
   }
   if (variants.empty())
-    refuse_if(scene::error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
-                              "a [[vary]] with variants, each with a name and what it changes"));
+    refuse_if(error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
+                       "a [[vary]] with variants, each with a name and what it changes"));
   return variants;
 }
 

@@ -22,17 +22,12 @@ struct FiringSettings {
   study::FiringPrior prior_about(const surface::SurfaceConstants& centre) const;
 };
 
-/// The mechanical run of one mesh, or of one peak pressure and temperature.
-struct CalibrationRun {
+/// The mechanical run of one mesh, or of one peak pressure and temperature; its failure is also why a run
+/// that completed is no evidence.
+struct CalibrationRun : study::FinishedRun {
   study::StudyCase input;
-  run::MechanicsResult mechanics = {};
-  study::RunOutcome outcome = study::RunOutcome::ran;
-  std::string failure = {};  ///< why it is no evidence, with no mechanics to calibrate on; empty where it is
-  void take(const study::FinishedRun& run) {
-    outcome = run.outcome;
-    failure = run.failure;
-    mechanics = run.result.mechanics;
-  }
+  explicit CalibrationRun(const study::StudyCase& of) : input(of) { outcome = study::RunOutcome::ran; }
+  const run::MechanicsResult& mechanics() const { return result.mechanics; }
 };
 
 /// One firing beside what is computed of it.
@@ -51,8 +46,7 @@ struct FiringRow {
 /// A constant before and after the firings: geometric mean and middle 90 %, SI.
 struct ConstantRange {
   std::string name;
-  double prior_lowest = 0, prior_centre = 0, prior_highest = 0;
-  double lowest = 0, centre = 0, highest = 0;
+  math::Estimate before, after;
   double change_of_coarser = 0;  ///< share by which the mean is higher on a lattice of half as many nodes
 };
 
@@ -71,9 +65,8 @@ struct FiringResult : StudyResult {
   std::vector<ConstantRange> constants;
   std::vector<NextFiring> next;                    ///< that which tells most first
   std::optional<study::CalibrationRecord> record;  ///< on firings
-  std::string failure;  ///< why nothing was calibrated; empty where there is a posterior
-  std::vector<std::string>
-      contradicting;  ///< firings that no constants make probable; then there is no record
+  std::string failure;                     ///< why nothing was calibrated; empty where there is a posterior
+  std::vector<std::string> contradicting;  ///< firings that no constants make probable: there is no record
   /// Whether what was asked for, a record, is not there.
   bool any_indeterminate() const { return !record; }
 };

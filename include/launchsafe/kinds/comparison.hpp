@@ -11,13 +11,12 @@ namespace launchsafe::kinds {
 
 /// The scene as it is, which comes first, or with the keys of one of its variants.
 struct Variant {
-  std::string name;
-  std::string description;  ///< what it is, for people; may be empty
-  std::vector<std::string> changes =
-      {};                    ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
-  scene::Scene scene = {};   ///< that its cases start from
-  study::Study judged = {};  ///< the study with the constants of this variant
-  std::optional<study::CalibrationRecord> calibration = {};  ///< of the record that it names, or the study
+  std::string name, description;     ///< what it is, for people; the second may be empty
+  std::string record;                ///< path of that of its own calibration; empty: the study's
+  std::vector<std::string> changes;  ///< "numerics.cell_size = 2.5 mm": what it has otherwise than the scene
+  scene::Scene scene;                ///< that its cases start from
+  study::Study judged;               ///< the study with the constants of this variant
+  std::optional<study::CalibrationRecord> calibration;  ///< of the record that it names, or the study
 };
 
 /// What a study file of this kind says besides.
