@@ -199,13 +199,11 @@ const std::vector<Key<NamedContact>>& contact_keys() {
 }
 
 const KeyDescription& contact_of_interface_key() {
-  static const KeyDescription key{
-      .name = "contact",
-      .kind = KeyKind::text,
-      .standing = Standing::input,
-      .sentence = "Contact by name, whose values stand for those that are not given here.",
-      .example = "smooth",
-      .plausible = {.because = "the values are judged"}};
+  static const KeyDescription key =
+      text_key<std::string>("contact", Standing::input,
+                            "Contact by name, whose values stand for those that are not given here.",
+                            "smooth", std::identity{}) |
+      always_plausible("the values are judged");
   return key;
 }
 
