@@ -106,7 +106,7 @@ void check_hold(const SceneFile& file) {
       file, fmt::format("body.{}.x", body.name),
       fmt::format("\"{}\", r {}, where no face holds it to \"{}\"", exact_range(body.x_begin, body.x_end),
                   exact_range(body.r_begin, body.r_end), bodies.front().name),
-      "bodies that hold each other through shared faces, directly or through others", {});
+      "bodies that hold each other through shared faces, directly or through others");
 }
 
 void check_chamber(const SceneFile& file) {
@@ -118,8 +118,7 @@ void check_chamber(const SceneFile& file) {
       fmt::format("a driving band in a ring of the full radius, {}, that closes the chamber by itself "
                   "and with it the charge (the formulation \"total-lagrangian\" where not the "
                   "rearmost face alone is behind it)",
-                  centimetres(extent_of(file.scene).r_end)),
-      {});
+                  centimetres(extent_of(file.scene).r_end)));
 }
 
 }  // namespace
