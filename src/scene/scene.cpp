@@ -184,15 +184,10 @@ double rigid_acceleration(const Scene& scene, double pressure) {
 }
 
 RigidMotion rigid_motion(const Scene& scene, double time) {
-  constexpr int parts = 2000;
-  const PressureHistory load(scene.load);
-  const double acceleration_of_unit_pressure = rigid_acceleration(scene, 1.0), dt = time / parts;
-  RigidMotion motion;
-  for (int part = 0; part < parts; ++part) {
-    const double gained = dt * acceleration_of_unit_pressure * load.at((part + 0.5) * dt);
-    motion.travel += dt * (motion.velocity + 0.5 * gained);
-    motion.velocity += gained;
-  }
+  const double acceleration = rigid_acceleration(scene, 1.0);
+  RigidMotion motion = PressureHistory(scene.load).drive(time);
+  motion.velocity *= acceleration;
+  motion.travel *= acceleration;
   return motion;
 }
 

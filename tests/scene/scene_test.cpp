@@ -114,6 +114,57 @@ TEST(Scene, RigidMotionUnderAConstantLoadIsThatOfFreeFall) {
   EXPECT_NEAR(motion.travel, acceleration * 2e-6, 1e-9 * motion.travel);
 }
 
+/// By the midpoint rule with many parts.
+RigidMotion finely_driven(const Load& load, double until) {
+  constexpr int parts = 400'000;
+  const PressureHistory history(load);
+  const double dt = until / parts;
+  RigidMotion motion;
+  for (int part = 0; part < parts; ++part) {
+    const double gained = dt * history.at((part + 0.5) * dt);
+    motion.travel += dt * (motion.velocity + 0.5 * gained);
+    motion.velocity += gained;
+  }
+  return motion;
+}
+
+void expect_driven_as_finely(const Load& load, double until) {
+  const RigidMotion fine = finely_driven(load, until), motion = PressureHistory(load).drive(until);
+  EXPECT_NEAR(motion.velocity, fine.velocity, 1e-7 * fine.velocity);
+  EXPECT_NEAR(motion.travel, fine.travel, 1e-7 * fine.travel);
+  const RigidMotion reached = PressureHistory(load).drive(until, 0.4 * motion.travel);
+  EXPECT_EQ(reached.travel, 0.4 * motion.travel);
+  EXPECT_NEAR(PressureHistory(load).drive(reached.time).travel, reached.travel, 1e-8 * reached.travel);
+}
+
+TEST(PressureHistory, DrivesAsFarAndFastAsItsIntegralsOfAnyShape) {
+  Load load = published_bell();
+  for (const double steepness : {1.1, 1.36939, 2.0, 6.0, 40.0}) {
+    load.steepness = steepness;
+    expect_driven_as_finely(load, 18e-3);
+    expect_driven_as_finely(load, 10e-3);  // before the peak
+  }
+  load.muzzle_exit = 15e-3;
+  expect_driven_as_finely(load, 18e-3);
+  load = Load{.shape = LoadShape::power_exponential};
+  for (const double exponent : {1.0, 13.578, 50.0}) {
+    load.exponent = exponent;
+    expect_driven_as_finely(load, 18e-3);
+  }
+}
+
+// A ring of which every period has six points.
+TEST(PressureHistory, DrivesByEveryPointOfAMeasuredCurve) {
+  Load load;
+  for (int i = 0; i <= 9000; ++i) {
+    load.curve_time.push_back(2e-6 * i);
+    load.curve_pressure.push_back(300e6 + 100e6 * std::sin(i * std::numbers::pi / 3.0));
+  }
+  expect_driven_as_finely(load, 17.9e-3);
+  load.smoothing = 5e-6;
+  expect_driven_as_finely(load, 17.9e-3);
+}
+
 Load measured(std::vector<double> time, std::vector<double> pressure) {
   Load load;
   load.curve_time = std::move(time);

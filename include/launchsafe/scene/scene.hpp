@@ -347,11 +347,11 @@ double base_area(const Scene& scene);
 
 /// Axial acceleration (m/s2) of the whole projectile as one rigid body under a pressure (Pa) of the chamber.
 double rigid_acceleration(const Scene& scene, double pressure);
-/// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body.
+/// How fast (m/s) and how far (m) the load has driven the whole projectile as one rigid body at a time (s).
 struct RigidMotion {
-  double velocity = 0, travel = 0;
+  double velocity = 0, travel = 0, time = 0;
 };
-/// At a time (s); nothing holds the projectile back.
+/// Nothing holds the projectile back.
 RigidMotion rigid_motion(const Scene& scene, double time);
 /// For people: "796 m/s after 5.26 m of travel".
 std::string rigid_motion_text(const Scene& scene, double time);
@@ -374,8 +374,11 @@ class PressureHistory {
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
   /// Times from 0 to the end of the simulation, both included, at which the curvature of a measured curve
-  /// changes: what it does is seen at these. For the analytic shape only the ends, and the exit.
+  /// changes: what it does is seen at these. For the analytic shape only the ends, its peak, and the exit.
   std::vector<double> marks() const;
+  /// The motion of a body of 1 kg/m2 that it drives from rest: until a time (s), or before when its travel is
+  /// `goal` (m).
+  RigidMotion drive(double until, std::optional<double> goal = {}) const;
 
  private:
   std::pair<double, double> largest() const;  ///< its time, s, and the largest pressure, Pa
