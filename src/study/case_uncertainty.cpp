@@ -268,7 +268,7 @@ ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, 
   const RecordedSetting* found = recorded_setting(record, closing);
   const Coverage coverage = coverage_of(record, closing);
   constexpr double round_off = 1e-9;
-  const double widest = std::ranges::max(record.launch.gaps) * (1.0 + round_off);
+  const double widest = std::ranges::max(record.scene.surface.gaps) * (1.0 + round_off);
   if (found == nullptr || !coverage.reason.empty() || coverage.growth > 1.0 + round_off || !(gap <= widest))
     return assumed;
   const double bound = found->temperature_bound * std::max(1.0, rise / record.rise);
