@@ -2,7 +2,7 @@
 #include "answer_tables.hpp"
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 namespace launchsafe::study {
@@ -210,9 +211,8 @@ scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::files
   if (!names.empty() && std::isfinite(study.study.numerical_uncertainty))
     return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
-  for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end + 2) {
-    end = std::min(names.find(", ", begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
+  for (const auto part : std::views::split(names, std::string_view(", "))) {
+    const std::string name(part.begin(), part.end());
     auto record = read_named_record(study, folder, "accuracy", name, "the accuracy.json of an accuracy study",
                                     parse_accuracy_record);
     if (!record) return record.error();
