@@ -15,8 +15,8 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/scheduler.hpp"
+#include "launchsafe/study/verdict.hpp"
 #include "output_folder.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // What a critical-gap study tells of gaps that close, beside the reservoir.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/scene/named_material.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
 
 namespace launchsafe::kinds {
 

@@ -200,7 +200,7 @@ Quantities<CaseRow> compared_case_quantities(const Study& study) {
          &RunSummary::energy_drift},
         {quantity::reason, [](const CaseRow& row) {
            const CaseAnswer& answer = row.compared();
-           return answer.completed() ? answer.critical.reason : answer.failure;
+           return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
          }}}});
 }
 

@@ -3,8 +3,8 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {

@@ -251,7 +251,7 @@ Table run_table(const CriticalGapResult& result) {
 
 bool is_within_bounds(const CaseOutcome& outcome, const GapVerdict& row) {
   return row.judgement.verdict == Verdict::indeterminate && !row.ignition && outcome.completed() &&
-         row.evidence.of_case->validity_warnings.empty() && !row.evidence.of_case->input.has_unaccepted();
+         row.of_case->validity_warnings.empty() && !row.of_case->input.has_unaccepted();
 }
 
 /// Which gaps lie between the lower bound of the critical gap and ignition, and what lowers that bound most.

@@ -2,7 +2,7 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
 #include <array>
@@ -151,7 +151,7 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   std::vector<std::string> lines;
   for (const CaseOutcome& outcome : result.details) {
     Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
-    row.update({{"why", outcome.critical.reason},
+    row.update({{"why", text_of(outcome.critical.reason)},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
     lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());

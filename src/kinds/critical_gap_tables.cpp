@@ -138,7 +138,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
        in_detail ? Quantities<JudgedCase>{} : of_part<JudgedCase>(run_quantities(study)),
        {{quantity::remark, [](const JudgedCase& row) {
            const CaseAnswer& answer = *row.answer;
-           return answer.completed() ? answer.critical.reason : answer.failure;
+           return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
          }}}});
 }
 

@@ -315,9 +315,7 @@ StudyTable vary_table() {
 }
 
 void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study) {
-  const auto tables =
-      taken(admitted.needed.empty() ? study::tables_of(source.root, table_name, study.file)
-                                    : some_tables_of(source.root, table_name, study, admitted.needed));
+  const auto tables = taken(study::tables_of(source.root, table_name, study, admitted.needed));
   for (std::size_t index = 0; const toml::table* table : tables) {
     VaryReader reader{study, *table, index++};
     if (table->contains(variants_key))
@@ -337,8 +335,8 @@ std::vector<const toml::table*> variants_in(const StudySource& source, const Stu
     if (!table.contains(variants_key)) continue;
     if (!variants.empty())
       refuse_if(error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                         "all variants in one [[vary]]"));
-    variants = taken(study::tables_of(table, variants_key, study.file), table_name);
+                                "all variants in one [[vary]]"));
+    variants = taken(study::tables_of(table, variants_key, study), table_name);
   }
   if (variants.empty())
     refuse_if(error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",

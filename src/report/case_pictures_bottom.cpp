@@ -1,6 +1,6 @@
 // Skin temperatures along the charge's bottom, the gap's air, and what burns.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 #include <fmt/format.h>
 

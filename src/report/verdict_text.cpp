@@ -24,15 +24,15 @@ Column share_of_uncertainty(std::string name, std::string heading, std::string m
 }
 
 /// What the judgement of a gap rests on, for programs: empty where there is nothing to say.
-Quantity<study::GapVerdict> evidence_quantity(const char* name, std::string (*said)(const study::Evidence&),
+Quantity<study::GapVerdict> evidence_quantity(const char* name, std::string (*said)(const study::GapVerdict&),
                                               const char* meaning) {
-  return {for_programs(Column{name, name, text(), meaning}), &study::GapVerdict::evidence, said};
+  return {for_programs(Column{name, name, text(), meaning}), said};
 }
 
 /// What the input of the case says.
 template <auto said>
-std::string of_input(const study::Evidence& evidence) {
-  return evidence.of_case == nullptr ? std::string{} : said(evidence.of_case->input);
+std::string of_input(const study::GapVerdict& row) {
+  return row.of_case == nullptr ? std::string{} : said(row.of_case->input);
 }
 std::string ring_text(const study::CaseStatements& input) { return input.ring; }
 
@@ -187,10 +187,9 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &GapVerdict::uncertainty, &Uncertainty::model_form},
       {verdict, &GapVerdict::judgement, &Judgement::verdict},
-      {reason, [](const GapVerdict& gap) { return study::reason_text(gap); }},
+      {reason, study::reason_text},
       {for_programs(reason_code), &GapVerdict::judgement, &Judgement::code},
-      {for_programs(Column{"cause", "cause", text(), "The beginning of the reason: what decided."}),
-       [](const GapVerdict& gap) { return study::cause_text(gap.evidence, gap.judgement); }},
+      evidence_quantity("cause", study::cause_text, "The beginning of the reason: what decided."),
       evidence_quantity("validity_warnings", study::validity_warnings_text,
                         "Why a completed run is no basis."),
       evidence_quantity("unaccepted", of_input<study::unaccepted_text>,

@@ -89,7 +89,7 @@ double rise_of(const AccuracyRecord& record) {
 }
 
 // How far a record is carried; argued in the header.
-constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0;
+constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0, hottest = 1.2;
 constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1, most_roughness_added = 0.01;
 /// What is no difference: round-off of units.
 constexpr double round_off = 1e-9;
@@ -122,14 +122,17 @@ double ratio_of(double value, double recorded) {
   return recorded > 0.0 ? value / recorded : math::infinity;
 }
 
-bool has_cracks(const RecordedLaunch& launch) { return launch.crack_radius > 0.0 && launch.flaw_size > 0.0; }
+bool has_cracks(const materials::ViscoScramParameters& strength) {
+  return strength.initial_crack_radius > 0.0 && strength.flaw_size > 0.0;
+}
 
 /// In crack radii and in crack radii over flaw sizes, whichever is larger.
-double crack_ratio(const RecordedLaunch& launch, const RecordedLaunch& recorded) {
-  if (!has_cracks(launch)) return 0.0;
+double crack_ratio(const materials::ViscoScramParameters& own,
+                   const materials::ViscoScramParameters& recorded) {
+  if (!has_cracks(own)) return 0.0;
   if (!has_cracks(recorded)) return math::infinity;
-  const double radii = launch.crack_radius / recorded.crack_radius;
-  return std::max(radii, radii * recorded.flaw_size / launch.flaw_size);
+  const double radii = own.initial_crack_radius / recorded.initial_crack_radius;
+  return std::max(radii, radii * recorded.flaw_size / own.flaw_size);
 }
 
 /// Largest difference of two shapes at equal times while both last.
@@ -146,8 +149,37 @@ double shape_difference(const RecordedLaunch& launch, const RecordedLaunch& reco
   return largest;
 }
 
-/// Why another load is not covered, apart from its peak.
-std::string foreign_load(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
+/// "it was made at 496 MPa, and 700 MPa are more than 1.25 times that".
+std::string beyond(double recorded, double value, const char* unit, const char* what, double most) {
+  return fmt::format("it was made {} {:.4g}{}, and {:.4g}{} is more than {:g} times that", what, recorded,
+                     unit, value, unit, most);
+}
+
+/// A launch over the recorded one.
+struct Ratios {
+  double pressure, cracks, localisation, temperature;
+};
+
+/// Why a record is not carried to a scene with its launch; empty where it is.
+std::string why_not_carried(const AccuracyRecord& record, const scene::Scene& scene,
+                            const RecordedLaunch& launch, const Ratios& over) {
+  constexpr double allowed = 1.0 + round_off;
+  const RecordedLaunch& recorded = record.launch;
+  if (!(over.pressure <= most_pressure * allowed))
+    return beyond(1e-6 * recorded.peak_pressure, 1e-6 * launch.peak_pressure, " MPa", "at a peak pressure of",
+                  most_pressure);
+  const auto &there = record.scene.charge().strength, &here = scene.charge().strength;
+  if (!(over.cracks <= most_cracks * allowed))
+    return has_cracks(there)
+               ? fmt::format(
+                     "it was made with cracks of {:.4g} µm in flaws of {:.4g} mm, and {:.4g} µm in {:.4g} "
+                     "mm is more than {:g} times as much",
+                     1e6 * there.initial_crack_radius, 1e3 * there.flaw_size, 1e6 * here.initial_crack_radius,
+                     1e3 * here.flaw_size, most_cracks)
+               : "it was made without cracks";
+  if (!(over.localisation <= most_heating * allowed))
+    return beyond(record.scene.surface.localisation, scene.surface.localisation, "",
+                  "with a localisation of the friction of", most_heating);
   if (launch.duration > longest * recorded.duration)
     return fmt::format("its launch lasts {:.4g} ms, and {:.4g} ms are more than {:g} times that",
                        1e3 * recorded.duration, 1e3 * launch.duration, longest);
@@ -161,13 +193,10 @@ std::string foreign_load(const RecordedLaunch& recorded, const RecordedLaunch& l
   if (!(launch.roughness <= recorded.roughness + most_roughness_added))
     return fmt::format("the roughness of its load is {:.2g}, and {:.2g} is more by over {:g}",
                        recorded.roughness, launch.roughness, most_roughness_added);
+  if (!(over.temperature <= hottest * allowed))
+    return fmt::format("it was made at {:.4g} K, and {:.4g} K are hotter by more than a fifth",
+                       record.scene.initial_temperature, scene.initial_temperature);
   return {};
-}
-
-/// "it was made at 496 MPa, and 700 MPa are more than 1.25 times that".
-std::string beyond(double recorded, double value, const char* unit, const char* what, double most) {
-  return fmt::format("it was made {} {:.4g}{}, and {:.4g}{} is more than {:g} times that", what, recorded,
-                     unit, value, unit, most);
 }
 
 /// How far `value` may be from the truth: it is so far from the finest mesh's, that within the reference's
@@ -235,7 +264,7 @@ void find_bounds(const RecordedReference& reference, RecordedSetting& setting) {
 }
 
 void find_bounds(AccuracyRecord& record) {
-  record.launch = launch_of(record.scene, record.scene.surface.gaps);
+  record.launch = launch_of(record.scene);
   record.rise = rise_of(record);
   record.unvaried.clear();
   for (const InexactKey& each : inexact_keys(record))
@@ -257,13 +286,21 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
 }
 
 Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene) {
-  constexpr double hottest = 1.2;
-  Coverage coverage = coverage_of(record.launch, launch_of(scene, {}));
-  const double ratio = scene.initial_temperature / record.scene.initial_temperature;
-  coverage.growth *= std::pow(std::max(1.0, ratio), 2);
-  if (coverage.reason.empty() && !(ratio <= hottest * (1.0 + round_off)))
-    coverage.reason = fmt::format("it was made at {:.4g} K, and {:.4g} K are hotter by more than a fifth",
-                                  record.scene.initial_temperature, scene.initial_temperature);
+  const RecordedLaunch &recorded = record.launch, launch = launch_of(scene);
+  const Ratios over{ratio_of(launch.peak_pressure, recorded.peak_pressure),
+                    crack_ratio(scene.charge().strength, record.scene.charge().strength),
+                    ratio_of(scene.surface.localisation, record.scene.surface.localisation),
+                    scene.initial_temperature / record.scene.initial_temperature};
+  Coverage coverage;
+  const std::vector<double>& gaps = record.scene.surface.gaps;
+  const double heating = most_heating * (gaps.empty() ? 0.0 : std::ranges::max(gaps)) * recorded.air_heating;
+  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : math::infinity;
+  const double growth = std::pow(std::max(1.0, over.pressure), 2) * std::sqrt(std::max(1.0, over.cracks)) *
+                        std::max(1.0, over.localisation);
+  // What grows without bound is not known: the reason says so.
+  if (std::isfinite(growth)) coverage.growth = growth;
+  coverage.growth *= std::pow(std::max(1.0, over.temperature), 2);
+  coverage.reason = why_not_carried(record, scene, launch, over);
   return coverage;
 }
 
@@ -290,7 +327,7 @@ const RecordedSetting* most_accurate(const AccuracyRecord& record) {
   return best;
 }
 
-RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
+RecordedLaunch launch_of(const scene::Scene& scene) {
   const scene::PressureHistory history(scene.load);
   RecordedLaunch launch;
   launch.peak_pressure = history.peak();
@@ -302,46 +339,8 @@ RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps) {
   }
   launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
   launch.roughness = scene::load_roughness(scene.load);
-  launch.crack_radius = scene.charge().strength.initial_crack_radius;
-  launch.flaw_size = scene.charge().strength.flaw_size;
-  launch.gaps = std::move(gaps);
-  launch.localisation = scene.surface.localisation;
   launch.air_heating = air_heating_of(scene, launch.peak_pressure);
   return launch;
-}
-
-Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch) {
-  const double pressure = ratio_of(launch.peak_pressure, recorded.peak_pressure);
-  const double cracks = crack_ratio(launch, recorded);
-  const double friction = ratio_of(launch.localisation, recorded.localisation);
-  Coverage coverage;
-  const double widest = recorded.gaps.empty() ? 0.0 : std::ranges::max(recorded.gaps);
-  const double heating = most_heating * widest * recorded.air_heating;
-  coverage.largest_gap = launch.air_heating > 0.0 ? heating / launch.air_heating : math::infinity;
-  const double growth =
-      std::pow(std::max(1.0, pressure), 2) * std::sqrt(std::max(1.0, cracks)) * std::max(1.0, friction);
-  // What grows without bound is not known: the reason says so.
-  if (std::isfinite(growth)) coverage.growth = growth;
-  const double allowed = 1.0 + round_off;
-  if (!(pressure <= most_pressure * allowed)) {
-    coverage.reason = beyond(1e-6 * recorded.peak_pressure, 1e-6 * launch.peak_pressure, " MPa",
-                             "at a peak pressure of", most_pressure);
-  } else if (!(cracks <= most_cracks * allowed)) {
-    coverage.reason =
-        has_cracks(recorded)
-            ? fmt::format(
-                  "it was made with cracks of {:.4g} µm in flaws of {:.4g} mm, and {:.4g} µm in {:.4g} "
-                  "mm is more than {:g} times as much",
-                  1e6 * recorded.crack_radius, 1e3 * recorded.flaw_size, 1e6 * launch.crack_radius,
-                  1e3 * launch.flaw_size, most_cracks)
-            : "it was made without cracks";
-  } else if (!(friction <= most_heating * allowed)) {
-    coverage.reason = beyond(recorded.localisation, launch.localisation, "",
-                             "with a localisation of the friction of", most_heating);
-  } else {
-    coverage.reason = foreign_load(recorded, launch);
-  }
-  return coverage;
 }
 
 }  // namespace launchsafe::study

@@ -70,7 +70,7 @@ void describe_setting(RecordObject& object, RecordedSetting& each, const Accurac
 }
 
 /// What single values do not show.
-void check_settings(const AccuracyRecord& record, RecordObject& object) {
+void check_settings(const AccuracyRecord& record, const RecordObject& object) {
   std::size_t meshes = 0;
   for (std::size_t i = 0; i < record.settings.size(); ++i) {
     const RecordedSetting& each = record.settings[i];
@@ -101,7 +101,7 @@ void check_settings(const AccuracyRecord& record, RecordObject& object) {
                   fmt::format("at least {}", fewest_reference_meshes));
 }
 
-void check_bounds(const AccuracyRecord& record, RecordObject& object) {
+void check_bounds(const AccuracyRecord& record, const RecordObject& object) {
   AccuracyRecord found = record;
   find_bounds(found);
   if (!(found.rise > 0.0))
@@ -133,8 +133,9 @@ void describe_accuracy(RecordObject& object, AccuracyRecord& record) {
   object.list(
       "settings", record.settings, 0, 3000, "an array of at most 3000 settings",
       [&](RecordObject& own, RecordedSetting& each) { describe_setting(own, each, record, setting); });
-  if (object.is_sound()) check_settings(record, object);
-  if (object.is_sound()) check_bounds(record, object);
+  if (!object.reading()) return;
+  check_settings(record, object);
+  check_bounds(record, object);
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ constexpr int scan_intervals = 32;
 /// The bisection goes this much further than the tolerance before the bracket is centred on the change.
 constexpr double refinement = 64.0;
 
-CriticalGap undefined_at(double gap) {
-  return {.reason = fmt::format("the temperature at a gap of {} is not a number", in_centimetres(gap))};
-}
+CriticalGap undefined_at(double gap) { return {.reason = {GapReasonCode::undefined, gap}}; }
 
 struct Bracket {
   double lower, upper;
@@ -125,17 +123,16 @@ CriticalGap find_critical_gap(const Ignites& ignites, double largest, double tol
   if (first == states.end()) {
     result.kind = CriticalGapKind::all_safe;
     result.lower = largest;
-    result.reason = fmt::format("no ignition up to {}, where the search ended", in_centimetres(largest));
+    result.reason = {GapReasonCode::end_of_search, largest};
     return result;
   }
   const auto again = std::find(first, states.end(), false);
   if (again != states.end())
-    result.reason = fmt::format("not monotone: no ignition at {} again",
-                                in_centimetres(gaps[static_cast<std::size_t>(again - states.begin())]));
+    result.reason = {GapReasonCode::not_monotone, gaps[static_cast<std::size_t>(again - states.begin())]};
   if (index == 0) {
     result.kind = CriticalGapKind::all_ignite;
     result.upper = 0.0;
-    if (again == states.end()) result.reason = "ignition at every gap, also without one";
+    if (again == states.end()) result.reason = {GapReasonCode::always};
     return result;
   }
   const Bracket narrow = bisect(ignites, {gaps[index - 1], gaps[index]}, tolerance / refinement);

@@ -3,7 +3,6 @@
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
 #include "launchsafe/version.hpp"
 
 #include <fmt/format.h>
@@ -112,7 +111,8 @@ std::string digest_of_analysis(const Study& study) {
 /// drawn again from the mechanics; a damaged result is computed again, also where its answers are known.
 std::optional<CaseAnswer> stored_answer(const Study& study, const StudyCase& input, const std::string& key,
                                         std::size_t runs, store::CaseStore& store) {
-  auto answer = read_answer(store, key);
+  std::optional<CaseAnswer> answer;
+  store.read([&](store::Database& database) { answer = read_answer(database, key); });
   const auto is_held = [&store](const std::string& hash) { return store.holds(hash); };
   if (!answer || answer->runs.size() != runs || !std::ranges::all_of(answer->runs, is_held))
     return std::nullopt;
@@ -233,7 +233,8 @@ struct AnswerRunner {
     if (judged && options.store != nullptr && !compares_closing(study.study, input) &&
         std::ranges::none_of(runs, was_cut_off)) {
       answer.runs = hashes;
-      save_answer(*options.store, key_of(member, input), answer);
+      options.store->write(
+          [&](store::Database& database) { return save_answer(database, key_of(member, input), answer); });
       answer.runs.clear();
     }
     return answer;
@@ -271,8 +272,8 @@ void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, Ca
   answer.closing = std::move(closing);
   const double ignition = input.scene.scene.charge().kinetics.ignition_temperature;
   for (GapVerdict& row : answer.verdicts) {
-    row.evidence.closing = closing_evidence(answer.closing, row.gap, ignition);
-    row.judgement = judge(row.evidence, answer.critical);
+    row.closing = closing_evidence(answer.closing, row.gap, ignition);
+    row.judgement = judge(row, answer.critical);
   }
 }
 
@@ -286,11 +287,11 @@ std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const St
   CaseStatements statements = statements_of(study, input);
   if (!fits(answer, study, input, statements)) return std::nullopt;
   const auto evidence = std::make_shared<const CaseEvidence>(
-      CaseEvidence{answer.completed(), answer.failure, answer.run.limiters, answer.validity_warnings,
-                   answer.friction_rise, std::move(statements)});
+      CaseEvidence{answer.failure, answer.run.limiters, answer.validity_warnings, answer.friction_rise,
+                   std::move(statements)});
   // What its input says now, rather than when it was stored.
-  if (std::string reason = why_no_critical_gap(*evidence);
-      !reason.empty() && answer.critical.kind == CriticalGapKind::indeterminate)
+  if (GapReason reason = why_no_critical_gap(*evidence);
+      reason.code != GapReasonCode::none && answer.critical.kind == CriticalGapKind::indeterminate)
     answer.critical.reason = std::move(reason);
   judge_rows(study, evidence, answer.critical, answer.verdicts);
   return answer;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 namespace launchsafe::study {
@@ -210,9 +211,8 @@ scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::files
   if (!names.empty() && std::isfinite(study.study.numerical_uncertainty))
     return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
                     "either numerical_uncertainty or accuracy");
-  for (std::size_t begin = 0, end = 0; begin < names.size(); begin = end + 2) {
-    end = std::min(names.find(", ", begin), names.size());
-    const std::string name = names.substr(begin, end - begin);
+  for (const auto part : std::views::split(names, std::string_view(", "))) {
+    const std::string name(part.begin(), part.end());
     auto record = read_named_record(study, folder, "accuracy", name, "the accuracy.json of an accuracy study",
                                     parse_accuracy_record);
     if (!record) return record.error();
@@ -268,7 +268,7 @@ ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, 
   const RecordedSetting* found = recorded_setting(record, closing);
   const Coverage coverage = coverage_of(record, closing);
   constexpr double round_off = 1e-9;
-  const double widest = std::ranges::max(record.launch.gaps) * (1.0 + round_off);
+  const double widest = std::ranges::max(record.scene.surface.gaps) * (1.0 + round_off);
   if (found == nullptr || !coverage.reason.empty() || coverage.growth > 1.0 + round_off || !(gap <= widest))
     return assumed;
   const double bound = found->temperature_bound * std::max(1.0, rise / record.rise);

@@ -4,7 +4,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
-#include "launchsafe/study/gap_analysis.hpp"
-
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
 #include <fmt/format.h>
@@ -183,15 +183,13 @@ void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   set_shares(critical, std::move(shares));
 }
 
-/// With the bracket that was traced; empty where there is none.
-std::string disagreement_of(const Confirmation& confirmation, const CriticalGap& traced) {
-  if (!confirmation.ran || confirmation.agrees()) return {};
-  return fmt::format("the coupled run at {} {} (traced bracket {:.6g} to {})",
-                     in_centimetres(confirmation.gap),
-                     !confirmation.completed ? "did not complete: " + confirmation.failure
-                     : confirmation.ignited  ? "ignites, the traced temperatures do not"
-                                             : "does not ignite, the traced temperatures do",
-                     100.0 * traced.lower, in_centimetres(traced.upper));
+/// With the bracket that was traced.
+GapReason disagreement_of(const Confirmation& confirmation, const CriticalGap& traced) {
+  using enum GapReasonCode;
+  const GapReasonCode code = !confirmation.completed ? coupled_failed
+                             : confirmation.ignited  ? coupled_ignites
+                                                     : coupled_safe;
+  return {code, confirmation.gap, traced.lower, traced.upper, 0, confirmation.failure};
 }
 
 /// Those of a completed run itself.
@@ -213,10 +211,7 @@ CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
   const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
   CaseStatements input = statements_of(study, outcome.input);
   if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
-  return {outcome.completed(),
-          outcome.failure,
-          outcome.result.mechanics.limiters,
-          validity_warnings_of(outcome),
+  return {outcome.failure, outcome.result.mechanics.limiters, validity_warnings_of(outcome),
           asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
           std::move(input)};
 }
@@ -227,7 +222,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
     const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
     outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), study.tolerance);
   }
-  if (std::string reason = why_no_critical_gap(*outcome.evidence); !reason.empty())
+  if (GapReason reason = why_no_critical_gap(*outcome.evidence); reason.code != GapReasonCode::none)
     outcome.critical = {.reason = std::move(reason), .indicative = gap_or_bound(outcome.critical)};
 }
 
@@ -348,8 +343,8 @@ void apply_confirmations(const Study& study, CaseOutcome& outcome) {
   find_bounds_of_critical_gap(study, outcome);
   for (const Confirmation& confirmation : outcome.confirmations)
     // The bracket stays readable in the reason; a number that was not confirmed is none.
-    if (std::string reason = disagreement_of(confirmation, outcome.critical); !reason.empty()) {
-      outcome.critical = {.reason = std::move(reason)};
+    if (confirmation.ran && !confirmation.agrees()) {
+      outcome.critical = {.reason = disagreement_of(confirmation, outcome.critical)};
       return;
     }
 }
@@ -370,8 +365,9 @@ void conclude(const Study& study, CaseOutcome& outcome) {
     row.uncertainty.coupling = coupling;
     if (foreign)
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
-    row.evidence.when_over = when_launch_is_over(outcome, i);
-    row.evidence.closing = closing_evidence(outcome.closing, row.gap, row.margin + row.maximum.temperature);
+    if (outcome.longer_launch && scene::is_cut_short(outcome.input.scene.scene.load))
+      row.when_over = outcome.longer_launch->maximum_temperature.at(i);
+    row.closing = closing_evidence(outcome.closing, row.gap, row.margin + row.maximum.temperature);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

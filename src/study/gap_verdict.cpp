@@ -1,5 +1,4 @@
-#include "launchsafe/study/gap_verdict.hpp"
-
+#include "launchsafe/study/verdict.hpp"
 #include "launchsafe/surface/skin.hpp"
 
 #include <algorithm>
@@ -65,14 +64,6 @@ std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regress
 bool is_of_skin(const std::string& key) {
   constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
   return std::ranges::find(felt, scene::role_of(key).acts_on) != felt.end();
-}
-
-/// K from there to ignition with all skin_keys as calibrated; infinite where there are none, minus
-/// infinite where it ignites.
-double margin_as_calibrated(const std::vector<AsCalibrated>& all, double ignition_temperature) {
-  for (const AsCalibrated& each : all)
-    if (each.key.empty()) return each.ignites ? -math::infinity : ignition_temperature - each.temperature;
-  return math::infinity;
 }
 
 }  // namespace
@@ -171,6 +162,13 @@ double GapVerdict::misfit() const {
   return until_exit.temperature - reference->maximum_temperature;
 }
 
+double GapVerdict::calibrated_margin() const {
+  for (const AsCalibrated& each : as_calibrated)
+    if (each.key.empty())
+      return each.ignites ? -math::infinity : margin + maximum.temperature - each.temperature;
+  return math::infinity;
+}
+
 double GapVerdict::early_misfit() const {
   return reference ? early.temperature - reference->early_temperature : not_a_number;
 }
@@ -179,23 +177,12 @@ void judge_rows(const Study& study, const std::shared_ptr<const CaseEvidence>& o
                 const CriticalGap& critical, std::vector<GapVerdict>& rows) {
   const std::optional<PressureInterval>& around = of_case->input.model_form.around;
   for (GapVerdict& row : rows) {
-    Evidence& evidence = row.evidence;
-    evidence.of_case = of_case;
-    evidence.ignited = row.ignition.has_value();
-    evidence.gap = row.gap;
-    evidence.maximum_temperature = row.maximum.temperature;
-    evidence.margin = row.margin;
-    evidence.uncertainty = row.uncertainty.total();
-    evidence.numerical = row.uncertainty.numerical;
-    evidence.calibrated_margin =
-        margin_as_calibrated(row.as_calibrated, row.margin + row.maximum.temperature);
-    evidence.noise = row.uncertainty.load_curve;
-    if (around) evidence.models = models_that_differ(*study.model_form, *around, row.gap, evidence.ignited);
-    row.judgement = judge(evidence, critical);
+    row.of_case = of_case;
+    if (around)
+      row.models = models_that_differ(*study.model_form, *around, row.gap, row.ignition.has_value());
+    row.judgement = judge(row, critical);
   }
 }
-
-std::string reason_text(const GapVerdict& row) { return reason_text(row.evidence, row.judgement); }
 
 double largest_safe_gap(const std::vector<GapVerdict>& rows) {
   double largest = not_a_number, first_other = no_ignition;

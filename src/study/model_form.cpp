@@ -124,7 +124,7 @@ void describe_gaps(RecordObject& object, std::vector<GapOrBound>& gaps, std::siz
     return;
   }
   if (!list.is_array() || list.size() != pressures)
-    return object.refuse(key, found_in(list), fmt::format("{} critical gaps", pressures));
+    object.refuse(key, found_in(list), fmt::format("{} critical gaps", pressures));
   for (const ordered_json& each : list) {
     double& gap = gaps.emplace_back(no_ignition);
     if (each != no_ignition_text) object.read(each, key, gap, OrNone{scene::between(0, widest_critical_gap)});

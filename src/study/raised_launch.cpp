@@ -1,10 +1,7 @@
 // A launch on other terms than those of its verdicts: with one cause of uncertainty at an end of its range,
 // with air that conserves energy, and going on for longer.
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
-#include "launchsafe/study/run_cases.hpp"
-
-#include <fmt/format.h>
+#include "launchsafe/study/case_answer.hpp"
 
 #include <algorithm>
 
@@ -152,8 +149,7 @@ OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface:
   if (std::ranges::count(safe, true) == std::ssize(safe)) {
     answer.critical.kind = CriticalGapKind::all_safe;
     answer.critical.lower = gaps.back();
-    answer.critical.reason =
-        fmt::format("none of {} gaps up to {} ignites", gaps.size(), in_centimetres(gaps.back()));
+    answer.critical.reason = {.code = GapReasonCode::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
   } else {
     answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), study.tolerance);
   }
@@ -187,13 +183,8 @@ void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mech
     return;
   }
   OtherAnswer none{std::vector<double>(study.gaps.size(), not_a_number), {}};
-  none.critical.reason = "the run of the longer launch: " + failure_of(mechanics);
+  none.critical.reason = {.code = GapReasonCode::longer_launch_failed, .because = failure_of(mechanics)};
   outcome.longer_launch = std::move(none);
-}
-
-double when_launch_is_over(const CaseOutcome& outcome, std::size_t gap) {
-  if (!outcome.longer_launch || !scene::is_cut_short(outcome.input.scene.scene.load)) return not_a_number;
-  return outcome.longer_launch->maximum_temperature.at(gap);
 }
 
 }  // namespace launchsafe::study

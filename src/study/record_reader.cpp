@@ -27,8 +27,8 @@ std::string allowed_by(const Limits& limits) {
                      std::isfinite(limits.highest) ? fmt::format(" to {:g}", limits.highest) : "");
 }
 
-void refuse_first(scene::Fault& fault, std::string key, std::string found, std::string allowed) {
-  if (!fault) fault = scene::InputError{{}, 0, 0, std::move(key), std::move(found), std::move(allowed), {}};
+[[noreturn]] void throw_fault(std::string key, std::string found, std::string allowed) {
+  throw scene::error_at({}, key, std::move(found), std::move(allowed));
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ std::string found_in(const ordered_json& value) {
   return value.dump(-1, ' ', false, replace_invalid);
 }
 
-ordered_json json_of(const std::string& text, const RecordFormat& format, scene::Fault& fault) {
+ordered_json json_of(const std::string& text, const RecordFormat& format) {
   const std::string wanted = fmt::format("the {} that `launchsafe` writes for {}", format.file, format.study);
   std::vector<std::set<std::string>> open;
   const auto watch = [&](int, ordered_json::parse_event_t event, ordered_json& parsed) {
@@ -58,52 +58,49 @@ ordered_json json_of(const std::string& text, const RecordFormat& format, scene:
     if (event == Event::object_start) open.emplace_back();
     if (event == Event::object_end) open.pop_back();
     if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second)
-      refuse_first(fault, parsed.get<std::string>(), "the key twice", "each key once");
+      throw_fault(parsed.get<std::string>(), "the key twice", "each key once");
     return true;
   };
   ordered_json object;
   try {
     object = ordered_json::parse(text, watch);
   } catch (const ordered_json::exception&) {
-    refuse_first(fault, "", "no JSON", wanted);
+    throw_fault("", "no JSON", wanted);
   }
   if (!object.is_object() || !object.contains("format"))
-    refuse_first(fault, "format", fmt::format("nothing; this is no {}", format.file), wanted);
-  else if (object["format"] != format.name)
-    refuse_first(fault, "format", found_in(object["format"]),
-                 fmt::format("\"{}\", which `launchsafe` of this version writes for {}; make the record anew",
-                             format.name, format.study));
+    throw_fault("format", fmt::format("nothing; this is no {}", format.file), wanted);
+  if (object["format"] != format.name)
+    throw_fault("format", found_in(object["format"]),
+                fmt::format("\"{}\", which `launchsafe` of this version writes for {}; make the record anew",
+                            format.name, format.study));
   return object;
 }
 
-void check_digest(const ordered_json& object, const ordered_json& content, scene::Fault& fault) {
+void check_digest(const ordered_json& object, const ordered_json& content) {
   const auto given = object.find("digest");
   if (given == object.end() || *given != digest_of(content))
-    refuse_first(fault, "digest", given == object.end() ? "nothing" : found_in(*given),
-                 "the SHA-256 of the content, which was edited; make the record anew");
+    throw_fault("digest", given == object.end() ? "nothing" : found_in(*given),
+                "the SHA-256 of the content, which was edited; make the record anew");
 }
 
-void RecordObject::refuse(const std::string& key, std::string found, std::string allowed) {
-  refuse_first(*fault_, path_of(key), std::move(found), std::move(allowed));
+void RecordObject::refuse(const std::string& key, std::string found, std::string allowed) const {
+  throw_fault(path_of(key), std::move(found), std::move(allowed));
 }
 
-bool RecordObject::has_keys(const std::vector<std::string>& keys) {
-  if (!json_->is_object())
-    refuse_first(*fault_, path_, found_in(*json_), "an object");
-  else
-    for (const auto& [key, value] : json_->items())
-      if (std::ranges::find(keys, key) == keys.end())
-        refuse(key, "a key that no record has", "only " + scene::quoted_list(keys));
+void RecordObject::check_keys(const std::vector<std::string>& keys) const {
+  if (!json_->is_object()) throw_fault(path_, found_in(*json_), "an object");
+  for (const auto& [key, value] : json_->items())
+    if (std::ranges::find(keys, key) == keys.end())
+      refuse(key, "a key that no record has", "only " + scene::quoted_list(keys));
   for (const std::string& key : keys)
-    if (is_sound() && !json_->contains(key)) refuse(key, "nothing; the key is missing", "a value");
-  return is_sound();
+    if (!json_->contains(key)) refuse(key, "nothing; the key is missing", "a value");
 }
 
-bool RecordObject::is_list(const Json& given, const std::string& key, std::size_t fewest, std::size_t most) {
-  if (given.is_array() && given.size() >= fewest && given.size() <= most) return true;
-  refuse(key, found_in(given),
-         fewest == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", fewest, most));
-  return false;
+void RecordObject::check_list(const Json& given, const std::string& key, std::size_t fewest,
+                              std::size_t most) const {
+  if (!given.is_array() || given.size() < fewest || given.size() > most)
+    refuse(key, found_in(given),
+           fewest == most ? fmt::format("{} numbers", most) : fmt::format("{} to {} numbers", fewest, most));
 }
 
 void RecordObject::read(const Json& given, const std::string& key, double& number, const Limits& limits) {
@@ -118,18 +115,18 @@ void RecordObject::read(const Json& given, const std::string& key, double& numbe
 
 void RecordObject::read(const Json& given, const std::string& key, int& whole, int lowest, int highest) {
   // A larger number would be cut to another one by get<int>.
-  const bool fits = given.is_number_integer() && given >= lowest && given <= highest;
-  if (!fits) refuse(key, found_in(given), fmt::format("a whole number from {} to {}", lowest, highest));
-  whole = fits ? given.get<int>() : lowest;
+  if (!given.is_number_integer() || given < lowest || given > highest)
+    refuse(key, found_in(given), fmt::format("a whole number from {} to {}", lowest, highest));
+  whole = given.get<int>();
 }
 
 void RecordObject::read(const Json& given, const std::string& key, bool& flag) {
-  if (!given.is_boolean()) return refuse(key, found_in(given), "true or false");
+  if (!given.is_boolean()) refuse(key, found_in(given), "true or false");
   flag = given.get<bool>();
 }
 
 void RecordObject::read(const Json& given, const std::string& key, std::string& text) {
-  if (!given.is_string()) return refuse(key, found_in(given), "a text");
+  if (!given.is_string()) refuse(key, found_in(given), "a text");
   text = given.get<std::string>();
 }
 
@@ -144,9 +141,9 @@ void RecordObject::model_version(const char* anew) {
 void RecordObject::scene(scene::Scene& scene, const char* what) {
   std::string text = reading() ? std::string{} : scene::to_toml(scene);
   value("scene", text);
-  if (!is_sound()) return;
+  if (!reading()) return;
   auto read = scene::parse_scene(text, "scene of the record");
-  if (!read) return refuse("scene", "a scene that cannot be read: " + read.error().message(), what);
+  if (!read) refuse("scene", "a scene that cannot be read: " + read.error().message(), what);
   scene = std::move(read->scene);
 }
 

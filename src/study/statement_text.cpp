@@ -50,39 +50,54 @@ constexpr std::array<RuleWords, 23> rules{{
      "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) {corner}"},
     {"below-bound", "below the lower bound of the critical gap, {at_least:.3g} cm"},
 }};
+/// In the order of GapReasonCode.
+constexpr std::array<const char*, 12> gap_reasons{
+    "",
+    "the temperature at a gap of {gap} is not a number",
+    "no ignition up to {gap}, where the search ended",
+    "none of {gaps} gaps up to {gap} ignites",
+    "not monotone: no ignition at {gap} again",
+    "ignition at every gap, also without one",
+    "{because}",
+    "validity warning: {because}",
+    "the run of the longer launch: {because}",
+    "the coupled run at {gap} did not complete: {because} {traced}",
+    "the coupled run at {gap} ignites, the traced temperatures do not {traced}",
+    "the coupled run at {gap} does not ignite, the traced temperatures do {traced}"};
+
 const RuleWords& words_of(ReasonCode code) { return rules.at(static_cast<std::size_t>(code)); }
 
 }  // namespace
 
 std::string to_string(ReasonCode code) { return words_of(code).name; }
 
-std::string cause_text(const Evidence& evidence, const Judgement& judgement) {
-  const char* text = words_of(judgement.code).text;
-  if (evidence.of_case == nullptr) return text;
-  const CaseEvidence& of_case = *evidence.of_case;
+std::string cause_text(const GapVerdict& row) {
+  const char* text = words_of(row.judgement.code).text;
+  if (row.of_case == nullptr) return text;
+  const CaseEvidence& of_case = *row.of_case;
   const std::string unaccepted = unaccepted_text(of_case.input);
   const std::string& optimistic = of_case.input.optimistic;
-  const std::string corner = std::isfinite(evidence.closing.corner_margin)
+  const std::string corner = std::isfinite(row.closing.corner_margin)
                                  ? fmt::format("the margin is {:.1f} K, and the uncertainty {:.2g} K",
-                                               evidence.closing.corner_margin, evidence.closing_uncertainty())
+                                               row.closing.corner_margin, row.closing_uncertainty())
                                  : "it ignites";
   return fmt::format(
-      fmt::runtime(text), fmt::arg("failure", of_case.failure.empty() ? "the run failed" : of_case.failure),
-      fmt::arg("warnings", validity_warnings_text(evidence)), fmt::arg("unaccepted", unaccepted),
+      fmt::runtime(text), fmt::arg("failure", of_case.failure),
+      fmt::arg("warnings", validity_warnings_text(row)), fmt::arg("unaccepted", unaccepted),
       fmt::arg("and_unaccepted", unaccepted.empty() ? "" : "; " + unaccepted),
       fmt::arg("with_unaccepted", unaccepted.empty() ? "" : "; validity warning: " + unaccepted),
       fmt::arg("optimistic", optimistic.empty() ? optimistic_by_run(of_case.friction_rise) : optimistic),
-      fmt::arg("critical_gap", judgement.critical_gap), fmt::arg("margin", kelvin(evidence.margin, 3)),
-      fmt::arg("uncertainty", kelvin(evidence.uncertainty, 2)),
-      fmt::arg("at_least", 100.0 * judgement.at_least), fmt::arg("corner", corner));
+      fmt::arg("critical_gap", text_of(row.judgement.critical_gap)),
+      fmt::arg("margin", kelvin(row.margin, 3)), fmt::arg("uncertainty", kelvin(row.uncertainty.total(), 2)),
+      fmt::arg("at_least", 100.0 * row.judgement.at_least), fmt::arg("corner", corner));
 }
 
-std::string validity_warnings_text(const Evidence& evidence) {
-  if (evidence.of_case == nullptr) return {};
-  std::string text = fmt::format("{}", fmt::join(evidence.of_case->validity_warnings, "; "));
-  if (std::isfinite(evidence.when_over))
+std::string validity_warnings_text(const GapVerdict& row) {
+  if (row.of_case == nullptr) return {};
+  std::string text = fmt::format("{}", fmt::join(row.of_case->validity_warnings, "; "));
+  if (std::isfinite(row.when_over))
     text += fmt::format("; when it is over T max is {:.1f} K, and the ignition temperature is {:.1f} K",
-                        evidence.when_over, evidence.maximum_temperature + evidence.margin);
+                        row.when_over, row.maximum.temperature + row.margin);
   return text;
 }
 
@@ -104,55 +119,64 @@ std::string accepted_text(const CaseStatements& input) {
   return scene::accepted_text(input.to_be_accepted());
 }
 
-std::string limiters_text(const Evidence& evidence) {
-  return evidence.of_case == nullptr ? std::string{} : run::to_string(evidence.of_case->limited);
+std::string limiters_text(const GapVerdict& row) {
+  return row.of_case == nullptr ? std::string{} : run::to_string(row.of_case->limited);
 }
 
-std::string noise_text(const Evidence& evidence) {
+std::string noise_text(const GapVerdict& row) {
   constexpr double least_told = 0.1;  // K
-  if (!(evidence.noise >= least_told)) return {};
-  return fmt::format("noise and smoothing of the measured curve count {:.2g} K", evidence.noise);
+  if (!(row.uncertainty.load_curve >= least_told)) return {};
+  return fmt::format("noise and smoothing of the measured curve count {:.2g} K", row.uncertainty.load_curve);
 }
 
-std::string models_text(const Evidence& evidence) {
-  if (evidence.models.empty()) return {};
+std::string models_text(const GapVerdict& row) {
+  if (row.models.empty()) return {};
   return fmt::format("{}\"{}\"",
-                     evidence.ignited ? "no ignition, or none known, under " : "ignition not excluded under ",
-                     fmt::join(evidence.models, "\", \""));
+                     row.ignition ? "no ignition, or none known, under " : "ignition not excluded under ",
+                     fmt::join(row.models, "\", \""));
 }
 
-std::string extrapolated_text(const Evidence& evidence) {
-  if (evidence.of_case == nullptr) return {};
-  const CaseStatements& input = evidence.of_case->input;
+std::string extrapolated_text(const GapVerdict& row) {
+  if (row.of_case == nullptr) return {};
+  const CaseStatements& input = row.of_case->input;
   std::vector<std::string> beyond = input.extrapolated;
-  if (input.is_beyond(evidence.gap)) beyond.emplace_back("gap");
+  if (input.is_beyond(row.gap)) beyond.emplace_back("gap");
   return beyond.empty() ? std::string{} : fmt::format("extrapolated: {}", fmt::join(beyond, ", "));
 }
 
-std::string why_no_critical_gap(const CaseEvidence& of_case) {
-  if (!of_case.completed) return of_case.failure;
-  const std::string warnings = of_case.validity_warnings.empty()
-                                   ? unaccepted_text(of_case.input)
-                                   : fmt::format("{}", fmt::join(of_case.validity_warnings, "; "));
-  return warnings.empty() ? warnings : "validity warning: " + warnings;
+std::string text_of(const GapReason& reason) {
+  const auto traced =
+      fmt::format("(traced bracket {:.6g} to {})", 100.0 * reason.lower, in_centimetres(reason.upper));
+  return fmt::format(fmt::runtime(gap_reasons.at(static_cast<std::size_t>(reason.code))),
+                     fmt::arg("gap", in_centimetres(reason.gap)), fmt::arg("gaps", reason.gaps),
+                     fmt::arg("because", reason.because), fmt::arg("traced", traced));
 }
 
-std::string reason_text(const Evidence& evidence, const Judgement& judgement) {
-  std::string text = cause_text(evidence, judgement);
+GapReason why_no_critical_gap(const CaseEvidence& of_case) {
+  if (!of_case.completed()) return {.code = GapReasonCode::failed, .because = of_case.failure};
+  std::string warnings = of_case.validity_warnings.empty()
+                             ? unaccepted_text(of_case.input)
+                             : fmt::format("{}", fmt::join(of_case.validity_warnings, "; "));
+  if (warnings.empty()) return {};
+  return {.code = GapReasonCode::validity_warning, .because = std::move(warnings)};
+}
+
+std::string reason_text(const GapVerdict& row) {
+  std::string text = cause_text(row);
   // Of these nothing but the fault of the run is said.
   using enum ReasonCode;
   for (const ReasonCode alone : {not_judged, failed, no_temperature, validity_warning})
-    if (judgement.code == alone) return text;
+    if (row.judgement.code == alone) return text;
   const auto add = [&text](const std::string& clause) {
     if (!clause.empty()) text += "; " + clause;
   };
-  const CaseEvidence& of_case = *evidence.of_case;
-  const std::string limiters = limiters_text(evidence);
+  const CaseEvidence& of_case = *row.of_case;
+  const std::string limiters = limiters_text(row);
   add(limiters.empty() ? limiters : "limiters acted: " + limiters);
-  add(noise_text(evidence));
+  add(noise_text(row));
   add(of_case.input.ring);
-  add(models_text(evidence));
-  add(extrapolated_text(evidence));
+  add(models_text(row));
+  add(extrapolated_text(row));
   if (of_case.input.demonstration) add("a demonstration, with an invented shell or invented firings");
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));

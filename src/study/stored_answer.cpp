@@ -104,6 +104,12 @@ void describe(Values& values, GapShare& share) {
   values.amounts(share.raised, share.lowered);
 }
 
+void describe(Values& values, GapReason& reason) {
+  values.choice(reason.code, GapReasonCode::coupled_safe);
+  values.amounts(reason.gap, reason.lower, reason.upper);
+  values.add(reason.gaps, reason.because);
+}
+
 /// The bounds of a critical gap, which follow from its shares, where they were sought.
 void describe(Values& values, CriticalGap& gap) {
   values.choice(gap.kind, CriticalGapKind::several_crossings);
@@ -153,10 +159,6 @@ MaybeError save_answer(Database& database, const std::string& key, const CaseAns
                       {key, check_of(key, bytes), bytes});
 }
 
-void save_answer(store::CaseStore& store, const std::string& key, const CaseAnswer& answer) {
-  store.write([&](Database& database) { return save_answer(database, key, answer); });
-}
-
 std::optional<CaseAnswer> read_answer(Database& database, const std::string& key) {
   const auto found = database.rows("SELECT check_sum, answer FROM stored_case_answers WHERE key = ?", {key});
   if (!found || found->size() != 1) return std::nullopt;
@@ -167,12 +169,6 @@ std::optional<CaseAnswer> read_answer(Database& database, const std::string& key
   CaseAnswer answer;
   describe(values, answer);
   return values.is_sound() && is_sound(answer) ? std::optional(std::move(answer)) : std::nullopt;
-}
-
-std::optional<CaseAnswer> read_answer(const store::CaseStore& store, const std::string& key) {
-  std::optional<CaseAnswer> answer;
-  store.read([&](Database& database) { answer = read_answer(database, key); });
-  return answer;
 }
 
 }  // namespace launchsafe::study

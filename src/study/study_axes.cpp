@@ -53,30 +53,23 @@ Fault check_load_axis(const StudyFile& study, const std::string& key, const std:
                   "a scene without a measured curve, or a key that has an effect");
 }
 
-/// The cases whose peak pressure is nearest to one, Pa.
+/// Of so many cases those whose peak pressure is nearest to one (Pa): the ones that have the defect of the
+/// study's scene, or all where none has.
 std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count, double peak_pressure) {
-  std::vector<std::size_t> nearest;
+  const materials::ViscoScramParameters& own = study.scene.scene.charge().strength;
+  std::vector<std::size_t> nearest, of_own_defect;
   double least = math::infinity;
   for (std::size_t i = 0; i < count; ++i) {
-    const double distance = std::abs(study.cases[i].peak_pressure - peak_pressure);
-    const double slack = 1e-9 * peak_pressure;
+    const StudyCase each = study.cases[i];
+    const double distance = std::abs(each.peak_pressure - peak_pressure), slack = 1e-9 * peak_pressure;
     if (distance > least + slack) continue;
-    if (distance < least - slack) nearest.clear();
+    if (distance < least - slack) nearest = of_own_defect = {};
     least = std::min(least, distance);
     nearest.push_back(i);
+    if (each.crack_radius == own.initial_crack_radius && each.flaw_size == own.flaw_size)
+      of_own_defect.push_back(i);
   }
-  return nearest;
-}
-
-/// Those of them that have the defect of the study's scene; all where none has.
-std::vector<std::size_t> with_own_defect(const StudyFile& study, std::vector<std::size_t> cases) {
-  const materials::ViscoScramParameters& own = study.scene.scene.charge().strength;
-  std::vector<std::size_t> kept;
-  for (const std::size_t i : cases) {
-    const StudyCase& each = study.cases[i];
-    if (each.crack_radius == own.initial_crack_radius && each.flaw_size == own.flaw_size) kept.push_back(i);
-  }
-  return kept.empty() ? cases : kept;
+  return of_own_defect.empty() ? nearest : of_own_defect;
 }
 
 LimitComparison compare(const StudyFile& study, const std::vector<const CriticalGap*>& critical,
@@ -87,7 +80,7 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
                               ? scene::PressureHistory(study.scene.scene.load).stated_peak()
                               : limit.peak_pressure;
   const std::size_t count = std::min(study.cases.size(), critical.size());
-  const std::vector<std::size_t> cases = with_own_defect(study, nearest_cases(study, count, pressure));
+  const std::vector<std::size_t> cases = nearest_cases(study, count, pressure);
   comparison.cases = cases.size();
   if (cases.empty()) return comparison;
   // In the order of the smallest that the critical gap may be.
@@ -105,15 +98,13 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
 
 }  // namespace
 
-scene::Expected<Tables> tables_of(const toml::table& root, const std::string& name, const std::string& file) {
-  return scene::tables_of(root, name, file, fmt::format("tables, each written [[{}]]", name));
-}
-
-scene::Expected<Tables> some_tables_of(const toml::table& root, const std::string& name,
-                                       const StudyFile& study, const std::string& content) {
-  const std::string allowed = fmt::format("at least one table, written [[{}]], {}", name, content);
+scene::Expected<Tables> tables_of(const toml::table& root, const std::string& name, const StudyFile& study,
+                                  const std::string& needed) {
+  const std::string allowed = needed.empty()
+                                  ? fmt::format("tables, each written [[{}]]", name)
+                                  : fmt::format("at least one table, written [[{}]], {}", name, needed);
   auto tables = scene::tables_of(root, name, study.file, allowed);
-  if (!tables || !tables->empty()) return tables;
+  if (!tables || !tables->empty() || needed.empty()) return tables;
   return scene::error_at(place_of_key(study, root.contains(name) ? name : "kind"), name, "no " + name,
                          allowed);
 }

@@ -45,10 +45,9 @@ void describe_input(RecordObject& object, Input& input) {
   describe_end(object, "upper", distribution.upper, math::infinity);
   object.value("centre", distribution.centre, OrNone{any_number});
   object.value("deviation", distribution.deviation, OrNone{any_number});
-  if (!object.is_sound()) return;
-  if (found == kinds.end())
-    object.refuse("distribution", study::quoted(kind), scene::quoted_list(kinds));
-  else if (!math::is_valid(distribution))
+  if (!object.reading()) return;
+  if (found == kinds.end()) object.refuse("distribution", study::quoted(kind), scene::quoted_list(kinds));
+  if (!math::is_valid(distribution))
     object.refuse("distribution", "numbers that make no " + kind + " distribution", "those of the study");
 }
 
@@ -74,7 +73,7 @@ void describe_correlated(RecordObject& object, SurrogateRecord& record) {
   object.value("count", count, 0, inputs - first);
   const std::size_t entries = static_cast<std::size_t>(count) * static_cast<std::size_t>(count);
   object.value("covariance_factor", together.factor, any_number, entries, entries);
-  if (!object.is_sound() || count == 0) return;
+  if (!object.reading() || count == 0) return;
   together.first = static_cast<std::size_t>(first);
   together.count = static_cast<std::size_t>(count);
   for (std::size_t i = 0; i < together.count; ++i)
@@ -122,7 +121,7 @@ void describe_output(RecordObject& object, SurrogateOutput& output, const Surrog
               [&](RecordObject& own, math::PolynomialChaos& part) { describe_chaos(own, part, inputs); });
   object.part("process", process,
               [&](RecordObject& own, math::GaussianProcess& part) { describe_process(own, part, inputs); });
-  if (!object.is_sound() || !output.reason.empty()) return;
+  if (!object.reading() || !output.reason.empty()) return;
   const auto rows = record.fitted_rows(output.values);
   const std::size_t known = math::finite_rows(inputs, rows.points, rows.values).values.size();
   const bool enough =
@@ -140,14 +139,14 @@ void describe_held_out(RecordObject& object, SurrogateRecord& record) {
                scene::between(0, static_cast<double>(std::max<std::size_t>(launches, 1) - 1)), 0, launches);
   record.held_out.clear();
   for (const double row : rows) record.held_out.push_back(static_cast<std::size_t>(row));
-  if (object.is_sound() &&
+  if (object.reading() &&
       std::ranges::adjacent_find(record.held_out, std::greater_equal{}) != record.held_out.end())
     object.refuse("held_out", "launches out of their order", "each once, ascending");
 }
 
 /// Whole rows of the cube, whose normal inputs are no end of it.
 void check_points(RecordObject& object, const SurrogateRecord& record) {
-  if (!object.is_sound()) return;
+  if (!object.reading()) return;
   const std::vector<math::ChaosBasis> bases = record.inputs.bases();
   bool possible = record.points.size() % bases.size() == 0;
   for (std::size_t i = 0; i < record.points.size(); ++i)
@@ -161,15 +160,12 @@ void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
   object.scene(record.scene, "the scene of the study");
   object.value("gap_m", record.gap, scene::between(0, 0.01));
   describe_inputs(object, record);
-  if (object.reading() && !object.is_sound()) return;
   object.part("correlated", record, describe_correlated);
   object.value("drawn", record.drawn);
   const std::size_t inputs = record.keys.size();
   object.value("points", record.points, scene::between(0.0, 1.0), inputs, inputs * most_launches);
   check_points(object, record);
-  if (object.reading() && !object.is_sound()) return;
   describe_held_out(object, record);
-  if (object.reading() && !object.is_sound()) return;
   object.list("outputs", record.outputs, 0, 100, "an array of at most 100 outputs",
               [&](RecordObject& own, SurrogateOutput& output) { describe_output(own, output, record); });
 }

@@ -102,23 +102,22 @@ std::string optimistic_by_input(const Study& study, const scene::Scene& scene,
 
 bool nobody_accepts(const scene::Implausible& value) { return !value.accepted(); }
 
-Judgement indeterminate(ReasonCode code, const CriticalGap& critical, std::string why = {}) {
+Judgement indeterminate(ReasonCode code, const CriticalGap& critical, GapReason why = {}) {
   return {Verdict::indeterminate, code, critical.bounds.at_least, std::move(why)};
 }
 
 /// Where nothing ignites up to the end of the search, which a gap may lie at.
-Judgement judge_margin(const Evidence& evidence, const CriticalGap& critical) {
+Judgement judge_margin(const GapVerdict& row, const CriticalGap& critical) {
   // Written so that NaN is never safe.
-  if (!(evidence.margin > evidence.uncertainty))
+  if (!(row.margin > row.uncertainty.total()))
     return indeterminate(ReasonCode::margin_within_uncertainty, critical);
-  if (!(evidence.calibrated_margin > evidence.uncertainty))
+  if (!(row.calibrated_margin() > row.uncertainty.total()))
     return indeterminate(ReasonCode::calibrated_margin_within_uncertainty, critical);
-  if (!(evidence.gap <= critical.bounds.at_least))
-    return indeterminate(ReasonCode::not_below_bound, critical);
+  if (!(row.gap <= critical.bounds.at_least)) return indeterminate(ReasonCode::not_below_bound, critical);
   return {Verdict::safe, ReasonCode::margin_over_uncertainty, critical.bounds.at_least};
 }
 
-Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
+Judgement judge_in_gap(const GapVerdict& row, const CriticalGap& critical) {
   const double at_least = critical.bounds.at_least;
   switch (critical.kind) {
     case CriticalGapKind::indeterminate:
@@ -128,25 +127,25 @@ Judgement judge_in_gap(const Evidence& evidence, const CriticalGap& critical) {
     case CriticalGapKind::all_ignite:
       return indeterminate(ReasonCode::smaller_gaps_ignite, critical);
     case CriticalGapKind::all_safe:
-      return judge_margin(evidence, critical);
+      return judge_margin(row, critical);
     case CriticalGapKind::value:
       break;
   }
   if (std::isnan(at_least)) return indeterminate(ReasonCode::no_lower_bound, critical);
-  if (!(evidence.gap < at_least))
+  if (!(row.gap < at_least))
     return indeterminate(at_least > 0.0 ? ReasonCode::not_below_bound : ReasonCode::may_ignite_without_gap,
                          critical);
   return {Verdict::safe, ReasonCode::below_bound, at_least};
 }
 
 /// A gap that is SAFE by the reservoir, where it closes.
-Judgement judge_closing(const Evidence& evidence, const CriticalGap& critical, Judgement by_reservoir) {
+Judgement judge_closing(const GapVerdict& row, const CriticalGap& critical, Judgement by_reservoir) {
   if (by_reservoir.verdict != Verdict::safe) return by_reservoir;
-  if (!evidence.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
-  if (std::isnan(evidence.closing.corner_margin))
+  if (!row.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
+  if (std::isnan(row.closing.corner_margin))
     return indeterminate(ReasonCode::closing_without_corner, critical);
   // Written so that NaN is never safe.
-  if (!(evidence.closing.corner_margin > evidence.closing_uncertainty()))
+  if (!(row.closing.corner_margin > row.closing_uncertainty()))
     return indeterminate(ReasonCode::closing_corner, critical);
   return by_reservoir;
 }
@@ -205,26 +204,24 @@ std::string to_string(Verdict verdict) {
   return words.at(static_cast<std::size_t>(verdict));
 }
 
-Judgement judge(const Evidence& evidence, const CriticalGap& critical) {
-  if (evidence.of_case == nullptr) return {};
-  const CaseEvidence& of_case = *evidence.of_case;
-  if (!of_case.completed) return indeterminate(ReasonCode::failed, critical);
-  if (!std::isfinite(evidence.maximum_temperature))
-    return indeterminate(ReasonCode::no_temperature, critical);
-  if (!of_case.validity_warnings.empty() || std::isfinite(evidence.when_over))
+Judgement judge(const GapVerdict& row, const CriticalGap& critical) {
+  if (row.of_case == nullptr) return {};
+  const CaseEvidence& of_case = *row.of_case;
+  if (!of_case.completed()) return indeterminate(ReasonCode::failed, critical);
+  if (!std::isfinite(row.maximum.temperature)) return indeterminate(ReasonCode::no_temperature, critical);
+  if (!of_case.validity_warnings.empty() || std::isfinite(row.when_over))
     return indeterminate(ReasonCode::validity_warning, critical);
-  if (evidence.ignited) return {Verdict::unsafe, ReasonCode::ignition};
-  if (of_case.input.closes && evidence.closing.ignited)
-    return {Verdict::unsafe, ReasonCode::closing_ignition};
+  if (row.ignition) return {Verdict::unsafe, ReasonCode::ignition};
+  if (of_case.input.closes && row.closing.ignited) return {Verdict::unsafe, ReasonCode::closing_ignition};
   if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
   // Written so that NaN is never safe.
-  if (!(evidence.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
+  if (!(row.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
   if (!of_case.input.optimistic.empty() || !optimistic_by_run(of_case.friction_rise).empty())
     return indeterminate(ReasonCode::optimistic, critical);
-  if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(evidence.gap))
+  if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(row.gap))
     return indeterminate(ReasonCode::beyond_firings, critical);
-  const Judgement by_reservoir = judge_in_gap(evidence, critical);
-  return of_case.input.closes ? judge_closing(evidence, critical, by_reservoir) : by_reservoir;
+  const Judgement by_reservoir = judge_in_gap(row, critical);
+  return of_case.input.closes ? judge_closing(row, critical, by_reservoir) : by_reservoir;
 }
 
 }  // namespace launchsafe::study

@@ -47,7 +47,7 @@ TEST(Comparison, EveryVariantIsRunUnderEveryPeakPressure) {
   EXPECT_EQ(result.counterpart(3), 1u);
   // The launch in closed form knows no cells: nothing is different but what the peak does.
   EXPECT_EQ(result.answers[3].critical.value, result.answers[1].critical.value)
-      << result.answers[3].critical.reason;
+      << text_of(result.answers[3].critical.reason);
   EXPECT_LT(result.answers[1].critical.value, result.answers[0].critical.value);
 }
 
@@ -62,7 +62,7 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
   const auto accepted = critical(bonded +
                                  "accept = [{ key = \"calibration.interfaces\", value = \"nose sliding, "
                                  "friction 0\", because = \"of this variant alone\" }]\n");
-  EXPECT_EQ(accepted.kind, CriticalGapKind::value) << accepted.reason;
+  EXPECT_EQ(accepted.kind, CriticalGapKind::value) << text_of(accepted.reason);
   EXPECT_EQ(accepted.value, unknown.indicative);
   const auto foreign = critical(
       bonded + variant("other", "gap.air = \"film\"") +

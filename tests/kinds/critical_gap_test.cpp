@@ -37,7 +37,7 @@ TEST(CriticalGapStudy, FindsTheGapAndConfirmsIt) {
                        synthetic_options());
   ASSERT_EQ(result.details.size(), 1u);
   const CaseOutcome& outcome = result.details[0];
-  ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << outcome.critical.reason;
+  ASSERT_EQ(outcome.critical.kind, CriticalGapKind::value) << text_of(outcome.critical.reason);
   EXPECT_LE(outcome.critical.upper - outcome.critical.lower, 1e-6);
   EXPECT_GT(outcome.critical.value, 3e-4);
   EXPECT_LT(outcome.critical.value, 6e-4);
@@ -150,8 +150,10 @@ TEST(CriticalGapStudy, ARunWithSkinThatDisagreesMakesItIndeterminate) {
   const CaseOutcome& outcome = result.details[0];
   EXPECT_EQ(outcome.critical.kind, CriticalGapKind::indeterminate);
   EXPECT_TRUE(std::isnan(outcome.critical.value));
-  EXPECT_NE(outcome.critical.reason.find(" ignites, the traced temperatures do not (traced bracket "),
-            std::string::npos);
+  EXPECT_EQ(outcome.critical.reason.code, GapReasonCode::coupled_ignites);
+  EXPECT_NE(
+      text_of(outcome.critical.reason).find(" ignites, the traced temperatures do not (traced bracket "),
+      std::string::npos);
   EXPECT_EQ(outcome.verdicts[0].judgement.verdict, Verdict::indeterminate);
   EXPECT_EQ(outcome.verdicts[4].judgement.verdict, Verdict::unsafe);
 }
@@ -169,7 +171,8 @@ TEST(CriticalGapStudy, ARunWithSkinThatFailsMakesItIndeterminate) {
     const CriticalGapResult result =
         run_critical_gap(study_of(critical_text + gap_keys + synthetic_constants), options);
     EXPECT_EQ(result.details[0].critical.kind, CriticalGapKind::indeterminate);
-    EXPECT_NE(result.details[0].critical.reason.find(throws ? "broken" : "non-finite"), std::string::npos);
+    EXPECT_NE(text_of(result.details[0].critical.reason).find(throws ? "broken" : "non-finite"),
+              std::string::npos);
     EXPECT_FALSE(result.details[0].confirmations[0].completed);
   }
 }

@@ -49,9 +49,7 @@ inline study::GapVerdict verdict(double gap, study::Verdict verdict, double temp
   row.early = {350.5, 10e-3, "G1"};
   row.margin = 521.52 - temperature;
   row.uncertainty.numerical = 1.2;
-  row.evidence.of_case = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.completed = true});
-  row.evidence.margin = row.margin;
-  row.evidence.uncertainty = row.uncertainty.total();
+  row.of_case = std::make_shared<const study::CaseEvidence>(study::CaseEvidence{.failure = {}});
   row.judgement = {verdict, verdict == study::Verdict::safe ? study::ReasonCode::margin_over_uncertainty
                                                             : study::ReasonCode::ignition};
   if (verdict == study::Verdict::unsafe)
@@ -86,7 +84,7 @@ inline study::CaseAnswer all_safe_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, 1.0);
   answer.critical.kind = study::CriticalGapKind::all_safe;
   answer.critical.lower = 1e-3;
-  answer.critical.reason = "no ignition up to 0.1 cm, where the search ended";
+  answer.critical.reason = {study::GapReasonCode::end_of_search, 1e-3};
   return answer;
 }
 
@@ -94,7 +92,7 @@ inline study::CaseAnswer all_ignite_answer(const study::Study& study) {
   study::CaseAnswer answer = answer_with(study, -1.0);
   answer.critical.kind = study::CriticalGapKind::all_ignite;
   answer.critical.upper = 0.0;
-  answer.critical.reason = "ignition at every gap, also without one";
+  answer.critical.reason = {study::GapReasonCode::always};
   return answer;
 }
 
@@ -107,7 +105,7 @@ inline study::CaseAnswer broken_answer(const study::Study& study, const std::str
   for (const double gap : study.gaps) {
     study::GapVerdict row;
     row.gap = gap;
-    row.evidence.of_case = evidence;
+    row.of_case = evidence;
     row.judgement = {study::Verdict::indeterminate, study::ReasonCode::failed};
     answer.verdicts.push_back(std::move(row));
   }

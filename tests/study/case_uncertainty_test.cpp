@@ -4,8 +4,8 @@
 
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/record_domain.hpp"
+#include "launchsafe/study/verdict.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>
@@ -335,7 +335,7 @@ TEST(CaseUncertainty, AStudyWithoutVerdictsNeedsNoSecondRun) {
   const CaseAnswer answer =
       answer_of(study.study, study.cases[0], quadratic_launch(study.cases[0].scene.scene));
   EXPECT_EQ(answer.verdicts.at(0).uncertainty.fit, 0.0);
-  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << answer.critical.reason;
+  EXPECT_EQ(answer.critical.kind, CriticalGapKind::value) << text_of(answer.critical.reason);
 }
 
 TEST(CaseUncertainty, ASweepPropagatesTheSpreadToo) {

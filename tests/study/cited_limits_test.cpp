@@ -1,6 +1,6 @@
 // [[cited_limit]]: how it is read, and which case stands beside it.
-#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/study_cases.hpp"
+#include "launchsafe/study/verdict.hpp"
 #include "study/read_error.hpp"
 
 #include <gtest/gtest.h>

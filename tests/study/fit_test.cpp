@@ -1,4 +1,4 @@
-#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 #include <gtest/gtest.h>
 

@@ -35,10 +35,14 @@ bool is_outside(RecordKind kind, const scene::Scene& scene) {
 
 /// Whether a record of accuracy would judge it by its own numbers: as another launch, or another setting.
 bool is_told_by_numbers(const scene::Scene& scene) {
-  const RecordedLaunch a = launch_of(scene, {0.0}), b = launch_of(own().scene, {0.0});
+  const RecordedLaunch a = launch_of(scene), b = launch_of(own().scene);
+  const materials::ViscoScramParameters &cracks = scene.charge().strength,
+                                        &own_cracks = own().scene.charge().strength;
   return !same_setting(setting_of(scene), setting_of(own().scene)) || a.peak_pressure != b.peak_pressure ||
-         a.duration != b.duration || a.shape != b.shape || a.crack_radius != b.crack_radius ||
-         a.flaw_size != b.flaw_size || a.localisation != b.localisation || a.air_heating != b.air_heating ||
+         a.duration != b.duration || a.shape != b.shape ||
+         cracks.initial_crack_radius != own_cracks.initial_crack_radius ||
+         cracks.flaw_size != own_cracks.flaw_size ||
+         scene.surface.localisation != own().scene.surface.localisation || a.air_heating != b.air_heating ||
          scene.initial_temperature != own().scene.initial_temperature;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -16,10 +17,20 @@ using namespace launchsafe::study;
 
 const std::vector<double> recorded_gaps{0.0, 4e-4};
 
-Coverage coverage_of_changed(const std::function<void(scene::Scene&)>& change) {
+/// What the record of a scene at some gaps (m) says of the own one, changed.
+Coverage coverage_by(scene::Scene recorded, const std::vector<double>& gaps,
+                     const std::function<void(scene::Scene&)>& change) {
+  AccuracyRecord record;
+  record.scene = std::move(recorded);
+  record.scene.surface.gaps = gaps;
+  find_bounds(record);
   scene::Scene scene = own_scene();
   change(scene);
-  return coverage_of(launch_of(own_scene(), recorded_gaps), launch_of(scene, recorded_gaps));
+  return coverage_of(record, scene);
+}
+
+Coverage coverage_of_changed(const std::function<void(scene::Scene&)>& change) {
+  return coverage_by(own_scene(), recorded_gaps, change);
 }
 
 /// The scene's own load as a measured curve at some points, each off by a share of the peak, up and down.
@@ -60,7 +71,7 @@ TEST(RecordedLaunch, AirHeatsAsItDoesInTheSkin) {
   const double air = materials::adiabatic_temperature(scene.surface.air, peak);
   const double expected = surface::heat_capacity_ratio(surface::skin_model(scene), gap) /
                           scene.surface.exchange_time * (air - scene.surface.air.initial_temperature);
-  EXPECT_NEAR(gap * launch_of(scene, {gap}).air_heating, expected, 1e-6 * expected);
+  EXPECT_NEAR(gap * launch_of(scene).air_heating, expected, 1e-6 * expected);
 }
 
 TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
@@ -87,19 +98,18 @@ TEST(RecordedLaunch, GrowsWithWhatDrivesTheErrorsAndNeverShrinks) {
 }
 
 TEST(RecordedLaunch, SaysNothingOfWhatTheRecordDoesNotHave) {
+  const auto as_it_is = [](scene::Scene&) {};
   scene::Scene none = own_scene();
   none.charge().strength.initial_crack_radius = 0.0;
-  EXPECT_NE(coverage_of(launch_of(none, recorded_gaps), launch_of(own_scene(), recorded_gaps))
-                .reason.find("without cracks"),
-            std::string::npos);
-  const Coverage no_gap = coverage_of(launch_of(own_scene(), {0.0}), launch_of(own_scene(), recorded_gaps));
+  EXPECT_NE(coverage_by(none, recorded_gaps, as_it_is).reason.find("without cracks"), std::string::npos);
+  const Coverage no_gap = coverage_by(own_scene(), {0.0}, as_it_is);
   EXPECT_EQ(no_gap.largest_gap, 0.0);
   EXPECT_EQ(no_gap.growth, 1.0);
   none = own_scene();
   none.surface.localisation = 0.0;
-  EXPECT_FALSE(
-      coverage_of(launch_of(none, recorded_gaps), launch_of(own_scene(), recorded_gaps)).reason.empty());
-  EXPECT_EQ(coverage_of(launch_of(own_scene(), recorded_gaps), launch_of(own_scene(), {0.0})).reason, "");
+  EXPECT_FALSE(coverage_by(none, recorded_gaps, as_it_is).reason.empty());
+  const auto without_gap = [](scene::Scene& scene) { scene.surface.gaps = {0.0}; };
+  EXPECT_EQ(coverage_by(own_scene(), recorded_gaps, without_gap).reason, "");
 }
 
 /// Three times the widest recorded gap, 0.04 cm, where the air heats as it did there; a sixth of that where

@@ -32,7 +32,7 @@ int rank_of(Verdict verdict) {
   return -1;
 }
 
-int rank_of(const Evidence& evidence, const CriticalGap& critical) {
+int rank_of(const GapVerdict& evidence, const CriticalGap& critical) {
   return rank_of(judge(evidence, critical).verdict);
 }
 
@@ -44,25 +44,25 @@ double gap() { return *rc::gen::inRange(0, 1001) * 1e-6; }
 using Change = void (*)(CaseEvidence& of_case);
 
 /// The same evidence on other terms of its case.
-Evidence with(Evidence evidence, Change change) {
+GapVerdict with(GapVerdict evidence, Change change) {
   CaseEvidence of_case = *evidence.of_case;
   change(of_case);
   evidence.of_case = std::make_shared<const CaseEvidence>(std::move(of_case));
   return evidence;
 }
 
-Evidence any_evidence() {
+GapVerdict any_evidence() {
   CaseEvidence of_case;
-  of_case.completed = *rc::gen::inRange(0, 8) > 0;
+  of_case.failure = *rc::gen::inRange(0, 8) > 0 ? "" : "the run failed";
   of_case.validity_warnings.resize(*rc::gen::inRange(0, 4) == 0 ? 1 : 0, "the air was not resolved");
   of_case.limited.crack_at_bound = *rc::gen::element(0, 12);
-  Evidence evidence;
+  GapVerdict evidence;
   evidence.of_case = std::make_shared<const CaseEvidence>(std::move(of_case));
-  evidence.ignited = *rc::gen::inRange(0, 4) == 0;
+  if (*rc::gen::inRange(0, 4) == 0) evidence.ignition.emplace();
   evidence.gap = gap();
   evidence.margin = kelvin();
-  evidence.maximum_temperature = 525.0 - evidence.margin;
-  evidence.uncertainty = positive_kelvin();
+  evidence.maximum.temperature = 525.0 - evidence.margin;
+  evidence.uncertainty.input = positive_kelvin();
   return evidence;
 }
 
@@ -87,17 +87,17 @@ CriticalGap any_critical_gap() {
 
 RC_GTEST_PROP(VerdictProperty, RisesWithTheMargin, ()) {
   const CriticalGap critical = any_critical_gap();
-  const Evidence less = any_evidence();
-  Evidence more = less;
+  const GapVerdict less = any_evidence();
+  GapVerdict more = less;
   more.margin += positive_kelvin();
-  more.maximum_temperature = 525.0 - more.margin;
+  more.maximum.temperature = 525.0 - more.margin;
   RC_ASSERT(rank_of(more, critical) >= rank_of(less, critical));
 }
 
 RC_GTEST_PROP(VerdictProperty, NeverRisesWithTheGap, ()) {
   const CriticalGap critical = any_critical_gap();
-  const Evidence thin = any_evidence();
-  Evidence thick = thin;
+  const GapVerdict thin = any_evidence();
+  GapVerdict thick = thin;
   thick.gap += gap();
   RC_ASSERT(rank_of(thick, critical) <= rank_of(thin, critical));
 }
@@ -105,9 +105,9 @@ RC_GTEST_PROP(VerdictProperty, NeverRisesWithTheGap, ()) {
 /// More uncertainty, a wider range, less evidence: one share more, one that reaches further, one not known.
 RC_GTEST_PROP(VerdictProperty, NeverRisesWithAnUncertainty, ()) {
   const CriticalGap critical = any_critical_gap();
-  const Evidence evidence = any_evidence();
-  Evidence vaguer = evidence;
-  vaguer.uncertainty += positive_kelvin();
+  const GapVerdict evidence = any_evidence();
+  GapVerdict vaguer = evidence;
+  vaguer.uncertainty.input += positive_kelvin();
   RC_ASSERT(rank_of(vaguer, critical) <= rank_of(evidence, critical));
   CriticalGap more = critical;
   std::vector<GapShare> shares = critical.shares;
@@ -128,43 +128,43 @@ RC_GTEST_PROP(VerdictProperty, SafeIsBelowTheBoundAndBelowTheBoundNothingIsIndet
   CriticalGap critical = any_critical_gap();
   critical.kind = CriticalGapKind::value;
   set_shares(critical, critical.shares);
-  Evidence evidence = any_evidence();
+  GapVerdict evidence = any_evidence();
   const Judgement judged = judge(evidence, critical);
   if (judged.verdict == Verdict::safe) RC_ASSERT(evidence.gap < critical.bounds.at_least);
-  evidence = with(evidence, [](CaseEvidence& of_case) { of_case = {.completed = true}; });
-  evidence.ignited = false;
+  evidence = with(evidence, [](CaseEvidence& of_case) { of_case = {.failure = {}}; });
+  evidence.ignition.reset();
   evidence.margin = 1e-3 + positive_kelvin();
-  evidence.maximum_temperature = 525.0 - evidence.margin;
+  evidence.maximum.temperature = 525.0 - evidence.margin;
   if (evidence.gap < critical.bounds.at_least) RC_ASSERT(judge(evidence, critical).verdict == Verdict::safe);
 }
 
 RC_GTEST_PROP(VerdictProperty, IsNeverSafeOnAFailureAValidityWarningAnIgnitionOrANumberThatIsNone, ()) {
   const CriticalGap critical = any_critical_gap();
-  const Evidence sound = any_evidence();
-  const Evidence failed = with(sound, [](CaseEvidence& of_case) { of_case.completed = false; });
-  const Evidence warned =
+  const GapVerdict sound = any_evidence();
+  const GapVerdict failed = with(sound, [](CaseEvidence& of_case) { of_case.failure = "the run failed"; });
+  const GapVerdict warned =
       with(sound, [](CaseEvidence& of_case) { of_case.validity_warnings = {"the grid did not fit"}; });
-  Evidence ignited = sound;
-  ignited.ignited = true;
+  GapVerdict ignited = sound;
+  ignited.ignition.emplace();
   RC_ASSERT(judge(failed, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(warned, critical).verdict == Verdict::indeterminate);
   RC_ASSERT(judge(ignited, critical).verdict != Verdict::safe);
-  for (double Evidence::*number : {&Evidence::margin, &Evidence::maximum_temperature}) {
-    Evidence undefined = sound;
-    undefined.*number = not_a_number;
-    RC_ASSERT(judge(undefined, critical).verdict != Verdict::safe);
-  }
+  GapVerdict without_margin = sound, without_temperature = sound;
+  without_margin.margin = without_temperature.maximum.temperature = not_a_number;
+  RC_ASSERT(judge(without_margin, critical).verdict != Verdict::safe);
+  RC_ASSERT(judge(without_temperature, critical).verdict != Verdict::safe);
   CriticalGap undefined = critical;
   undefined.bounds.at_least = not_a_number;
   RC_ASSERT(judge(sound, undefined).verdict != Verdict::safe);
 }
 
 RC_GTEST_PROP(VerdictProperty, AlwaysHasAReasonAndNamesTheLimitersOfASoundRun, ()) {
-  const Evidence evidence = any_evidence();
-  const std::string reason = reason_text(evidence, judge(evidence, any_critical_gap()));
+  GapVerdict evidence = any_evidence();
+  evidence.judgement = judge(evidence, any_critical_gap());
+  const std::string reason = reason_text(evidence);
   const CaseEvidence& of_case = *evidence.of_case;
   RC_ASSERT(!reason.empty());
-  if (of_case.completed && of_case.validity_warnings.empty() && of_case.limited.crack_at_bound > 0)
+  if (of_case.completed() && of_case.validity_warnings.empty() && of_case.limited.crack_at_bound > 0)
     RC_ASSERT(reason.find("crack bound 12") != std::string::npos);
 }
 

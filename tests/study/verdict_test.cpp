@@ -33,12 +33,19 @@ CriticalGap none_up_to(double gap, double least_raised) {
 }
 
 /// A gap of 0.03 cm of such a case, 32 K below ignition, with an uncertainty of 0.1 K.
-Evidence calm(CaseEvidence of_case = {.completed = true}) {
-  return {std::make_shared<const CaseEvidence>(std::move(of_case)), false, 3e-4, 493.0, 32.0, 0.1};
+GapVerdict calm(CaseEvidence of_case = {.failure = {}}) {
+  GapVerdict row;
+  row.gap = 3e-4;
+  row.maximum.temperature = 493.0;
+  row.margin = 32.0;
+  row.uncertainty.input = 0.1;
+  row.of_case = std::make_shared<const CaseEvidence>(std::move(of_case));
+  return row;
 }
 
-std::string reason_of(const Evidence& evidence, const CriticalGap& critical) {
-  return reason_text(evidence, judge(evidence, critical));
+std::string reason_of(GapVerdict row, const CriticalGap& critical) {
+  row.judgement = judge(row, critical);
+  return reason_text(row);
 }
 
 scene::Implausible wide_station() { return {"station.width", "7 mm", "5 mm", {}, {}}; }
@@ -48,7 +55,7 @@ TEST(Verdict, SafeIsBelowTheLowerBoundOfTheCriticalGap) {
   const Judgement judged = judge(calm(), critical_at(3.95e-4, 1.2e-4));
   EXPECT_EQ(judged.verdict, Verdict::indeterminate);
   EXPECT_EQ(judged.code, ReasonCode::not_below_bound);
-  EXPECT_EQ(reason_text(calm(), judged), "the critical gap may be as small as 0.0275 cm");
+  EXPECT_EQ(reason_of(calm(), critical_at(3.95e-4, 1.2e-4)), "the critical gap may be as small as 0.0275 cm");
 }
 
 /// 0.03 cm, and a bound of 0.03 cm: the bound is the largest gap that no end of a range ignites, but what
@@ -60,32 +67,32 @@ TEST(Verdict, TheLowerBoundItselfIsNotSafe) {
 }
 
 TEST(Verdict, KelvinsDoNotDecideWhereThereIsACriticalGap) {
-  Evidence evidence = calm();
-  evidence.uncertainty = 40.0;
+  GapVerdict evidence = calm();
+  evidence.uncertainty.input = 40.0;
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
   evidence.margin = -0.1;
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
 }
 
 TEST(Verdict, WithoutACriticalGapInReachTheMarginDecidesToo) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
   evidence.gap = 1e-3;  // where the search ended: nothing ignites there either
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, 9e-4)).verdict, Verdict::indeterminate);
-  evidence.uncertainty = evidence.margin;
+  evidence.uncertainty.input = evidence.margin;
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate);
 }
 
 TEST(Verdict, ReasonsHaveNoPowersOfTen) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   evidence.margin = 1034.5;
-  evidence.uncertainty = 138.2;
+  evidence.uncertainty.input = 138.2;
   EXPECT_EQ(reason_of(evidence, none_up_to(1e-3, no_ignition)), "margin 1034 K over uncertainty 138 K");
 }
 
 TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   evidence.gap = 0.0;
   CriticalGap critical = critical_at(3.95e-4, 0.0);
   set_shares(critical, {{ShareKind::peak_pressure, 0.0, no_ignition}});
@@ -95,18 +102,18 @@ TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
 }
 
 TEST(Verdict, IgnitionIsUnsafe) {
-  Evidence evidence = calm();
-  evidence.ignited = true;
+  GapVerdict evidence = calm();
+  evidence.ignition.emplace();
   evidence.margin = -259.0;
   EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::unsafe);
 }
 
 TEST(Verdict, WhatNobodyAcceptsIsNeverSafeAndUndoesNoIgnition) {
-  CaseEvidence of_case{.completed = true};
+  CaseEvidence of_case{.failure = {}};
   of_case.input.implausible = {wide_station()};
-  Evidence evidence = calm(of_case);
+  GapVerdict evidence = calm(of_case);
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
-  evidence.ignited = true;
+  evidence.ignition.emplace();
   EXPECT_EQ(judge(evidence, critical_at(2e-4, 1e-6)).verdict, Verdict::unsafe);
   EXPECT_EQ(reason_of(evidence, critical_at(2e-4, 1e-6)),
             "ignition; validity warning: station.width = 7 mm is not plausible (5 mm)");
@@ -115,45 +122,45 @@ TEST(Verdict, WhatNobodyAcceptsIsNeverSafeAndUndoesNoIgnition) {
 }
 
 TEST(Verdict, WithoutTheEvidenceOfItsCaseNothingIsSafe) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   evidence.of_case.reset();
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
   EXPECT_EQ(reason_of(evidence, critical_at(3.95e-4, 1e-6)), "nothing was judged");
 }
 
 TEST(Verdict, ALaunchThatIsCutShortIsNeverSafe) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   evidence.when_over = 300.0;
   EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
 }
 
 TEST(Verdict, NoIgnitionOfWhatOnlyCoolsOrWasNotLaunchedIsSafe) {
-  CaseEvidence of_case{.completed = true};
+  CaseEvidence of_case{.failure = {}};
   of_case.input.optimistic = "no ignition with stations deeper than 10 mm shows nothing";
   EXPECT_EQ(judge(calm(of_case), critical_at(3.95e-4, 1e-6)).code, ReasonCode::optimistic);
   for (const double rise : {0.99, -1.0, nan_value}) {
-    const Evidence unheated = calm({.completed = true, .friction_rise = rise});
+    const GapVerdict unheated = calm({.failure = {}, .friction_rise = rise});
     EXPECT_EQ(judge(unheated, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate) << rise;
   }
-  const Evidence launched = calm({.completed = true, .friction_rise = 1.0});
+  const GapVerdict launched = calm({.failure = {}, .friction_rise = 1.0});
   EXPECT_EQ(judge(launched, critical_at(3.95e-4, 1e-6)).verdict, Verdict::safe);
 }
 
 TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecidesToo) {
-  Evidence evidence = calm();
+  GapVerdict evidence = calm();
   for (const double margin : {0.1, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
-    evidence.calibrated_margin = margin;
+    evidence.as_calibrated = {{"", evidence.margin + evidence.maximum.temperature - margin, false}};
     EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate) << margin;
   }
-  evidence.calibrated_margin = 0.2;
+  evidence.as_calibrated = {{"", evidence.margin + evidence.maximum.temperature - 0.2, false}};
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
 }
 
 TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {
-  CaseEvidence of_case{.completed = true};
+  CaseEvidence of_case{.failure = {}};
   of_case.input.extrapolated = {"peak pressure"};
   of_case.input.calibrated_gap = 2e-4;
-  Evidence evidence = calm(of_case);
+  GapVerdict evidence = calm(of_case);
   for (const double margin : {32.0, 0.05}) {
     evidence.margin = margin;
     const std::string reason = reason_of(evidence, critical_at(3.95e-4, 1e-6));
@@ -163,8 +170,8 @@ TEST(Verdict, WhatIsExtrapolatedStandsInEveryReason) {
 
 TEST(Verdict, AFailedRunIsNeitherSafeNorUnsafe) {
   for (const bool ignited : {false, true}) {
-    Evidence evidence = calm({.failure = "energy drift: at 3 ms"});
-    evidence.ignited = ignited;
+    GapVerdict evidence = calm({.failure = "energy drift: at 3 ms"});
+    if (ignited) evidence.ignition.emplace();
     EXPECT_EQ(judge(evidence, critical_at(3.95e-4, 1e-6)).verdict, Verdict::indeterminate);
     EXPECT_EQ(reason_of(evidence, critical_at(3.95e-4, 1e-6)), "energy drift: at 3 ms");
   }
@@ -172,9 +179,9 @@ TEST(Verdict, AFailedRunIsNeitherSafeNorUnsafe) {
 
 TEST(Verdict, NotANumberIsNeverSafe) {
   for (int which = 0; which < 3; ++which) {
-    Evidence evidence = calm();
+    GapVerdict evidence = calm();
     CriticalGap critical = critical_at(3.95e-4, 1e-6);
-    if (which == 0) evidence.maximum_temperature = nan_value;
+    if (which == 0) evidence.maximum.temperature = nan_value;
     if (which == 1) evidence.margin = nan_value;
     if (which == 2) set_shares(critical, {{ShareKind::fit, nan_value, nan_value}});
     EXPECT_EQ(judge(evidence, critical).verdict, Verdict::indeterminate) << which;
@@ -183,15 +190,15 @@ TEST(Verdict, NotANumberIsNeverSafe) {
 
 TEST(Verdict, AnIndeterminateCriticalGapLeavesNoSafeGap) {
   CriticalGap critical;
-  critical.reason = "the coupled run ignites";
+  critical.reason.code = GapReasonCode::coupled_ignites;
   EXPECT_EQ(judge(calm(), critical).verdict, Verdict::indeterminate);
 }
 
 /// A calm gap of a case that asks for gaps that close.
-Evidence closing(ClosingEvidence evidence) {
-  CaseEvidence of_case{.completed = true};
+GapVerdict closing(ClosingEvidence evidence) {
+  CaseEvidence of_case{.failure = {}};
   of_case.input.closes = true;
-  Evidence calm_one = calm(std::move(of_case));
+  GapVerdict calm_one = calm(std::move(of_case));
   calm_one.closing = evidence;
   return calm_one;
 }
@@ -200,9 +207,8 @@ TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
   const CriticalGap critical = critical_at(3.95e-4, 1e-6);
   // Of the reservoir's uncertainty all counts but its numerics, in whose place are those of the corner.
   const auto verdict_with = [&](double margin, double numerical, double of_corner) {
-    Evidence evidence = closing({true, false, margin, of_corner});
-    evidence.uncertainty = 10.0 + numerical;
-    evidence.numerical = numerical;
+    GapVerdict evidence = closing({true, false, margin, of_corner});
+    evidence.uncertainty = {.numerical = numerical, .input = 10.0};
     return judge(evidence, critical).verdict;
   };
   EXPECT_EQ(verdict_with(71.0, 2.0, 60.0), Verdict::safe);
@@ -210,10 +216,9 @@ TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
   EXPECT_EQ(verdict_with(69.0, 60.0, 2.0), Verdict::safe);
   EXPECT_EQ(verdict_with(11.0, 60.0, 2.0), Verdict::indeterminate);
   EXPECT_EQ(verdict_with(1e3, 2.0, nan_value), Verdict::indeterminate) << "nothing is known of the corner";
-  const Evidence near = closing({true, false, 9.0, 60.0});
+  const GapVerdict near = closing({true, false, 9.0, 60.0});
   EXPECT_EQ(judge(near, critical).code, ReasonCode::closing_corner);
-  EXPECT_NE(reason_text(near, judge(near, critical)).find("the margin is 9.0 K, and the uncertainty"),
-            std::string::npos);
+  EXPECT_NE(reason_of(near, critical).find("the margin is 9.0 K, and the uncertainty"), std::string::npos);
 }
 
 TEST(Verdict, IsNeverSafeWhereAClosingGapIsNotKnown) {
@@ -225,18 +230,18 @@ TEST(Verdict, IsNeverSafeWhereAClosingGapIsNotKnown) {
 }
 
 TEST(Verdict, IsNotSafeWhereTheCornerOfAClosingGapWasNotComputed) {
-  const Evidence evidence = closing({true, false, nan_value});
+  const GapVerdict evidence = closing({true, false, nan_value});
   const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
   EXPECT_EQ(judged.code, ReasonCode::closing_without_corner);
-  EXPECT_NE(reason_text(evidence, judged).find("were not computed"), std::string::npos);
+  EXPECT_NE(reason_of(evidence, critical_at(3.95e-4, 1e-6)).find("were not computed"), std::string::npos);
 }
 
 TEST(Verdict, IsUnsafeWhereAClosingGapIgnitesOnItsOwnTerms) {
-  const Evidence evidence = closing({true, true, -1.0});
+  const GapVerdict evidence = closing({true, true, -1.0});
   const Judgement judged = judge(evidence, critical_at(3.95e-4, 1e-6));
   EXPECT_EQ(judged.verdict, Verdict::unsafe);
   EXPECT_EQ(judged.code, ReasonCode::closing_ignition);
-  EXPECT_EQ(reason_text(evidence, judged), "ignition where the gap closes");
+  EXPECT_EQ(reason_of(evidence, critical_at(3.95e-4, 1e-6)), "ignition where the gap closes");
 }
 
 TEST(Verdict, IsNotMadeSafeByAClosingGap) {

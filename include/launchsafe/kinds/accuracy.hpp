@@ -3,7 +3,6 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
 
 namespace launchsafe::kinds {
 

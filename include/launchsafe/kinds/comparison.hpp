@@ -5,7 +5,6 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/gap_analysis.hpp"
 
 namespace launchsafe::kinds {
 

@@ -3,7 +3,7 @@
 
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
-#include "launchsafe/study/gap_verdict.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 #include <optional>
 #include <string>

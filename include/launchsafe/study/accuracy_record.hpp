@@ -23,18 +23,14 @@ double error_against(const ReferenceValue& reference, double value);
 /// The larger of two; NaN, which is no bound, wins.
 double larger_bound(double a, double b);
 
-/// What numerical errors depend on besides shell and setting. Every run of an accuracy study that its record
-/// keeps has the same launch, so these are values and no ranges.
+/// What numerical errors depend on besides shell and setting, and the scene's own numbers. Every run of an
+/// accuracy study that its record keeps has the same launch, so these are values and no ranges.
 struct RecordedLaunch {
   double peak_pressure = 0;   ///< Pa, largest over the duration
   double duration = 0;        ///< s
   std::vector<double> shape;  ///< pressure over its peak at `shape_instants` even instants of the duration
   double rise_time = 0;       ///< s, > 0: the peak over the largest rate of rise, at most the duration
   double roughness = 0;       ///< of the load, dimensionless, >= 0: see `scene::load_roughness`
-  double crack_radius = 0;    ///< m, c(0)
-  double flaw_size = 0;       ///< m, a
-  std::vector<double> gaps;   ///< m, at which T max was compared
-  double localisation = 0;    ///< factor on the friction heat
   /// K/(s m), per metre of gap: the rate at which air compressed by the peak pressure heats the cold skin.
   double air_heating = 0;
 };
@@ -42,8 +38,7 @@ struct RecordedLaunch {
 /// Instants at which the shape of a load is recorded, the first at 0, the last at the end.
 inline constexpr std::size_t shape_instants = 65;
 
-/// The launch of a scene, compared at gaps (m).
-RecordedLaunch launch_of(const scene::Scene& scene, std::vector<double> gaps);
+RecordedLaunch launch_of(const scene::Scene& scene);
 
 /// What a record of one launch says of another.
 struct Coverage {
@@ -54,17 +49,6 @@ struct Coverage {
   /// widest recorded one. Judged gap by gap, so that a verdict does not depend on what else a study lists.
   double largest_gap = 0;
 };
-
-/// How far a record is carried. Errors are those of the friction heat, which goes with p^2 and with the
-/// localisation, and of the pressure that heats the air. Below the recorded launch they keep their size, in
-/// kelvin. Above it they grow with p^2, with the root of the crack radius (as does the stress intensity that
-/// drives crack growth) and with the localisation; what a wider gap adds is left to the rise of T max (see
-/// StudyCase::rise_of_uncertainty). A record says nothing beyond 1.25 times the peak pressure, as the
-/// recorded wall may just not have yielded; beyond three times the crack radius, in metres or in flaw sizes,
-/// the localisation, or the rate at which the air of the widest gap heats the skin; and of a load that lasts
-/// longer, rises faster, differs in shape or is rougher by more than what accuracy_record.cpp allows (a
-/// roughness of 0.01 is a hundredth of the friction heat).
-Coverage coverage_of(const RecordedLaunch& recorded, const RecordedLaunch& launch);
 
 /// Whether an input belongs to a setting: it makes a computation finer or coarser, and nothing else.
 bool belongs_to_setting(const scene::KeyDescription& key);
@@ -144,14 +128,23 @@ scene::Expected<AccuracyRecord> parse_accuracy_record(const std::string& text, c
 /// Why a record says nothing of a scene, whatever its setting and launch; empty where it may. At another
 /// initial temperature, say, the shell is the same.
 std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene);
-/// How far the errors of a record are carried to a scene: as coverage_of its launch says, and over the
-/// initial temperature. This moves T max rigidly, as the heat of friction does not depend on it and air heats
-/// by its density times its rise, which does not either. The mechanics knows it by the steel alone, which
-/// yields at the same stress below room temperature and at 3 % less at 345 K: the rise of the 155 mm shell
-/// without a gap is 116.3 K from 219 to 344 K, to 0.1 K. So errors keep their size on a colder launch, and on
-/// a hotter one grow with the square of the ratio of the absolute temperatures (1.32 at 345 K for a record of
-/// 300 K), which is more than they can. A record says nothing of a launch that is hotter by more than a
-/// fifth.
+/// How far a record is carried to a scene. Errors are those of the friction heat, which goes with p^2 and
+/// with the localisation, and of the pressure that heats the air. Below the recorded launch they keep their
+/// size, in kelvin. Above it they grow with p^2, with the root of the crack radius (as does the stress
+/// intensity that drives crack growth) and with the localisation; what a wider gap adds is left to the rise
+/// of T max (see StudyCase::rise_of_uncertainty). A record says nothing beyond 1.25 times the peak pressure,
+/// as the recorded wall may just not have yielded; beyond three times the crack radius, in metres or in flaw
+/// sizes, the localisation, or the rate at which the air of the widest gap heats the skin; and of a load that
+/// lasts longer, rises faster, differs in shape or is rougher by more than what accuracy_record.cpp allows (a
+/// roughness of 0.01 is a hundredth of the friction heat).
+///
+/// Another initial temperature moves T max rigidly, as the heat of friction does not depend on it and air
+/// heats by its density times its rise, which does not either. The mechanics knows it by the steel alone,
+/// which yields at the same stress below room temperature and at 3 % less at 345 K: the rise of the 155 mm
+/// shell without a gap is 116.3 K from 219 to 344 K, to 0.1 K. So errors keep their size on a colder launch,
+/// and on a hotter one grow with the square of the ratio of the absolute temperatures (1.32 at 345 K for a
+/// record of 300 K), which is more than they can. A record says nothing of a launch that is hotter by more
+/// than a fifth.
 Coverage coverage_of(const AccuracyRecord& record, const scene::Scene& scene);
 /// The recorded setting of a scene, or nullptr.
 const RecordedSetting* recorded_setting(const AccuracyRecord& record, const scene::Scene& scene);

@@ -83,13 +83,36 @@ enum class CriticalGapKind {
 };
 std::string to_string(CriticalGapKind kind);
 
+/// Why a critical gap is no value; the words are in statement_text.cpp.
+enum class GapReasonCode {
+  none,              ///< it is one
+  undefined,         ///< the temperature at `gap` is not a number
+  end_of_search,     ///< no ignition up to `gap`
+  none_of_gaps,      ///< likewise, of so many `gaps`
+  not_monotone,      ///< no ignition at `gap` again
+  always,            ///< ignition at every gap
+  failed,            ///< the run, `because`
+  validity_warning,  ///< of the run or its input, `because`
+  longer_launch_failed,
+  coupled_failed,  ///< the coupled run at `gap`, `because`; traced was a bracket from `lower` to `upper`
+  coupled_ignites,
+  coupled_safe
+};
+struct GapReason {
+  GapReasonCode code = GapReasonCode::none;
+  double gap = math::not_a_number, lower = gap, upper = gap;  ///< m
+  std::size_t gaps = 0;
+  std::string because = {};  ///< what a run or an input says itself
+};
+std::string text_of(const GapReason& reason);
+
 /// A critical gap. What a kind does not have is NaN: a bound has no value.
 struct CriticalGap {
   CriticalGapKind kind = CriticalGapKind::indeterminate;
   double value = math::not_a_number;  ///< m, middle of the bracket
   double lower = value;               ///< m, does not ignite
   double upper = value;               ///< m, ignites
-  std::string reason = {};            ///< why it is no value, for people
+  GapReason reason = {};              ///< why it is no value
   std::vector<GapShare> shares = {};  ///< what makes it uncertain; once known
   GapBounds bounds = {};              ///< that follow; NaN until the shares are known
   /// Of one that is indeterminate for want of an acceptance alone: what the search found, on which nothing

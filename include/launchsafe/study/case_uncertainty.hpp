@@ -2,8 +2,8 @@
 // assumed; the calibrated constants; and what is not known of the launch.
 #pragma once
 
-#include "launchsafe/study/gap_verdict.hpp"
 #include "launchsafe/study/study_cases.hpp"
+#include "launchsafe/study/verdict.hpp"
 
 namespace launchsafe::study {
 

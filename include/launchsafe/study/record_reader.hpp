@@ -19,8 +19,8 @@ struct OrNone {
   scene::Limits limits;
 };
 
-/// An object of a record. One description of its keys, in their order, serves writing and reading. Of what is
-/// read the first fault stays; what comes after it means nothing.
+/// An object of a record. One description of its keys, in their order, serves writing and reading. What is
+/// wrong with one that is read is thrown, an InputError.
 class RecordObject {
  public:
   using Json = nlohmann::ordered_json;
@@ -28,14 +28,11 @@ class RecordObject {
   /// To be written.
   RecordObject() = default;
   /// To be read.
-  RecordObject(Json& given, std::string path, scene::Fault& fault)
-      : json_(&given), path_(std::move(path)), fault_(&fault) {}
+  RecordObject(Json& given, std::string path) : json_(&given), path_(std::move(path)) {}
   RecordObject(const RecordObject&) = delete;
 
-  bool reading() const { return fault_ != nullptr; }
-  /// Whether it is read, and nothing was refused so far.
-  bool is_sound() const { return reading() && !*fault_; }
-  void refuse(const std::string& key, std::string found, std::string allowed);
+  bool reading() const { return json_ != &written_; }
+  [[noreturn]] void refuse(const std::string& key, std::string found, std::string allowed) const;
   Json& operator[](const std::string& key) { return (*json_)[key]; }
 
   /// A value, with what `read` has to know to take it.
@@ -50,7 +47,7 @@ class RecordObject {
   template <class Part, class Describe>
   void part(const std::string& key, Part& part, const Describe& describe) {
     if (reading())
-      read_object((*this)[key], path_of(key), *fault_, part, describe);
+      read_object((*this)[key], path_of(key), part, describe);
     else
       (*this)[key] = written(describe, part);
   }
@@ -64,8 +61,8 @@ class RecordObject {
       return;
     }
     if (!list.is_array() || list.size() < fewest || list.size() > most) refuse(key, found_in(list), allowed);
-    for (std::size_t i = 0; is_sound() && i < list.size(); ++i)
-      read_object(list[i], path_of(key) + "." + std::to_string(i), *fault_, parts.emplace_back(), describe);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      read_object(list[i], path_of(key) + "." + std::to_string(i), parts.emplace_back(), describe);
   }
 
   /// "model_version", which must be this program's. `anew`: how to get a record of it.
@@ -79,7 +76,7 @@ class RecordObject {
   template <class Allowed>
   void read(const Json& given, const std::string& key, std::vector<double>& numbers, const Allowed& allowed,
             std::size_t fewest, std::size_t most) {
-    if (!is_list(given, key, fewest, most)) return;
+    check_list(given, key, fewest, most);
     numbers.resize(given.size());
     for (std::size_t i = 0; i < numbers.size(); ++i)
       read(given[i], key + "." + std::to_string(i), numbers[i], allowed);
@@ -96,23 +93,23 @@ class RecordObject {
   }
   /// Takes an object with the keys of its description, those of `head` before them, and no others.
   template <class Value, class Describe>
-  static void read_object(Json& given, const std::string& path, scene::Fault& fault, Value& value,
-                          const Describe& describe, std::vector<std::string> head = {}) {
+  static void read_object(Json& given, const std::string& path, Value& value, const Describe& describe,
+                          std::vector<std::string> head = {}) {
     const Json known = written(describe, Value{});
     for (const auto& [key, unused] : known.items()) head.push_back(key);
-    RecordObject object(given, path, fault);
-    if (object.has_keys(head)) describe(object, value);
+    RecordObject object(given, path);
+    object.check_keys(head);
+    describe(object, value);
   }
 
  private:
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
-  bool has_keys(const std::vector<std::string>& keys);
-  bool is_list(const Json& given, const std::string& key, std::size_t fewest, std::size_t most);
+  void check_keys(const std::vector<std::string>& keys) const;
+  void check_list(const Json& given, const std::string& key, std::size_t fewest, std::size_t most) const;
 
   Json written_ = Json::object();
   Json* json_ = &written_;
   std::string path_;
-  scene::Fault* fault_ = nullptr;
 };
 
 /// A kind of record.
@@ -122,11 +119,10 @@ struct RecordFormat {
 };
 
 /// The text as JSON of that format without a key given twice in one object, of which the parser would keep
-/// the last.
-nlohmann::ordered_json json_of(const std::string& text, const RecordFormat& format, scene::Fault& fault);
-/// Whether the digest of a file is that of its content as it was understood.
-void check_digest(const nlohmann::ordered_json& object, const nlohmann::ordered_json& content,
-                  scene::Fault& fault);
+/// the last. Throws an InputError where it is none.
+nlohmann::ordered_json json_of(const std::string& text, const RecordFormat& format);
+/// Throws one where the digest of a file is not that of its content as it was understood.
+void check_digest(const nlohmann::ordered_json& object, const nlohmann::ordered_json& content);
 /// The record as a file: its content and the SHA-256 of it.
 std::string record_text(nlohmann::ordered_json content);
 
@@ -142,15 +138,16 @@ nlohmann::ordered_json content_by(const RecordFormat& format, const Describe& de
 template <class Record, class Describe>
 scene::Expected<Record> parse_record(const std::string& text, const std::string& file,
                                      const RecordFormat& format, const Describe& describe) {
-  scene::Fault fault;
-  nlohmann::ordered_json object = json_of(text, format, fault);
-  Record record;
-  if (!fault)
-    RecordObject::read_object(object, "", fault, record, describe, {format.head[0], format.head[1]});
-  if (!fault) check_digest(object, content_by(format, describe, record), fault);
-  if (!fault) return record;
-  fault->file = file;
-  return *std::move(fault);
+  try {
+    nlohmann::ordered_json object = json_of(text, format);
+    Record record;
+    RecordObject::read_object(object, "", record, describe, {format.head[0], format.head[1]});
+    check_digest(object, content_by(format, describe, record));
+    return record;
+  } catch (scene::InputError& fault) {
+    fault.file = file;
+    return fault;
+  }
 }
 
 }  // namespace launchsafe::study

@@ -23,7 +23,6 @@ struct FoundGap {
   double upper = 0;   ///< m, ignites
 };
 
-/// How far a study is.
 struct Progress {
   Phase phase = Phase::launches;
   std::size_t done = 0, running = 0, total = 0;  ///< runs
@@ -99,7 +98,6 @@ struct Allotment {
   int threads = 1;
 };
 
-/// One task.
 struct Task {
   double cost = 1;  ///< relative, > 0
   std::function<void(const Allotment& allotment)> work;
@@ -113,14 +111,12 @@ struct WaitingTask {
   std::function<Task()> make;  ///< quick; what it throws is the reason why the task is refused
 };
 
-/// What became of one task.
 struct TaskOutcome {
   bool started = false;  ///< false when the stop flag came first, or when it was refused
   bool refused = false;  ///< it must not be begun, or is too large for the memory even alone: see `failure`
   std::string failure;   ///< what an exception said, or why it was refused; empty when all went well
 };
 
-/// What tasks run on.
 struct Resources {
   int jobs = 0;             ///< tasks at a time; <= 0: available_cores()
   double memory_limit = 0;  ///< bytes of all running tasks together; <= 0: nine tenths of available_memory()

@@ -45,14 +45,11 @@ inline scene::InputError fault_at(const StudyFile& study, const std::string& key
                          std::move(suggestion));
 }
 
-/// The tables [[name]] of a study file or of a file that it names; none where there are none. A kind that
-/// needs at least one says what stands in it: "with a name".
+/// The tables [[name]] of a study file; none where there are none. A kind that needs at least one says what
+/// stands in it: "with a name".
 scene::Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
-                                                           const std::string& file);
-scene::Expected<std::vector<const toml::table*>> some_tables_of(const toml::table& root,
-                                                                const std::string& name,
-                                                                const StudyFile& study,
-                                                                const std::string& content);
+                                                           const StudyFile& study,
+                                                           const std::string& needed = {});
 
 /// Adds a row for every [[name]] of a study file or of a file that it names. Where a key of one stands is
 /// known as that of "name.0.key".
