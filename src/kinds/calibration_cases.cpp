@@ -118,6 +118,13 @@ void check_curve(const StudyFile& study, const Firing& firing, std::size_t place
               "that of the curve, or load.rescale_to_peak = true in the scene");
 }
 
+/// Rounds that are listed twice would prove twice as much.
+void check_counted_once(const StudyFile& study, const std::vector<Firing>& firings, std::size_t place) {
+  if (std::ranges::count(firings.begin(), firings.begin() + place + 1, firings[place]) > 1)
+    refuse_at(study, fmt::format("firing.{}.gap", place), "the same firing a second time",
+              "each series of rounds once; two that are alike in all else have a name each");
+}
+
 std::vector<Key<Study>> firing_keys() {
   const std::vector<Key<FiringSettings>> keys{
       number_key("prior.localisation", Dimension::number, between(1.5, 4), Standing::assumed,
@@ -146,7 +153,10 @@ void read_firings(const toml::table& root, StudyFile& study) {
   for (std::size_t place = 0; place < firings.size(); ++place) {
     complete(firings[place], study.scene.scene);
     check_curve(study, firings[place], place);
+    check_counted_once(study, firings, place);
   }
+  for (std::size_t place = 0; place < firings.size(); ++place)
+    if (firings[place].name.empty()) firings[place].name = fmt::format("those of [[firing]] {}", place + 1);
 }
 
 void make_firing_cases(StudyFile& study) {
@@ -160,9 +170,15 @@ void make_firing_cases(StudyFile& study) {
                          scene_of(study, firings[i], i)));
 }
 
-/// Firings stand alone, with what is only of them; they start from a calibration on published results.
+/// Firings stand alone, with what is only of them. They start from a calibration on published results: about
+/// constants at a guess a few rounds would seem to prove what nobody has shown.
 void check_firings(const StudyFile& study) {
   const bool any = !firings_of(study).empty();
+  if (any && !study.places.contains("calibration"))
+    refuse_at(
+        study, "firing.0.gap", "[[firing]] without calibration",
+        "calibration = \"...\", the record of a calibration on published results, about whose constants "
+        "those of the firings are sought");
   for (const auto& [key, place] : study.places) {
     const bool of_firings = key.starts_with("prior.") || key == "next_gaps" || key == "calibration";
     const bool of_rows = key.starts_with("reference") || key == "meshes" || key == "load_fitted" ||

@@ -111,14 +111,15 @@ bool is_firing_record(const std::string& text) { return text.find(firing_format.
 constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
 constexpr std::array load_shape{"load.shape", "load.peak_time", "load.width", "load.steepness"};
 
-/// Whether the scene and the study leave the shape of the load to the calibration: one that they state stays,
-/// and the constants are carried to it as to any other.
+/// Whether the scene and the study leave the shape of the load to the calibration, which fitted one or has
+/// that of its firings: one that they state stays, and the constants are carried to it as to any other.
 bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
   const auto is_stated = [&](const char* key) {
     return study.scene.given.contains(key) || study.overrides.contains(key);
   };
-  return record.load_fitted && record.calibration.scene.load.curve_time.empty() &&
-         study.scene.scene.load.curve_time.empty() && std::ranges::none_of(load_shape, is_stated);
+  return (record.load_fitted || record.calibration.firings) &&
+         record.calibration.scene.load.curve_time.empty() && study.scene.scene.load.curve_time.empty() &&
+         std::ranges::none_of(load_shape, is_stated);
 }
 
 /// The first constant to which the study's scene gives another value than the record.

@@ -270,9 +270,8 @@ CaseAnswer answer_of(const CaseOutcome& outcome) {
 
 void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, CaseAnswer& answer) {
   answer.closing = std::move(closing);
-  const double ignition = input.scene.scene.charge().kinetics.ignition_temperature;
   for (GapVerdict& row : answer.verdicts) {
-    row.closing = closing_evidence(answer.closing, row.gap, ignition);
+    take_closing_evidence(answer.closing, input.scene.scene, row);
     row.judgement = judge(row, answer.critical);
   }
 }

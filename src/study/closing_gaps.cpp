@@ -18,20 +18,23 @@ namespace {
 
 /// m, below what is made: the smoothest faces that are plausible.
 constexpr double smoothest = 1e-6;
-/// Of the peak pressure, at which a charge may let go.
-constexpr double release_shares[] = {0.25, 0.5, 0.75, 1.0};
+/// Of the peak pressure, at which a charge may let go; the last one after the peak. Closer about the peak,
+/// where T max is highest: of the 155 mm shell between 85 % of it and itself, and far colder half a
+/// millisecond later.
+constexpr double release_shares[] = {0.25, 0.5, 0.75, 0.85, 0.95, 1.0};
+constexpr double last_release_share = 0.95;
 /// Gaps of the scan beside those of the study.
 constexpr int scan_gaps = 8;
 /// Closer gaps are one, m.
 constexpr double same_gap = 1e-9;
 
-/// s, when a load first has a share of its peak.
-double time_at_share(const scene::Load& load, double share) {
+/// s, when a load first has a share of its peak; or last, up to twice the time of the peak.
+double time_at_share(const scene::Load& load, double share, bool after_peak = false) {
   constexpr int parts = 20000;
   const scene::PressureHistory history(load);
-  const double peak_time = history.peak_time();
+  const double peak_time = history.peak_time(), begin = after_peak ? 2.0 * peak_time : 0.0;
   for (int i = 0; i < parts; ++i) {
-    const double time = peak_time * i / parts;
+    const double time = begin + (peak_time - begin) * i / parts;
     if (history.at(time) >= share * history.peak()) return time;
   }
   return peak_time;
@@ -201,6 +204,28 @@ std::vector<Asked> launches_of(const Study& study, const std::vector<Search>& se
 /// What launches say, by their identity.
 using KnownLaunches = std::map<std::string, ClosingPoint>;
 
+/// K, by which T max between a release and its neighbours may be above what it is at the release: a parabola
+/// through three instants evenly apart is at most an eighth of their second difference above the middle one.
+/// Twice that counts, and a neighbour that is missing is taken to be like the other one.
+double rise_between_releases(const std::vector<Asked>& launches, const Asked& at,
+                             const std::function<double(const Asked&)>& temperature_of) {
+  const Asked *before = nullptr, *after = nullptr;
+  for (const Asked& each : launches) {
+    const scene::Surface &other = each.terms->surface, &own = at.terms->surface;
+    if (each.search != at.search || each.gap != at.gap || other.air_flow != own.air_flow ||
+        each.terms->kinetics.name != at.terms->kinetics.name)
+      continue;
+    const double release = other.release;
+    if (release < own.release && (!before || release > before->terms->surface.release)) before = &each;
+    if (release > own.release && (!after || release < after->terms->surface.release)) after = &each;
+  }
+  if (!before && !after) return 0.0;
+  const double here = temperature_of(at);
+  const double neighbours =
+      temperature_of(before ? *before : *after) + temperature_of(after ? *after : *before);
+  return std::max(0.0, 0.25 * (2.0 * here - neighbours));
+}
+
 /// Computes those launches that are not known, and takes all of them in.
 void add_points(const StudyFile& study, const std::vector<Asked>& launches, const RunBatch& run,
                 KnownLaunches& known) {
@@ -219,9 +244,13 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
     const CaseRun asked = makers[i].make();
     known.at(asked.hash) = point_of(asked, finished);
   });
+  const auto temperature_of = [&](const Asked& launch) {
+    return known.at(hashes[static_cast<std::size_t>(&launch - launches.data())]).maximum_temperature;
+  };
   for (std::size_t i = 0; i < launches.size(); ++i) {
     const auto& [search, terms, gap] = launches[i];
-    const ClosingPoint launch = with_share(known.at(hashes[i]), study.cases[search->index], *terms);
+    ClosingPoint launch = with_share(known.at(hashes[i]), study.cases[search->index], *terms);
+    launch.at_most += rise_between_releases(launches, launches[i], temperature_of);
     std::vector<ClosingPoint>& points = search->answer->points;
     const auto point = std::ranges::find(points, gap, &ClosingPoint::gap);
     point == points.end() ? points.push_back(launch) : join(launch, *point);
@@ -291,6 +320,7 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
     smooth.release_duration.reset();
   std::set<double> releases{0.0, smooth.release};
   for (const double share : release_shares) releases.insert(time_at_share(scene.load, share));
+  releases.insert(time_at_share(scene.load, last_release_share, true));
   std::vector<scene::Surface> flowing{smooth, smooth}, corner;
   flowing.front().air_flow = scene::AirFlow::trapped;
   flowing.back().air_flow = scene::AirFlow::common_pressure;
@@ -395,6 +425,15 @@ ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, doub
     evidence.numerical = worst->at_most - worst->maximum_temperature;
   }
   return evidence;
+}
+
+void take_closing_evidence(const std::vector<ClosingAnswer>& answers, const scene::Scene& scene,
+                           GapVerdict& row) {
+  const double ignition = scene.charge().kinetics.ignition_temperature;
+  row.closing = closing_evidence(answers, row.gap, ignition);
+  const double rise = row.maximum.temperature - scene.initial_temperature,
+               of_corner = ignition - row.closing.corner_margin - scene.initial_temperature;
+  row.closing.heat_ratio = of_corner <= rise ? 1.0 : of_corner / rise;  // NaN where either is
 }
 
 CriticalGap critical_gap_of(const ClosingAnswer& answer) {

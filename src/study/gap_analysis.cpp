@@ -367,7 +367,7 @@ void conclude(const Study& study, CaseOutcome& outcome) {
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     if (outcome.longer_launch && scene::is_cut_short(outcome.input.scene.scene.load))
       row.when_over = outcome.longer_launch->maximum_temperature.at(i);
-    row.closing = closing_evidence(outcome.closing, row.gap, row.margin + row.maximum.temperature);
+    take_closing_evidence(outcome.closing, outcome.input.scene.scene, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

@@ -26,8 +26,9 @@ struct ClosingBound {
 ///   time that sound takes through the charge or over the case's own where that is shorter.
 /// - "flowing": the same with air that stays and with air that flows.
 /// - "corner": the same with a charge that is free from the start, or as the case has it, or held until the
-///   load has a quarter, a half, three quarters, and all of its peak. Of a charge that anything holds by a
-///   bond the corner is not known: when bonds let go is not looked at.
+///   load has 25, 50, 75, 85, 95 and 100 % of its peak, and 95 % after it; how much hotter an instant between
+///   two of these may be counts as an uncertainty. Of a charge that anything holds by a bond the corner is
+///   not known: when bonds let go is not looked at.
 /// Each but melting holds all of the one before, so that the difference of two that follow each other is what
 /// the worst end of one interval does: of the heat to the base, of the faces, of the air's flow, of the
 /// release. On all of them every kinetics of kinetics_of counts, the first to ignite.
@@ -56,6 +57,9 @@ std::size_t most_closing_launches(const Study& study, const StudyCase& input);
 /// What they say of one gap, for its verdict: nothing where a thinner gap is not known.
 ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
                                  double ignition_temperature);
+/// The same of a row of the verdict table, held against the reservoir's heat in it.
+void take_closing_evidence(const std::vector<ClosingAnswer>& answers, const scene::Scene& scene,
+                           GapVerdict& row);
 /// A bound as a critical gap, for people.
 CriticalGap critical_gap_of(const ClosingAnswer& answer);
 

@@ -25,6 +25,8 @@ struct Firing {
   double temperature_spread = math::not_a_number;  ///< K, likewise
   double gap = 0;       ///< m, the least that it can have been: what a thicker one shows is not known
   double most_gap = 0;  ///< m, the largest that it can have been
+
+  bool operator==(const Firing&) const = default;
 };
 
 /// Pa, the peak pressure by which a launch is held against firings: that of the scene; of a measured curve

@@ -104,6 +104,8 @@ struct ClosingEvidence {
   /// K, by which its T max may be off for mesh, steps and columns: by an accuracy record that was made on its
   /// terms, or assumed.
   double numerical = math::not_a_number;
+  /// Of its rise of T max to that under the reservoir, at least 1: what else errs in the heat grows with it.
+  double heat_ratio = math::not_a_number;
 };
 
 /// Which rule gave a verdict.
@@ -273,9 +275,9 @@ struct GapVerdict {
   /// K, margin with the constants of the surface as calibrated; infinite where they are, minus infinite where
   /// it ignites so.
   double calibrated_margin() const;
-  /// K, of T max in the worst corner: the numerics are its own.
+  /// K, of T max in the worst corner: the numerics are its own, and the rest is as much larger as its heat.
   double closing_uncertainty() const {
-    return uncertainty.total() - uncertainty.numerical + closing.numerical;
+    return closing.heat_ratio * (uncertainty.total() - uncertainty.numerical) + closing.numerical;
   }
   /// K, this until the exit minus the reference; NaN without one or where either ignited
   double misfit() const;
@@ -292,8 +294,8 @@ struct GapVerdict {
 ///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
 ///   ignition.
 ///   Where the gap is to close, the worst corner of how it may do so does not ignite either, by a margin
-///   above the uncertainty, in which the numerics are those of that corner; nor, for UNSAFE, need the
-///   reservoir ignite where one of the closing bounds does.
+///   above the uncertainty, in which the numerics are those of that corner and the rest grows with its heat;
+///   nor, for UNSAFE, need the reservoir ignite where one of the closing bounds does.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
