@@ -128,8 +128,10 @@ struct VariantMaker {
 void make_comparison_cases(const StudySource& source, StudyFile& study) {
   const std::vector<const toml::table*> tables = variants_in(source, study);
   VariantMaker maker{source, study};
-  const ComparisonSettings settings = settings_of<ComparisonSettings>(study);
-  maker.add({.name = settings.name, .description = settings.description}, nullptr);
+  Variant own;
+  own.name = settings_of<ComparisonSettings>(study).name;
+  own.description = settings_of<ComparisonSettings>(study).description;
+  maker.add(std::move(own), nullptr);
   for (std::size_t index = 0; const toml::table* table : tables)
     maker.add_variant(*table, fmt::format("vary.{}.variants", index++));
 }
@@ -346,7 +348,7 @@ Report report_of(const ComparisonResult& result) {
 }
 
 std::vector<ReportTable> comparison_results() {
-  std::vector<ReportTable> tables{{comparison_table({}), "comparison.csv", "cases"},
+  std::vector<ReportTable> tables{{comparison_table(ComparisonResult()), "comparison.csv", "cases"},
                                   {station_table({}), "stations.csv", "stations"}};
   std::ranges::move(model_form_results(), std::back_inserter(tables));
   return tables;
