@@ -188,6 +188,11 @@ void check_firings(const StudyFile& study) {
                 any ? "a key of published rows beside [[firing]]" : "a key of firings without [[firing]]",
                 any ? "either [[firing]] or published rows" : "at least one [[firing]]");
   }
+  if (!any) return;
+  for (const scene::Implausible& each : scene::implausible_values(study.scene.scene))
+    if (scene::role_of(each.key).part == keys::Part::calibrated)
+      refuse_at(study, "calibration", validity_warning(each),
+                "a record of plausible constants, about which those of the firings are sought");
 }
 
 void read_calibration(const StudySource& source, StudyFile& study) {

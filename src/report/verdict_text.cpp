@@ -319,7 +319,8 @@ std::string friction_remark(const study::StudyFile& study) {
   Row facts{{"closure", study::to_string(scene.surface.friction)},
             {"localisation", scene.surface.localisation},
             {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time.form)},
-            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature}};
+            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature},
+            {"firings", study.study.calibration.firings != nullptr}};
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
     if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
   return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));

@@ -54,8 +54,11 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
   if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
-  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch))
-    values.push_back(std::move(each));
+  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch)) {
+    // One that firings gave its value, about a plausible one: another value is foreign to them.
+    if (!study.calibration.firings || scene::role_of(each.key).part != keys::Part::calibrated)
+      values.push_back(std::move(each));
+  }
   return values;
 }
 

@@ -19,15 +19,16 @@ std::string firing(const std::string& outcome, int rounds, const std::string& ga
 }
 
 const std::string firing_text = "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\n";
+const std::string published_constants = "calibration = \"../reports/calibrate_table8/calibration.json\"\n";
 
 /// The synthetic launch heats by 116 K without a gap, and ignites above 0.4 mm with the calibrated constants.
 FiringResult fire(const std::string& firings, const std::string& head = {}) {
-  const StudyFile study = study_of(firing_text + head + firings);
+  const StudyFile study = study_of(firing_text + published_constants + head + firings);
   return run_firings(study, synthetic_options());
 }
 
-std::string refusal(const std::string& text) {
-  const auto study = parse_here(firing_text + text);
+std::string refusal(const std::string& text, const std::string& head = published_constants) {
+  const auto study = parse_here(firing_text + head + text);
   return study ? std::string{} : study.error().message();
 }
 
@@ -98,8 +99,26 @@ TEST(Firings, RefuseWhatTheyCannotRestOn) {
   EXPECT_NE(refusal("references = \"table8.toml\"\n" + firing("no ignition", 1, "0.1 mm"))
                 .find("beside [[firing]]"),
             std::string::npos);
-  EXPECT_NE(refusal("references = \"table8.toml\"\nnext_gaps = \"0.1 mm\"\n").find("without [[firing]]"),
+  EXPECT_NE(refusal("references = \"table8.toml\"\nnext_gaps = \"0.1 mm\"\n", "").find("without [[firing]]"),
             std::string::npos);
+}
+
+// About constants at a guess a prior would be believed that nothing has shown: 59 quiet rounds whose prior
+// has a tenth of the published heat would make thick gaps SAFE.
+TEST(Firings, StartFromPublishedConstantsAlone) {
+  const std::string rounds = firing("no ignition", 59, "0.3 mm");
+  EXPECT_NE(refusal(rounds, "").find("[[firing]] without calibration"), std::string::npos);
+  for (const char* constant : {"friction.localisation = 60", "gap.exchange_time = \"3 ms\"",
+                               "kinetics.ignition_temperature = \"700 K\""})
+    EXPECT_NE(refusal(rounds + "[set]\n" + constant + "\n").find("a calibration beside [set]"),
+              std::string::npos)
+        << constant;
+}
+
+TEST(Firings, RefuseRoundsThatWouldCountTwice) {
+  const std::string rounds = firing("no ignition", 30, "0.3 mm");
+  EXPECT_NE(refusal(rounds + rounds).find("the same firing a second time"), std::string::npos);
+  EXPECT_EQ(refusal(rounds + firing("no ignition", 31, "0.3 mm")), "");
 }
 
 /// A study of the made-up shell on the record of its firings.
@@ -231,6 +250,20 @@ TEST_F(StudyOnFirings, IsRefusedWhereNoVerdictCarriesItsPosterior) {
       folder_ / "sensitivity.toml");
   ASSERT_FALSE(study);
   EXPECT_NE(study.error().message().find("a calibration on firings"), std::string::npos)
+      << study.error().message();
+}
+
+TEST_F(StudyOnFirings, StartFromNoConstantsThatAreNotPlausible) {
+  std::ifstream file(studies_folder / "../reports/calibrate_table8/calibration.json");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  CalibrationRecord guessed = parse_either_calibration(text, "calibration.json").value();
+  guessed.calibration.scene.surface.exchange_time = 3e-3;
+  write(to_json_text(guessed));
+  const auto study = kinds::parse_study(
+      firing_text + "calibration = \"calibration.json\"\n" + firing("no ignition", 59, "0.3 mm"),
+      folder_ / "firings.toml");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().message().find("gap.exchange_time = 3 ms is not plausible"), std::string::npos)
       << study.error().message();
 }
 

@@ -96,15 +96,15 @@ TEST(ClosingGaps, AWiderGapThatDoesNotIgniteDoesNotHideAThinnerOneThatDoes) {
 }
 
 TEST(ClosingGaps, TheHottestReleaseAndTheSmoothestFacesAreTheCorner) {
-  const auto answers = answers_of([](const Launch& launch) {
+  const StudyFile study = closing_study();
+  const double peak_time = scene::PressureHistory(study.scene.scene.load).peak_time();
+  const auto answers = answers_of([peak_time](const Launch& launch) {
     EXPECT_TRUE(launch.surface.roughness == 1e-5 || launch.surface.roughness == 1e-6);
-    const bool smooth = launch.surface.roughness < 5e-6;
-    return 400.0 + (smooth ? 20.0 : 0.0) + 5e3 * launch.surface.release;
+    const bool smooth = launch.surface.roughness<5e-6, after_peak = launch.surface.release> peak_time;
+    return 400.0 + (smooth ? 20.0 : 0.0) + (after_peak ? 0.0 : 5e3 * launch.surface.release);
   });
   const ClosingPoint* point = answers.back().at(2e-4);
   ASSERT_NE(point, nullptr);
-  const StudyFile study = closing_study();
-  const double peak_time = scene::PressureHistory(study.scene.scene.load).peak_time();
   EXPECT_NEAR(point->release, peak_time, 1e-3 * peak_time);
   EXPECT_NEAR(point->maximum_temperature, 420.0 + 5e3 * peak_time, 0.1);
   // Without a gap faces are nothing, and how the charge was held is what it is.
@@ -117,12 +117,41 @@ TEST(ClosingGaps, TheHottestReleaseAndTheSmoothestFacesAreTheCorner) {
 }
 
 TEST(ClosingGaps, WithoutARecordOfThemNoLessIsUncertainThanIsAssumed) {
-  const auto answers = answers_of([](const Launch& launch) { return 400.0 + 1e3 * launch.surface.release; });
+  const auto answers = answers_of([](const Launch& launch) { return 400.0 + 1e5 * launch.gap; });
   for (const ClosingAnswer& answer : answers) {
     EXPECT_FALSE(answer.at(2e-4)->recorded);
     EXPECT_NEAR(answer.at(2e-4)->at_most, answer.at(2e-4)->maximum_temperature + 60.0, 1e-9);
   }
   EXPECT_NEAR(closing_evidence(answers, 2e-4, ignition).numerical, assumed_numerical_uncertainty, 1e-9);
+}
+
+// A quarter of the second difference, twice what a parabola through the three can have between them.
+TEST(ClosingGaps, HowHotAnInstantBetweenTwoReleasesMayBeIsUncertain) {
+  const double peak_time = scene::PressureHistory(closing_study().scene.scene.load).peak_time();
+  const auto answers = answers_of([peak_time](const Launch& launch) {
+    return std::abs(launch.surface.release - peak_time) < 1e-3 * peak_time ? 430.0 : 400.0;
+  });
+  const ClosingPoint* point = answers.back().at(2e-4);
+  ASSERT_NE(point, nullptr);
+  EXPECT_NEAR(point->at_most, 430.0 + assumed_numerical_uncertainty + 0.25 * (2.0 * 430.0 - 2.0 * 400.0),
+              1e-9);
+}
+
+TEST(ClosingGaps, WhatIsNotOfTheNumericsGrowsWithTheHeatOfTheCorner) {
+  const auto answers =
+      answers_of([](const Launch& launch) { return launch.surface.roughness < 5e-6 ? 460.0 : 400.0; });
+  scene::Scene scene = closing_study().cases.front().scene.scene;
+  GapVerdict row;
+  row.gap = 2e-4;
+  row.uncertainty.fit = 5.0;
+  row.maximum.temperature = scene.initial_temperature + 40.0;
+  take_closing_evidence(answers, scene, row);
+  const double ratio = (460.0 - scene.initial_temperature) / 40.0;
+  EXPECT_NEAR(row.closing_uncertainty(), row.closing.numerical + 5.0 * ratio, 1e-9);
+  // A corner that is colder than the reservoir has no less.
+  row.maximum.temperature = 500.0;
+  take_closing_evidence(answers, scene, row);
+  EXPECT_NEAR(row.closing_uncertainty(), row.closing.numerical + 5.0, 1e-9);
 }
 
 TEST(ClosingGaps, EachBoundHasTheWorstEndOfOneMoreInterval) {
@@ -159,10 +188,10 @@ TEST(ClosingGaps, WhatIgnitesWithAirThatStaysIsNotLaunchedWithAirThatFlows) {
   });
   EXPECT_TRUE(answers.back().at(2e-4)->ignited);
   EXPECT_FALSE(answers.back().at(1e-4)->ignited);
-  // The corner's five instants of release at 0.1 mm and where the bracket was narrowed down to from below.
+  // The corner's eight instants of release at 0.1 mm and where the bracket was narrowed down to from below.
   const auto below = std::ranges::count_if(
       answers.back().points, [](const ClosingPoint& point) { return point.gap > 0.0 && !point.ignited; });
-  EXPECT_EQ(flowing, 5u * static_cast<std::size_t>(below));
+  EXPECT_EQ(flowing, 8u * static_cast<std::size_t>(below));
 }
 
 TEST(ClosingGaps, ABoundThatIsHotterThanTheCornerCountsInItsPlace) {
@@ -230,7 +259,7 @@ TEST(ClosingGaps, TheLaunchWithoutAGapIsMadeOnceForEachInstantOfRelease) {
     if (*asked.skin_gap == 0.0) ++without;
     return launch_of(asked, *asked.skin_gap == 0.0 ? 410.0 : 400.0);
   });
-  EXPECT_EQ(without, 5u);  // from the start, and at four shares of the peak
+  EXPECT_EQ(without, 8u);  // from the start, at six shares of the peak, and after it
   for (const ClosingAnswer& answer : answers) EXPECT_EQ(answer.at(0.0)->maximum_temperature, 410.0);
 }
 

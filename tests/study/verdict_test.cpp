@@ -148,7 +148,8 @@ TEST(Verdict, NoIgnitionOfWhatOnlyCoolsOrWasNotLaunchedIsSafe) {
 
 TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecidesToo) {
   GapVerdict evidence = calm();
-  for (const double margin : {0.1, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
+  evidence.uncertainty.input = 0.125;  // as margins of it are exact
+  for (const double margin : {0.125, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
     evidence.as_calibrated = {{"", evidence.margin + evidence.maximum.temperature - margin, false}};
     EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate) << margin;
   }
@@ -207,7 +208,7 @@ TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
   const CriticalGap critical = critical_at(3.95e-4, 1e-6);
   // Of the reservoir's uncertainty all counts but its numerics, in whose place are those of the corner.
   const auto verdict_with = [&](double margin, double numerical, double of_corner) {
-    GapVerdict evidence = closing({true, false, margin, of_corner});
+    GapVerdict evidence = closing({true, false, margin, of_corner, 1.0});
     evidence.uncertainty = {.numerical = numerical, .input = 10.0};
     return judge(evidence, critical).verdict;
   };
@@ -216,7 +217,7 @@ TEST(Verdict, StaysSafeWhereTheWorstCornerOfAClosingGapHasItsMargin) {
   EXPECT_EQ(verdict_with(69.0, 60.0, 2.0), Verdict::safe);
   EXPECT_EQ(verdict_with(11.0, 60.0, 2.0), Verdict::indeterminate);
   EXPECT_EQ(verdict_with(1e3, 2.0, nan_value), Verdict::indeterminate) << "nothing is known of the corner";
-  const GapVerdict near = closing({true, false, 9.0, 60.0});
+  const GapVerdict near = closing({true, false, 9.0, 60.0, 1.0});
   EXPECT_EQ(judge(near, critical).code, ReasonCode::closing_corner);
   EXPECT_NE(reason_of(near, critical).find("the margin is 9.0 K, and the uncertainty"), std::string::npos);
 }
