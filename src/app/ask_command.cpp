@@ -1,5 +1,4 @@
 // launchsafe ask: what the fit of a study predicts of a launch that nobody computed.
-#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/quantities.hpp"
@@ -7,8 +6,6 @@
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::app {
 namespace {
@@ -20,22 +17,21 @@ struct AskArguments {
   bool csv = false;                   ///< a row a launch, for programs
 };
 
-using scene::Expected, scene::InputError;
+using scene::InputError;
 using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 
 constexpr const char* record_name = "surrogate.json";
 constexpr std::size_t largest_record = 20'000'000;  // bytes
 
-Expected<SurrogateRecord> read_record(const path& place) {
-  const bool is_folder = std::filesystem::is_directory(place);
-  const path file = is_folder ? place / record_name : place;
-  auto text = scene::read_text_file(file, largest_record);
-  if (text) return study::parse_surrogate(*text, file.string());
-  if (!text.error().file_missing) return text.error();
-  return scene::error_at(
-      {file.string()}, {}, "no such file",
-      "the folder of a finished study of kind sensitivity with method = \"polynomial-chaos\", or of one with "
-      "surrogate = true (launchsafe study --update fits a finished one)");
+SurrogateRecord read_record(const path& place, Console& console) {
+  const path file = std::filesystem::is_directory(place) ? place / record_name : place;
+  const auto text = scene::read_text_file(file, largest_record);
+  if (!text && text.error().file_missing)
+    console.refuse(scene::error_at({file.string()}, {}, "no such file",
+                                   "the folder of a finished study of kind sensitivity with method = "
+                                   "\"polynomial-chaos\", or of one with "
+                                   "surrogate = true (launchsafe study --update fits a finished one)"));
+  return console.value_of(study::parse_surrogate(console.value_of(text), file.string()));
 }
 
 /// An input of the launches that are asked for.
@@ -46,24 +42,20 @@ struct AskedInput {
 };
 
 /// The inputs with their values in the study's scene.
-Expected<std::vector<AskedInput>> inputs_in_scene(const SurrogateRecord& record) {
+std::vector<AskedInput> inputs_in_scene(const SurrogateRecord& record, Console& console) {
   // To read it once more takes a millisecond, and tells keys of its materials and interfaces alone.
   const bool of_scene = std::ranges::all_of(record.keys, [](const std::string& name) {
     return scene::find_key(scene::scene_keys(), name) != nullptr;
   });
-  Expected<scene::SceneFile> file = scene::SceneFile{};
+  scene::SceneFile file;
   if (of_scene)
-    file->scene = record.scene;
+    file.scene = record.scene;
   else
-    file = scene::parse_scene(scene::to_toml(record.scene), "scene of the record");
-  if (!file) return file.error();
+    file = console.value_of(scene::parse_scene(scene::to_toml(record.scene), "scene of the record"));
   std::vector<AskedInput> inputs;
-  for (const std::string& name : record.keys) {
-    auto key = scene::describe_key(*file, name, {file->file});
-    if (!key) return key.error();
-    const double value = study::number_in(*file, name);
-    inputs.push_back({std::move(*key), {value}});
-  }
+  for (const std::string& name : record.keys)
+    inputs.push_back(
+        {console.value_of(scene::describe_key(file, name, {file.file})), {study::number_in(file, name)}});
   return inputs;
 }
 
@@ -248,17 +240,16 @@ void print_gap(const SurrogateRecord& record, const std::vector<AskedInput>& inp
 }
 
 ExitCode perform(const AskArguments& arguments, Console& console) {
-  const SurrogateRecord record = console.value_of(read_record(arguments.study));
-  std::vector<AskedInput> inputs = console.value_of(inputs_in_scene(record));
-  for (const std::string& given : arguments.settings)
-    if (const auto fault = set_input(given, record, inputs)) return console.refuse(*fault);
-  if (const auto fault = fault_in(record, inputs)) return console.refuse(*fault);
+  const SurrogateRecord record = read_record(arguments.study, console);
+  std::vector<AskedInput> inputs = inputs_in_scene(record, console);
+  for (const std::string& given : arguments.settings) console.refuse_any(set_input(given, record, inputs));
+  console.refuse_any(fault_in(record, inputs));
   std::vector<AskedLaunch> launches = launches_of(inputs);
   predict(record, launches);
   const bool is_one = launches.size() == 1;
   const auto is_told = [](const auto& prediction) { return prediction.has_value(); };
   if (is_one && !std::ranges::all_of(launches.front().predictions, is_told))
-    return console.refuse(
+    console.refuse(
         fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
                      "values nearer to the middle of their ranges, or a study of the launch itself"));
   const report::Table table = report::table_of("Predicted", launch_quantities(record, inputs), launches);

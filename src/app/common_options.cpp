@@ -1,12 +1,8 @@
 #include "common_options.hpp"
 
-#include "built_in_texts.hpp"
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
 #include <boost/algorithm/string.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <charconv>
 #include <sstream>
@@ -44,8 +40,8 @@ std::string candidates_of(const CLI::Option& argument) {
   return fmt::format("values='{}'", type);
 }
 
-report::Row row_of(const CLI::App& command) {
-  report::Row row{{"name", command.get_name()}, {"names", ""}, {"options", report::Row::array()}};
+Json row_of(const CLI::App& command) {
+  Json row{{"name", command.get_name()}, {"names", ""}, {"options", Json::array()}};
   std::vector<std::string> all, positional;
   for (const CLI::Option* option : command.get_options()) {
     std::vector<std::string> names;
@@ -131,12 +127,12 @@ void add_jobs(CLI::App& command, int& jobs) {
 }
 
 std::string bash_completion(const CLI::App& app) {
-  report::Row facts{{"commands", report::Row::array()}, {"keys", report::Row::array()}};
+  Json facts{{"commands", Json::array()}, {"keys", Json::array()}};
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     facts["commands"].push_back(row_of(*command));
   for (const scene::DocumentedKey& key : scene::describe_keys())
     facts["keys"].push_back(key.description.name + "=");
-  return report::filled(completion_template, {&facts});
+  return told("completion.bash", facts);
 }
 
 }  // namespace launchsafe::app

@@ -1,8 +1,8 @@
-// Options of commands. Their types, their meaning and what is allowed are words of
-// templates/help/options.txt.
+// What can be written on a command line. Each subcommand lives in a file of its own, with its options; their
+// types, their meaning and what is allowed are words of templates/help/options.txt.
 #pragma once
 
-#include "commands.hpp"
+#include "console.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/study/options.hpp"
 
@@ -11,6 +11,20 @@
 #include <memory>
 
 namespace launchsafe::app {
+
+/// What was written on it.
+struct CommandLine {
+  std::function<ExitCode(Console&)> perform;  ///< what is asked for
+  std::string command;                        ///< "run"; empty where there is none
+  std::string text;                           ///< the whole of it, to be repeated in a shell
+  bool quiet = false;
+  bool json = false;  ///< also where the rest of the command line makes no sense
+};
+
+/// Adds a subcommand, which sets what is performed.
+using AddCommand = void(CLI::App& app, CommandLine& line);
+AddCommand add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
+    add_init, add_import_curve, add_report;
 
 /// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
 template <scene::Dimension dimension>

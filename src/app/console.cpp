@@ -1,7 +1,6 @@
 #include "console.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -67,19 +66,29 @@ void Console::print_json(Json members) {
   for (auto& [key, value] : members.items()) object_[key] = std::move(value);
 }
 
+ExitCode Console::done(std::string_view text, Json members) {
+  print_text(text);
+  print_json(std::move(members));
+  return ExitCode::done;
+}
+
 void Console::remark(std::string_view text) const {
   if (!quiet_) say(fmt::format("{}\n", text));
 }
 
-ExitCode Console::fail(const std::string& message) {
-  error(message);
-  return ExitCode::failed;
+void Console::remarks(const std::vector<std::string>& texts) const {
+  for (const std::string& text : texts) remark(text);
 }
 
-ExitCode Console::end_with(const store::Error& error) {
+void Console::fail(const std::string& message, ExitCode code) {
+  error(message);
+  throw Ended{code};
+}
+
+void Console::end_with(const store::Error& error) {
   const bool folder_is_wrong =
       error.kind == store::Error::Kind::conflict || error.kind == store::Error::Kind::corrupt;
-  return folder_is_wrong ? refuse(error.message) : fail(error.message);
+  fail(error.message, folder_is_wrong ? ExitCode::bad_input : ExitCode::failed);
 }
 
 void Console::error(const std::string& message, const scene::InputError& parts) {

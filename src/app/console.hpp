@@ -1,5 +1,6 @@
 // Where a command's words go: results to stdout, everything else to stderr, progress in place on a terminal;
-// the exit codes; the flag by which a user stops it; and commands that a person can copy into a shell.
+// the exit codes; the flag by which a user stops it; commands that a person can copy into a shell; and the
+// words that are built in.
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
@@ -46,26 +47,40 @@ class Console {
   void print_text(std::string_view text);
   /// Members of the one JSON object; nothing unless it is wanted.
   void print_json(Json members);
-  /// A remark on stderr; nothing when quiet.
+  /// The result as text and as members, at the end of a command that did what was asked.
+  ExitCode done(std::string_view text, Json members);
+  /// Remarks on stderr; nothing when quiet.
   void remark(std::string_view text) const;
+  void remarks(const std::vector<std::string>& texts) const;
   /// What ended the command, on stderr always, and as the member `error`.
   void error(const std::string& message, const scene::InputError& parts = {});
   void error(const scene::InputError& fault) { error(fault.message(), fault); }
+  void error(const store::Error& fault) { error(fault.message); }
   /// `error` as the end of the command: of an input that is wrong, or of a machine that fails.
   template <class Fault>
-  ExitCode refuse(const Fault& fault) {
+  [[noreturn]] void refuse(const Fault& fault) {
     error(fault);
-    return ExitCode::bad_input;
+    throw Ended{ExitCode::bad_input};
   }
-  /// What was read; a fault instead of it ends the command, refused.
-  template <class Value>
-  Value value_of(scene::Expected<Value> read) {
-    if (!read) throw Ended{refuse(read.error())};
+  [[noreturn]] void fail(const std::string& message, ExitCode code = ExitCode::failed);
+  /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
+  [[noreturn]] void end_with(const store::Error& error);
+  /// Refuses a fault, if there is one.
+  template <class Fault>
+  void refuse_any(const std::optional<Fault>& fault) {
+    if (fault) refuse(*fault);
+  }
+  /// What was read, or stored; a fault instead of it ends the command.
+  template <class Value, class Fault>
+  Value value_of(scene::Expected<Value, Fault> read) {
+    if (!read) refuse(read.error());
     return std::move(*read);
   }
-  ExitCode fail(const std::string& message);
-  /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
-  ExitCode end_with(const store::Error& error);
+  template <class Value>
+  Value stored(store::Result<Value> result) {
+    if (!result) end_with(result.error());
+    return std::move(*result);
+  }
   /// Cases that failed, the first of them by name on stderr, all of them as the member `failures`.
   void failures(const std::vector<kinds::Failure>& failures);
 
@@ -125,5 +140,18 @@ class Progress {
 std::string shell_quoted(std::string_view word);
 /// The words with a blank between them, each quoted where needed.
 std::string shell_command(const std::vector<std::string>& words);
+
+// What --help says below the options, what commands print for people, and files that launchsafe init and emit
+// write, as they are in the source. Names in double braces stand for values; see report/page_texts.hpp.
+
+/// By command, "run.txt"; "launchsafe.txt" is that of all.
+const std::map<std::string, std::string>& help_texts();
+
+/// A text for people, of such facts as programs have as JSON: "forecast.txt"; also a file: "scene.toml", and
+/// the scripts for bash and for Slurm.
+std::string told(const std::string& name, const Json& facts);
+
+/// The record of reports/calibrate_table8.
+extern const char* const shipped_calibration;
 
 }  // namespace launchsafe::app

@@ -1,18 +1,15 @@
 // launchsafe emit: the scripts that run a study on a Slurm cluster: an array of shards, the merge behind it,
 // and what submits both.
-#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/number.hpp"
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/study/forecast.hpp"
 #include "output_folder.hpp"
 
 #include <boost/algorithm/string.hpp>
-#include <fmt/format.h>
 
-#include <iterator>
 #include <numeric>
+#include <ranges>
 
 namespace launchsafe::app {
 namespace {
@@ -40,6 +37,9 @@ struct ShardNeeds {
   double memory = 0;        ///< bytes
   double merge_memory = 0;  ///< bytes, of the merge of all shards
   std::size_t idle = 0;     ///< shards that have nothing to do
+
+  /// Of the slowest shard, for people.
+  std::string time_text() const { return time < 1.0 ? "less than a second" : report::duration(time); }
 };
 
 /// What the scripts are written from. Paths are absolute: a job starts in any folder.
@@ -48,12 +48,7 @@ struct SlurmStudy {
   path program;
   std::size_t cases = 0;
   ShardNeeds needs = {};
-};
-
-/// What a shard asks Slurm for, and the merge.
-struct SlurmRequest {
-  long minutes = 0;
-  long mebibytes = 0, merge_mebibytes = 0;
+  long minutes = 0, mebibytes = 0, merge_mebibytes = 0;  ///< that a shard asks Slurm for, and the merge
 };
 constexpr std::string_view submit_name = "submit.sh";
 
@@ -118,13 +113,14 @@ std::string user_options(const SlurmStudy& study, bool of_merge) {
   return lines;
 }
 
-SlurmRequest request_of(const SlurmStudy& study) {
+/// What is asked for so that it suffices.
+void add_request(SlurmStudy& study) {
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
-  const long minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
-  const auto mebibytes = [&](double bytes) { return rounded_up(bytes / mebibyte); };
   const double shard = study.asked.memory.value_or(memory_factor * study.needs.memory);
   const double merge = memory_factor * study.needs.merge_memory;
-  return {minutes, mebibytes(shard), mebibytes(std::max(study.asked.memory.value_or(0.0), merge))};
+  study.minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
+  study.mebibytes = rounded_up(shard / mebibyte);
+  study.merge_mebibytes = rounded_up(std::max(study.asked.memory.value_or(0.0), merge) / mebibyte);
 }
 
 /// Why no script can be written; nothing when one can.
@@ -145,16 +141,10 @@ std::optional<std::string> fault_of(const SlurmStudy& study) {
   return std::nullopt;
 }
 
-/// Of the slowest shard, for people.
-std::string predicted_time(const SlurmStudy& study) {
-  return study.needs.time < 1.0 ? "less than a second" : report::duration(study.needs.time);
-}
-
 /// The text depends on what is given alone.
 NamedTexts slurm_scripts(const SlurmStudy& study) {
-  const SlurmRequest request = request_of(study);
   const EmitArguments& asked = study.asked;
-  report::Row values{
+  Json values{
       {"folder", shell_quoted(slurm_folder(asked.output).string())},
       {"job", job_name(study)},
       {"status", asked.shards > 1 ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", asked.shards)
@@ -162,20 +152,20 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
       {"jobs", asked.jobs},
       {"least_minutes", least_minutes},
       {"logs", log_folder(study)},
-      {"mebibytes", request.mebibytes},
+      {"mebibytes", study.mebibytes},
       {"predicted_mebibytes", fmt::format("{:.0f}", study.needs.memory / mebibyte)},
       {"memory_factor", fmt::format("{}", memory_factor)},
       {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
-      {"merge_mebibytes", request.merge_mebibytes},
+      {"merge_mebibytes", study.merge_mebibytes},
       {"merge_options", user_options(study, true)},
       {"output", shell_quoted(asked.output.string())},
       {"program", shell_quoted(study.program.string())},
       {"rate", fmt::format("{:.3g}", run::cautious_update_rate / 1e6)},
-      {"shard_limit", slurm_time(request.minutes)},
+      {"shard_limit", slurm_time(study.minutes)},
       {"shard_options", user_options(study, false)},
       {"shards", asked.shards},
       {"study", shell_quoted(asked.study.string())},
-      {"time", predicted_time(study)},
+      {"time", study.needs.time_text()},
       {"time_factor", fmt::format("{:.3g}", time_factor)}};
   if (asked.memory) {
     values["memory"] = size_text(*asked.memory);
@@ -183,18 +173,17 @@ NamedTexts slurm_scripts(const SlurmStudy& study) {
   }
   if (asked.time_limit)
     values["time_limit"] = amount(*asked.time_limit, {{3600, "h"}, {60, "min"}, {1, "s"}});
-  return {{"shard.sbatch", report::filled(shard_template, {&values})},
-          {"merge.sbatch", report::filled(merge_template, {&values})},
-          {std::string(submit_name), report::filled(submit_template, {&values})}};
+  return {{"shard.sbatch", told("shard.sbatch", values)},
+          {"merge.sbatch", told("merge.sbatch", values)},
+          {std::string(submit_name), told("submit.sh", values)}};
 }
 
 /// Wall time of runs that start on the next free core, the longest first.
 double time_on(const std::vector<double>& times, int cores) {
   const std::vector<int> core_of_run = study::shards_of(times, cores);
-  std::vector<double> ends(static_cast<std::size_t>(cores), 0.0);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    ends[static_cast<std::size_t>(core_of_run[i] - 1)] += times[i];
-  return *std::ranges::max_element(ends);
+  std::map<int, double> ends;
+  for (std::size_t i = 0; i < times.size(); ++i) ends[core_of_run[i]] += times[i];
+  return ends.empty() ? 0.0 : std::ranges::max(ends | std::views::values);
 }
 
 double sum_of_largest(std::vector<double> values, int count) {
@@ -251,43 +240,40 @@ path absolute_path(const path& given) {
 
 /// With the folder as the user named it.
 void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts& scripts, Console& console) {
-  const SlurmRequest request = request_of(study);
   Json facts{{"files", places_of(folder, scripts)},
              {"submit", shell_command({"sh", (folder / submit_name).string()})},
              {"shards", study.asked.shards},
              {"jobs", study.asked.jobs},
-             {"memory_MiB", request.mebibytes},
-             {"merge_memory_MiB", request.merge_mebibytes},
-             {"time_s", 60 * request.minutes},
+             {"memory_MiB", study.mebibytes},
+             {"merge_memory_MiB", study.merge_mebibytes},
+             {"time_s", 60 * study.minutes},
              {"predicted_time_s", study.needs.time},
              {"predicted_memory_bytes", study.needs.memory}};
   console.print_json(facts);
-  facts.update({{"minutes", request.minutes}, {"time", predicted_time(study)}});
+  facts.update({{"minutes", study.minutes}, {"time", study.needs.time_text()}});
   console.print_text(told("emit.txt", facts));
 }
 
 ExitCode perform(const EmitArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
-  if (const auto error = study::all_out_of_reach(file, {})) return console.refuse(*error);
+  console.refuse_any(study::all_out_of_reach(file, {}));
   std::error_code failed;
   SlurmStudy study{arguments, std::filesystem::read_symlink("/proc/self/exe", failed), file.cases.size()};
   for (path* each : {&study.asked.study, &study.asked.output}) *each = absolute_path(*each);
   study.asked.jobs = std::max(1, study.asked.jobs);
-  if (const auto fault = fault_of(study)) return console.refuse(*fault);
-  const store::Manifest manifest = study_manifest(file, study.asked.jobs);
-  if (const auto obstacle =
-          obstacle_in_folder(study.asked.output, kinds::kind_of(file.study), manifest, false))
-    return console.refuse(*obstacle);
+  console.refuse_any(fault_of(study));
+  console.refuse_any(obstacle_in_folder(study.asked.output, kinds::kind_of(file.study),
+                                        study_manifest(file, study.asked.jobs), false));
   study::StudyOptions options;
   options.jobs = study.asked.jobs;
   // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
   // were.
   study.needs = needs_of(study::forecast_study(file, options, run::cautious_update_rate), study.asked.shards,
                          study.asked.jobs);
-
+  add_request(study);
   const path folder = slurm_folder(arguments.output);
   if (std::filesystem::is_symlink(folder))
-    return console.refuse(
+    console.refuse(
         fmt::format("{} is a link, and nothing is written through one; move it away", folder.string()));
   const NamedTexts scripts = slurm_scripts(study);
   write_where_absent(folder, scripts, console);

@@ -1,6 +1,5 @@
 // What launchsafe explains of itself: the keys of its files, what editors take, and materials with every
 // number and where it comes from.
-#include "built_in_texts.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_tables.hpp"
@@ -8,8 +7,6 @@
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/record_domain.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::app {
 namespace {
@@ -22,10 +19,10 @@ std::string standings() {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// Of a list whose every entry ends with an empty line.
-std::string without_last_line(std::string text) {
+/// A list whose every entry ends with an empty line.
+ExitCode print_list(std::string text, Json members, Console& console) {
   text.pop_back();
-  return text;
+  return console.done(text, std::move(members));
 }
 
 /// The keys whose name begins with a word; all for an empty one.
@@ -65,13 +62,11 @@ ExitCode explain_keys(const std::string& word, Console& console) {
   Json facts{{"standings", word.empty() ? standings() : ""}};
   for (const auto& [name, list] : rows.items()) facts[name] = text_of_keys(list);
   if (facts["keys"] == "" && facts["study_keys"] == "")
-    return console.refuse(
+    console.refuse(
         fmt::format("explain --keys: found \"{}\", with which no key begins; allowed: the beginning of a "
                     "name, such as load",
                     word));
-  console.print_text(without_last_line(told("keys.txt", facts)));
-  console.print_json(rows);
-  return ExitCode::done;
+  return print_list(told("keys.txt", facts), rows, console);
 }
 
 /// Every column of the tables of all kinds, from the same descriptions that write them.
@@ -92,13 +87,12 @@ ExitCode explain_results(const std::string& word, Console& console) {
     }
   }
   if (list.empty())
-    return console.refuse(fmt::format(
+    console.refuse(fmt::format(
         "explain --results: found \"{}\", with which no column begins; allowed: the beginning of a name, "
         "such as critical_gap",
         word));
-  console.print_text(without_last_line(told("results.txt", {{"tables", list}, {"all", word.empty()}})));
-  console.print_json({{"results", std::move(list)}});
-  return ExitCode::done;
+  return print_list(told("results.txt", {{"tables", list}, {"all", word.empty()}}), {{"results", list}},
+                    console);
 }
 
 using scene::NamedMaterial;
@@ -221,10 +215,9 @@ ExitCode explain_materials(const scene::NamedMaterials& named, const std::string
   };
   const auto materials = list_of(named.materials), contacts = list_of(named.contacts),
              decompositions = list_of(named.decompositions);
-  if (text.empty()) return console.refuse(fault);
-  console.print_text(text);
-  console.print_json({{"materials", materials}, {"contacts", contacts}, {"decompositions", decompositions}});
-  return ExitCode::done;
+  if (text.empty()) console.refuse(fault);
+  return console.done(text,
+                      {{"materials", materials}, {"contacts", contacts}, {"decompositions", decompositions}});
 }
 
 }  // namespace
@@ -243,9 +236,7 @@ ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   const Json schema = arguments.schema == "study"   ? study_schema()
                       : arguments.schema == "scene" ? scene_schema()
                                                     : references_schema();
-  console.print_text(schema.dump(2) + "\n");
-  console.print_json(schema);
-  return ExitCode::done;
+  return console.done(schema.dump(2) + "\n", schema);
 }
 
 ExitCode explain_material_file(const path& file, Console& console) {

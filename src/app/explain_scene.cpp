@@ -1,4 +1,3 @@
-#include "built_in_texts.hpp"
 #include "explain.hpp"
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/run/cost.hpp"
@@ -10,8 +9,6 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/scheduler.hpp"
-
-#include <fmt/format.h>
 
 #include <sstream>
 

@@ -1,14 +1,10 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
-#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::app {
 namespace {
@@ -102,8 +98,8 @@ void write(const ImportCurveArguments& arguments, const Import& import, const st
            Console& console) {
   const path& file = *arguments.output;
   if (file.extension() != ".csv")
-    throw Ended{console.refuse(fmt::format(
-        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()))};
+    console.refuse(fmt::format(
+        "--output: found \"{}\"; allowed: the name of a CSV file, such as pressure.csv", file.string()));
   const path folder = store::folder_of(file);
   const std::string csv = scene::csv_of(import.cleaned.curve, text);
   path picture = file;

@@ -1,14 +1,10 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
-#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "output_folder.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::app {
 namespace {
@@ -35,29 +31,28 @@ NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::P
   const double duration = curve ? curve->time.back() : factor * published_exit;
   const scene::Load published;
   const auto milliseconds = [](double time) { return fmt::format("{:.4g}", 1e3 * time); };
-  report::Row values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
-                     {"factor", fmt::format("{:.4g}", factor)},
-                     {"charge_begin", scaled_length(118, factor)},
-                     {"charge_end", scaled_length(678, factor)},
-                     {"length", scaled_length(740, factor)},
-                     {"bore", scaled_length(65, factor)},
-                     {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-                     {"curve", curve.has_value()},
-                     {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
-                     {"peak_time", milliseconds(factor * published.peak_time)},
-                     {"width", milliseconds(factor * published.width)},
-                     {"exit", milliseconds(duration)},
-                     {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+  Json values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
+              {"factor", fmt::format("{:.4g}", factor)},
+              {"charge_begin", scaled_length(118, factor)},
+              {"charge_end", scaled_length(678, factor)},
+              {"length", scaled_length(740, factor)},
+              {"bore", scaled_length(65, factor)},
+              {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+              {"curve", curve.has_value()},
+              {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
+              {"peak_time", milliseconds(factor * published.peak_time)},
+              {"width", milliseconds(factor * published.width)},
+              {"exit", milliseconds(duration)},
+              {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
   if (curve)
     if (const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve)))
       values["smoothing"] = scene::time_text(*window);
-  NamedTexts files{{"scene.toml", report::filled(scene_template, {&values})},
-                   {"critical_gap.toml", report::filled(study_template, {&values})},
-                   {"accuracy.toml", report::filled(accuracy_template, {&values})},
-                   {"firings.toml", report::filled(firings_template, {&values})},
-                   {"calibration.json", shipped_calibration},
-                   {"scene.schema.json", scene_schema().dump(1) + "\n"},
-                   {"study.schema.json", study_schema().dump(1) + "\n"}};
+  NamedTexts files;
+  for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml", "firings.toml"})
+    files.push_back({name, told(name, values)});
+  files.insert(files.end(), {{"calibration.json", shipped_calibration},
+                             {"scene.schema.json", scene_schema().dump(1) + "\n"},
+                             {"study.schema.json", study_schema().dump(1) + "\n"}});
   if (curve) files.push_back({"pressure.csv", csv});
   return files;
 }
@@ -76,13 +71,14 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   const path study = arguments.output / "critical_gap.toml";
   // A fault of the files just written is the program's, and is told before anybody computes with them.
   if (const auto read = kinds::read_study(study); !read)
-    return console.fail("internal error: what init wrote cannot be read: " + read.error().message());
-  console.print_text(fmt::format(
-      "\nThe shell is the published one, scaled: put the lengths of a drawing into {}.\nnext: {}\n",
-      (arguments.output / "scene.toml").string(),
-      shell_command({"launchsafe", "study", study.string(), "-o", (arguments.output / "results").string()})));
-  console.print_json({{"files", written}});
-  return ExitCode::done;
+    console.fail("internal error: what init wrote cannot be read: " + read.error().message());
+  return console.done(
+      fmt::format(
+          "\nThe shell is the published one, scaled: put the lengths of a drawing into {}.\nnext: {}\n",
+          (arguments.output / "scene.toml").string(),
+          shell_command(
+              {"launchsafe", "study", study.string(), "-o", (arguments.output / "results").string()})),
+      {{"files", written}});
 }
 
 }  // namespace

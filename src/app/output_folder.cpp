@@ -1,7 +1,6 @@
 #include "output_folder.hpp"
 
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <unistd.h>
@@ -48,13 +47,12 @@ std::optional<std::string> prepare_output_folder(const path& folder) {
 }
 
 void write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
-  if (const auto obstacle = prepare_output_folder(folder)) throw Ended{console.refuse(*obstacle)};
-  for (const auto& [name, text] : texts)
-    if (const auto obstacle = obstacle_to_file(folder / name, text)) throw Ended{console.refuse(*obstacle)};
+  console.refuse_any(prepare_output_folder(folder));
+  for (const auto& [name, text] : texts) console.refuse_any(obstacle_to_file(folder / name, text));
   for (const auto& [name, text] : texts) {
     if (std::filesystem::exists(folder / name)) continue;  // with this content
     if (const auto error = store::write_file_atomically(folder / name, text, store::IfExists::refuse))
-      throw Ended{console.end_with(*error)};
+      console.end_with(*error);
   }
 }
 
@@ -115,19 +113,6 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
 
 void remove_leftovers(const path& folder) {
   for (const std::string& name : names_in(folder)) store::remove_leftover(folder / name);
-}
-
-store::Result<path> take_folder(const path& folder, const StudyRecord& asked) {
-  const auto record = store::record_of_report(folder);
-  if (!record) return record.error();
-  if (same_study(record->manifest, asked.manifest)) return path{};
-  // The manifest last: what a kill leaves here is still known.
-  std::vector<std::string> names = record->names();
-  if (!names.empty()) names.emplace_back(store::manifest_name);
-  auto moved_to = store::set_aside(folder, names);
-  if (!moved_to) return moved_to;
-  if (auto error = store::write_study_record(folder, asked)) return *error;
-  return moved_to;
 }
 
 }  // namespace launchsafe::app

@@ -3,8 +3,6 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/store/study_record.hpp"
-#include "launchsafe/study/study_file.hpp"
 
 namespace launchsafe::app {
 
@@ -41,10 +39,5 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
 /// Removes what killed processes left of report files that they were writing; while no other process is at
 /// work in the folder.
 void remove_leftovers(const path& folder);
-
-/// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study to
-/// `earlier-N` and writes manifest.json, unless it is there. Returns where the report went, empty if nowhere.
-/// Errors: conflict, write_failed, unreadable.
-store::Result<path> take_folder(const path& folder, const StudyRecord& asked);
 
 }  // namespace launchsafe::app

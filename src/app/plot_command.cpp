@@ -7,8 +7,6 @@
 #include "output_folder.hpp"
 
 #include <boost/algorithm/string.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <set>
 
@@ -44,7 +42,7 @@ std::vector<std::string> words_of_kinds() {
 }
 
 /// The words of kinds that a user named, between commas or blanks; each must be one.
-scene::Expected<std::set<std::string>> named_kinds(const std::string& list) {
+std::set<std::string> named_kinds(const std::string& list, Console& console) {
   const std::vector<std::string> known = words_of_kinds();
   std::set<std::string> words;
   boost::algorithm::split(words, list, boost::algorithm::is_any_of(", \t\n"),
@@ -52,46 +50,44 @@ scene::Expected<std::set<std::string>> named_kinds(const std::string& list) {
   if (words.size() > 1) words.erase("");
   for (const std::string& word : words)
     if (std::ranges::find(known, word) == known.end())
-      return scene::error_at({}, "--what", fmt::format("\"{}\"", word.empty() ? list : word),
-                             scene::quoted_list(known), scene::nearest_of(word, known));
+      console.refuse(scene::error_at({}, "--what", fmt::format("\"{}\"", word.empty() ? list : word),
+                                     scene::quoted_list(known), scene::nearest_of(word, known)));
   return words;
 }
 
 /// Of these kinds, or of all where none is named, what the case has data for. A kind that is named must have
 /// some.
-scene::Expected<Selection> select(const report::DrawnCase& drawn, const std::set<std::string>& named,
-                                  bool as_tables) {
+Selection select(const report::DrawnCase& drawn, const std::set<std::string>& named, bool as_tables,
+                 Console& console) {
   Selection selection;
   for (const PictureKind& kind : report::picture_kinds()) {
     if (!named.empty() && !named.contains(kind.word)) continue;
     const bool lacks_tables = as_tables && !kind.tables;
     const std::string why = lacks_tables ? "there are pictures of it alone" : kind.lacks(drawn);
-    if (why.empty()) {
+    if (why.empty())
       selection.kinds.push_back(&kind);
-    } else if (named.empty()) {
+    else if (named.empty())
       selection.left_out.emplace_back(&kind, why);
-    } else {
-      return scene::error_at({}, "--what",
-                             fmt::format("\"{}\", which {} has no data for: {}", kind.word,
-                                         lacks_tables ? "--csv" : "this case", why),
-                             "what the case has data for; all of that without --what");
-    }
+    else
+      console.refuse(scene::error_at({}, "--what",
+                                     fmt::format("\"{}\", which {} has no data for: {}", kind.word,
+                                                 lacks_tables ? "--csv" : "this case", why),
+                                     "what the case has data for; all of that without --what"));
   }
   return selection;
 }
 
 /// The times that a user named, each of which must be one that can be drawn.
-scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
-                                                  const std::string& text) {
-  const auto fault = [](const std::string& found, const std::string& allowed) {
-    return scene::error_at({}, "--times", found, allowed);
+std::vector<double> wanted_times(const report::DrawnCase& drawn, const Selection& selection,
+                                 const std::string& text, Console& console) {
+  const auto refuse = [&](const std::string& found, const std::string& allowed,
+                          const std::string& suggestion = {}) {
+    console.refuse(scene::error_at({}, "--times", found, allowed, suggestion));
   };
   const auto times = scene::parse_list(text, scene::Dimension::time);
-  if (!times)
-    return scene::error_at({}, "--times", times.error().found, times.error().allowed,
-                           times.error().suggestion);
+  if (!times) refuse(times.error().found, times.error().allowed, times.error().suggestion);
   const bool of_fields = selection.has("fields");
-  if (!of_fields && !selection.has("profile")) return fault(text, "times where fields or profile are drawn");
+  if (!of_fields && !selection.has("profile")) refuse(text, "times where fields or profile are drawn");
   const auto snapshots = report::shown_snapshots(drawn);
   std::vector<std::string> known;
   for (const auto& each : snapshots) known.push_back(scene::time_text(each.time()));
@@ -100,17 +96,26 @@ scene::Expected<std::vector<double>> wanted_times(const report::DrawnCase& drawn
     const std::string found = scene::time_text(time);
     if (of_fields &&
         std::ranges::none_of(snapshots, [&](const auto& each) { return report::is_of_time(each, time); }))
-      return fault(found + ", of which the case has no snapshot",
-                   fmt::format("{}; any time with --what profile", fmt::join(known, ", ")));
+      refuse(found + ", of which the case has no snapshot",
+             fmt::format("{}; any time with --what profile", fmt::join(known, ", ")));
     if (!of_fields && !(time >= 0.0 && time <= end * (1.0 + 1e-9)))
-      return fault(found, "times until the end of the run at " + scene::time_text(end));
+      refuse(found, "times until the end of the run at " + scene::time_text(end));
   }
   return *times;
 }
 
+/// What kept a picture from being drawn.
+[[noreturn]] void end_of_drawing(const store::Error& error, Console& console) {
+  if (stop_requested()) console.fail("interrupted while drawing; nothing was written", ExitCode::interrupted);
+  if (error.kind != store::Error::Kind::missing) console.fail(error.message);
+  console.refuse(
+      "plot: found no program gnuplot (Debian: gnuplot-nox), which draws the pictures; allowed: with it "
+      "installed");
+}
+
 /// Pictures, or their numbers, as they will be written, and what is told of them.
-store::MaybeError draw(const report::DrawnCase& drawn, const Selection& selection, bool tables,
-                       const path& folder, NamedTexts& texts, Json& told, const Console& console) {
+void draw(const report::DrawnCase& drawn, const Selection& selection, bool tables, const path& folder,
+          NamedTexts& texts, Json& told, Console& console) {
   Progress progress(console.quiet());
   const auto add = [&](const PictureKind& kind, const std::string& name, std::string text) {
     texts.push_back({name, std::move(text)});
@@ -123,54 +128,39 @@ store::MaybeError draw(const report::DrawnCase& drawn, const Selection& selectio
       for (const CasePicture& picture : kind->pictures(drawn)) {
         progress.show("drawing " + picture.file);
         auto svg = report::to_svg(picture.plot, {.stop = &stop_requested()});
-        if (!svg) return svg.error();
+        if (!svg) end_of_drawing(svg.error(), console);
         add(*kind, picture.file, std::move(*svg));
         if (picture.time) told.back()["time_ms"] = 1e3 * *picture.time;
         if (picture.gap) told.back()["gap_cm"] = scene::in_unit(*picture.gap, scene::Dimension::length, "cm");
       }
   }
-  return {};
-}
-
-/// What kept a picture from being drawn.
-ExitCode end_of_drawing(const store::Error& error, Console& console) {
-  if (stop_requested()) {
-    console.error("interrupted while drawing; nothing was written");
-    return ExitCode::interrupted;
-  }
-  if (error.kind != store::Error::Kind::missing) return console.fail(error.message);
-  return console.refuse(
-      "plot: found no program gnuplot (Debian: gnuplot-nox), which draws the pictures; allowed: with it "
-      "installed");
 }
 
 ExitCode perform(const PlotArguments& arguments, Console& console) {
   const auto file = store::read_case_with_scene(arguments.file);
   if (!file)
-    return console.refuse(file.error().message +
-                          "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
+    console.refuse(file.error().message +
+                   "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
   report::DrawnCase drawn{file->scene, file->stored.result};
   if (arguments.references) drawn.published = console.value_of(kinds::read_references(*arguments.references));
   const bool tables = arguments.tables;
   std::set<std::string> named;
-  if (arguments.what) named = console.value_of(named_kinds(*arguments.what));
-  const Selection selection = console.value_of(select(drawn, named, tables));
-  if (arguments.times) drawn.times = console.value_of(wanted_times(drawn, selection, *arguments.times));
+  if (arguments.what) named = named_kinds(*arguments.what, console);
+  const Selection selection = select(drawn, named, tables, console);
+  if (arguments.times) drawn.times = wanted_times(drawn, selection, *arguments.times, console);
   const path folder = arguments.output.value_or(arguments.file.parent_path() /
                                                 (arguments.file.stem().string() + "_pictures"));
   const char* list = tables ? "tables" : "pictures";
   Json object{{"folder", folder.string()}, {list, Json::array()}, {"left_out", Json::array()}};
   NamedTexts texts;
-  if (const auto error = draw(drawn, selection, tables, folder, texts, object[list], console))
-    return end_of_drawing(*error, console);
+  draw(drawn, selection, tables, folder, texts, object[list], console);
   write_where_absent(folder, texts, console);
   for (const auto& [kind, why] : selection.left_out) {
     console.remark(fmt::format("no {} of {}: {}", tables ? "table" : "picture", kind->word, why));
     object["left_out"].push_back({{"what", kind->word}, {"because", why}});
   }
-  if (!texts.empty()) console.print_text(fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")));
-  console.print_json(object);
-  return ExitCode::done;
+  return console.done(texts.empty() ? "" : fmt::format("{}\n", fmt::join(places_of(folder, texts), "\n")),
+                      object);
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "common_options.hpp"
-#include "launchsafe/report/folder_index.hpp"
 #include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 #include "output_folder.hpp"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 namespace launchsafe::app {
@@ -53,7 +51,7 @@ std::string print_page(const path& folder) {
 ExitCode write_index(const path& folder, Console& console) {
   const std::string page = report::index_page(folder);
   if (page.empty())
-    return console.refuse(
+    console.refuse(
         fmt::format("report: {} holds no folder of a report; allowed: one that does, such "
                     "as reports",
                     folder.string()));
@@ -61,15 +59,13 @@ ExitCode write_index(const path& folder, Console& console) {
   const auto present = store::read_file(file);
   const bool absent = !present && present.error().kind == store::Error::Kind::missing;
   if (!absent && !(present && present->starts_with(report::index_begin)))
-    return console.refuse(
+    console.refuse(
         fmt::format("report: {} is no page of launchsafe report --index, and nothing is "
                     "overwritten; move it away",
                     file.string()));
   if (const auto error = store::write_file_atomically(file, page, store::IfExists::replace))
-    return console.end_with(*error);
-  console.print_text(file.string() + "\n");
-  console.print_json({{"files", {file.string()}}});
-  return ExitCode::done;
+    console.end_with(*error);
+  return console.done(file.string() + "\n", {{"files", {file.string()}}});
 }
 
 /// What of these options makes no sense together; empty for nothing.
@@ -82,8 +78,7 @@ std::string contradiction(const ReportArguments& report) {
 }
 
 ExitCode perform(const ReportArguments& arguments, Console& console) {
-  if (const std::string fault = contradiction(arguments); !fault.empty())
-    return console.refuse(fault + usage_hint);
+  if (const std::string fault = contradiction(arguments); !fault.empty()) console.refuse(fault + usage_hint);
   if (arguments.index) return write_index(arguments.studies.front(), console);
   std::optional<report::GapCriterion> criterion;
   if (arguments.criterion)
@@ -92,33 +87,24 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   // Its report.md would take the place of the study's.
   if (const auto there = store::read_study_record(arguments.output);
       there && (!there->study.empty() || std::filesystem::exists(arguments.output / "study.json")))
-    return console.refuse(
-        fmt::format("report: --output names {}, which holds a study; allowed: another folder",
-                    arguments.output.string()));
-  store::Result<report::PageTemplates> templates = report::built_in_templates();
-  if (arguments.templates) templates = report::read_templates(*arguments.templates, *templates);
-  if (!templates) return console.refuse(templates.error().message);
-  const auto evidence = report::read_safety_evidence(arguments.studies);
-  if (!evidence) return console.refuse(evidence.error().message);
-  const auto rendered = report::make_safety_report(*evidence, criterion, *templates, arguments.document,
-                                                   {.stop = &stop_requested()});
-  if (!rendered) return console.refuse(rendered.error().message);
-  if (stop_requested()) {
-    console.error("interrupted while drawing; nothing was written");
-    return ExitCode::interrupted;
-  }
-  const NamedTexts& files = rendered->files;
-  if (const auto obstacle = prepare_output_folder(arguments.output)) return console.refuse(*obstacle);
-  const auto remarks = store::write_report_files(arguments.output, record_of(*evidence, arguments), files);
-  if (!remarks) return console.end_with(remarks.error());
-  for (const auto* each : {&*remarks, &rendered->remarks})
-    for (const std::string& remark : *each) console.remark(remark);
+    console.refuse(fmt::format("report: --output names {}, which holds a study; allowed: another folder",
+                               arguments.output.string()));
+  report::PageTemplates templates = report::built_in_templates();
+  if (arguments.templates)
+    templates = console.value_of(report::read_templates(*arguments.templates, std::move(templates)));
+  const report::SafetyEvidence evidence = console.value_of(report::read_safety_evidence(arguments.studies));
+  const report::RenderedReport rendered = console.value_of(report::make_safety_report(
+      evidence, criterion, templates, arguments.document, {.stop = &stop_requested()}));
+  if (stop_requested()) console.fail("interrupted while drawing; nothing was written", ExitCode::interrupted);
+  console.refuse_any(prepare_output_folder(arguments.output));
+  console.remarks(console.stored(
+      store::write_report_files(arguments.output, record_of(evidence, arguments), rendered.files)));
+  console.remarks(rendered.remarks);
   if (const std::string fault = arguments.pdf ? print_page(arguments.output) : ""; !fault.empty())
     console.remark(fault);
-  const std::vector<std::string> places = places_of(arguments.output, files);
-  console.print_text(fmt::format("{}\n", fmt::join(places, "\n")));
-  console.print_json({{"files", places}, {"remarks", rendered->remarks}});
-  return ExitCode::done;
+  const std::vector<std::string> places = places_of(arguments.output, rendered.files);
+  return console.done(fmt::format("{}\n", fmt::join(places, "\n")),
+                      {{"files", places}, {"remarks", rendered.remarks}});
 }
 
 }  // namespace

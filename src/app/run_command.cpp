@@ -1,5 +1,4 @@
 // launchsafe run: one case.
-#include "built_in_texts.hpp"
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
@@ -13,14 +12,10 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/study/scheduler.hpp"
 #include "launchsafe/study/verdict.hpp"
 #include "output_folder.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace launchsafe::app {
 namespace {
@@ -225,8 +220,8 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
   return run::run_case(scene, options);
 }
 
-ExitCode report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
-                             const scene::Scene& scene, Console& console) {
+[[noreturn]] void report_interruption(const RunArguments& arguments, const run::MechanicsResult& mechanics,
+                                      const scene::Scene& scene, Console& console) {
   const std::string output = arguments.output ? fmt::format(" -o {}", arguments.output->string()) : "";
   const double end = scene::end_time(scene.load);
   // What follows the launch was interrupted where the launch itself is over.
@@ -234,44 +229,40 @@ ExitCode report_interruption(const RunArguments& arguments, const run::Mechanics
       mechanics.end_time < end
           ? fmt::format("at {} of {}", scene::time_text(mechanics.end_time), scene::time_text(end))
           : mechanics.reason;
-  console.error(
+  console.fail(
       fmt::format("interrupted {}; nothing of this case was kept; to start it again: launchsafe run {}{}",
-                  where, arguments.scene.string(), output));
-  return ExitCode::interrupted;
+                  where, arguments.scene.string(), output),
+      ExitCode::interrupted);
 }
 
 ExitCode perform(const RunArguments& arguments, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
-  for (const std::string& note : file.notes) console.remark(note);
+  console.remarks(file.notes);
   const scene::Scene& scene = file.scene;
   run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;
-  if (const auto error = run::out_of_reach(file, reach)) return console.refuse(*error);
+  console.refuse_any(run::out_of_reach(file, reach));
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   path target;
   if (arguments.output) {
     target = *arguments.output / arguments.scene.stem().concat(".h5");
     // Found out before anything is computed.
-    auto error = store::obstacle_to_case_file(target, manifest);
-    if (!error && scene.output.asks_for_snapshots()) error = store::obstacle_to_sidecar(target);
-    if (error) return console.refuse(error->message);
-    if (const auto obstacle = prepare_output_folder(*arguments.output)) return console.refuse(*obstacle);
+    console.refuse_any(store::obstacle_to_case_file(target, manifest));
+    if (scene.output.asks_for_snapshots()) console.refuse_any(store::obstacle_to_sidecar(target));
+    console.refuse_any(prepare_output_folder(*arguments.output));
   }
-  for (const scene::Implausible& each : scene::implausible_values(scene)) {
+  for (const scene::Implausible& each : scene::implausible_values(scene))
     if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
-  }
   const run::CaseResult result = run_with_progress(scene, console);
   for (const run::GapResult& gap : result.gaps)
     if (gap.combustion)
       for (const std::string& each : run::combustion_validity_warnings(scene, *gap.combustion))
         console.remark(fmt::format("validity warning: gap {:.6g} cm: {}", 100.0 * gap.gap, each));
   manifest.wall_time = result.mechanics.wall_time;
-  if (result.mechanics.status == run::RunStatus::interrupted) {
-    return report_interruption(arguments, result.mechanics, scene, console);
-  }
+  if (result.mechanics.status == run::RunStatus::interrupted)
+    report_interruption(arguments, result.mechanics, scene, console);
   if (!target.empty()) {
-    if (const auto error = store::write_case_file(target, scene, result, manifest))
-      return console.end_with(*error);
+    if (const auto error = store::write_case_file(target, scene, result, manifest)) console.end_with(*error);
     console.remark(fmt::format("wrote {}", target.string()));
   }
   std::vector<std::string> missing;
@@ -288,14 +279,13 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   console.print_json(object);
   const bool finite = std::ranges::all_of(
       result.gaps, [](const run::GapResult& gap) { return std::isfinite(gap.at_stations.temperature); });
-  if (!finite) {
-    console.error("a skin temperature is not a number; every verdict on it is indeterminate");
-    return ExitCode::indeterminate;
-  }
+  if (!finite)
+    console.fail("a skin temperature is not a number; every verdict on it is indeterminate",
+                 ExitCode::indeterminate);
   if (result.mechanics.status == run::RunStatus::completed) return ExitCode::done;
-  console.error(fmt::format("the run ended early ({}): {}; every verdict on it is indeterminate",
-                            run::to_string(result.mechanics.status), result.mechanics.reason));
-  return ExitCode::indeterminate;
+  console.fail(fmt::format("the run ended early ({}): {}; every verdict on it is indeterminate",
+                           run::to_string(result.mechanics.status), result.mechanics.reason),
+               ExitCode::indeterminate);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 #include "launchsafe/report/study_status.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <thread>
@@ -45,12 +43,11 @@ scene::InputError no_study_in(const path& folder) {
 }
 
 /// The snapshots of all folders, as those of one study; those of its shards in the order of their numbers.
-scene::Expected<std::vector<store::StoreStatus>, scene::InputError> snapshots_of(
-    const StatusArguments& asked) {
+std::vector<store::StoreStatus> snapshots_of(const StatusArguments& asked, Console& console) {
   std::vector<store::StoreStatus> all;
   for (const path& folder : asked.folders) {
     std::vector<store::StoreStatus> found = store::statuses_in(folder);
-    if (found.empty()) return no_study_in(folder);
+    if (found.empty()) console.refuse(no_study_in(folder));
     std::ranges::move(found, std::back_inserter(all));
   }
   std::ranges::stable_sort(all, {},
@@ -69,7 +66,7 @@ ExitCode perform(const StatusArguments& asked, Console& console) {
   const bool on_terminal = ::isatty(STDOUT_FILENO) == 1;
   std::error_code failed;
   while (true) {
-    const std::vector<store::StoreStatus> snapshots = console.value_of(snapshots_of(asked));
+    const std::vector<store::StoreStatus> snapshots = snapshots_of(asked, console);
     std::vector<std::string> names(asked.folders.begin(), asked.folders.end());
     report::Row facts =
         report::status_facts(fmt::format("{}", fmt::join(names, ", ")), snapshots, std::time(nullptr));

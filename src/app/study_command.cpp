@@ -1,14 +1,205 @@
 // launchsafe study: many cases, kept as they end, then tables and an answer; with --dry-run what these would
-// cost.
+// cost. And launchsafe merge: the shards of a study as one.
 #include "common_options.hpp"
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/study_status.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
-#include "study_session.hpp"
+#include "study_watch.hpp"
 
 namespace launchsafe::app {
 namespace {
+
+/// What a user asks of a study, or of the merge of its shards.
+struct StudyArguments {
+  path study;                         ///< file
+  path output;                        ///< folder of cases, tables and report; may be empty for a dry run
+  int jobs = 0;                       ///< threads; 0: as many as there are processors for us
+  std::optional<double> memory;       ///< bytes of all running cases together
+  std::optional<double> time_limit;   ///< s of wall time, of one case
+  std::optional<double> longest_run;  ///< s, predicted, of one case; a longer one is refused
+  study::Shard shard;                 ///< the part that is ours
+  std::optional<double> tolerance;    ///< K, of T max; picks a setting from the study's accuracy record
+  std::optional<std::time_t> until;   ///< when it stops, with what it has
+  bool dry_run = false;               ///< say what would be run, and run nothing
+  bool update = false;                ///< the folder may hold the results of an earlier study
+  std::string command;                ///< the whole command, to be repeated in a shell
+};
+
+// --- what both share ---
+
+/// Whether the report in the folder says what a new one would. A study's results follow from its input, but
+/// for what failed.
+bool report_stands(const path& folder, const StudyRecord& record, const store::Manifest& manifest,
+                   const std::string& failures) {
+  return !record.files.empty() && record.complete && same_study(record.manifest, manifest) &&
+         record.manifest.program_version == manifest.program_version &&
+         record.manifest.commit == manifest.commit && record.failures == failures &&
+         store::read_as_written(folder, record.files);
+}
+
+/// A study's folder while it is ours, from before the runs to the report.
+class StudySession {
+ public:
+  /// Takes the folder and opens its store, or ends the command; unless the machine failed nothing was written
+  /// then.
+  StudySession(const StudyArguments& asked, const study::StudyFile& file, int jobs, Console& console)
+      : asked_(asked), file_(file), console_(console), record_{.manifest = study_manifest(file, jobs)} {
+    // Never an absolute path: it would name this machine.
+    record_.study = asked.study.is_absolute() ? asked.study.filename() : asked.study;
+    const auto refuse_obstacle = [&] {
+      console.refuse_any(
+          obstacle_in_folder(asked.output, kinds::kind_of(file.study), record_.manifest, asked.update));
+    };
+    refuse_obstacle();
+    console.refuse_any(prepare_output_folder(asked.output));
+    const auto stop = [](const store::Error&) { stop_requested() = true; };
+    store_ = console.stored(store::CaseStore::open(asked.output, asked.shard.part(), stop));
+    print_remarks();
+    refuse_obstacle();  // until the store was ours somebody else may have been at work here
+    if (asked.shard.whole()) remove_leftovers(asked.output);
+    take_folder();
+  }
+
+  /// Where results are kept.
+  store::CaseStore& store() { return *store_; }
+
+  /// Runs the study, and shows how far it is.
+  kinds::StudyOutcome run(study::StudyOptions options) {
+    watch_.emplace(*store_, asked_.command, console_.quiet(), asked_.until);
+    options.store = store_.get();
+    options.progress = watch_->callback();
+    kinds::StudyOutcome result = kinds::run_study(file_, options);
+    watch_->end_line();
+    return result;
+  }
+
+  /// What the store has to say since the last call.
+  void print_remarks() {
+    const std::vector<std::string> remarks = store_->remarks();
+    for (; remarks_printed_ < remarks.size(); ++remarks_printed_) console_.remark(remarks[remarks_printed_]);
+  }
+
+  /// Keeps what is to be kept and reports the outcome of the study: what an interruption left, what a shard
+  /// did, or report, tables and answer of the whole.
+  ExitCode conclude(const kinds::StudyOutcome& result) {
+    try {
+      keep();
+      if (result.interrupted) report_interruption();
+      return end(asked_.shard.whole() ? deliver_whole(result) : deliver_shard(result));
+    } catch (const Ended& ended) {
+      return end(ended.code);
+    }
+  }
+
+  /// Tells whoever watches how a study ended that was run.
+  ExitCode end(ExitCode code) {
+    watch_->tell_end(static_cast<int>(code));
+    return code;
+  }
+
+ private:
+  // These end the command where something fails, or where it was interrupted.
+  /// Makes the folder that of the study, once its store is ours alone: moves the report of an earlier study
+  /// to `earlier-N` and writes manifest.json, unless it is there.
+  void take_folder() {
+    const StudyRecord record = console_.stored(store::record_of_report(asked_.output));
+    if (same_study(record.manifest, record_.manifest)) return;
+    // The manifest last: what a kill leaves here is still known.
+    std::vector<std::string> names = record.names();
+    if (!names.empty()) names.emplace_back(store::manifest_name);
+    const path moved = console_.stored(store::set_aside(asked_.output, names));
+    if (const auto error = store::write_study_record(asked_.output, record_)) console_.end_with(*error);
+    if (!moved.empty()) console_.remark(fmt::format("the earlier report moved to {}", moved.string()));
+  }
+
+  /// Sees to it that all that was to be kept is on disk.
+  void keep() {
+    const auto error = store_->flush();
+    print_remarks();
+    if (error)
+      console_.fail(fmt::format(
+          "{}; the study ended, what was stored before is kept; once there is room, go on with: {}",
+          error->message, asked_.command));
+  }
+
+  void report_interruption() {
+    const auto stored =
+        std::ranges::count(store_->records(), store::CaseState::done, &store::RunRecord::state);
+    const bool was_planned = asked_.until && std::time(nullptr) >= *asked_.until;
+    console_.fail(fmt::format("{}; {} kept in {}; to go on: {}",
+                              was_planned ? "stopped at the time that --until says" : "interrupted",
+                              stored == 1 ? "1 run is" : fmt::format("{} runs are", stored),
+                              asked_.output.string(), asked_.command),
+                  ExitCode::interrupted);
+  }
+
+  ExitCode deliver_shard(const kinds::StudyOutcome& result) {
+    const study::Shard& shard = asked_.shard;
+    const std::vector<kinds::Failure>& failures = result.failures;
+    console_.print_json({{"shard", shard.index},
+                         {"shards", shard.count},
+                         {"mechanical_runs", result.timing.runs},
+                         {"reused", result.timing.reused},
+                         {"wall_time_s", result.timing.wall_time},
+                         {"failed", failures.size()}});
+    console_.failures(failures);
+    console_.remark(report::timing_text(result.timing));
+    console_.remark(fmt::format(
+        "shard {}/{} is done{}; once all are: {} (then the folders of shards that have one of their own)",
+        shard.index, shard.count, failures.empty() ? "" : fmt::format(", {} failed", failures.size()),
+        shell_command({"launchsafe", "merge", asked_.study.string(), "-o", asked_.output.string()})));
+    return failures.empty() ? ExitCode::done : ExitCode::cases_failed;
+  }
+
+  ExitCode deliver_whole(const kinds::StudyOutcome& result) {
+    console_.print_text(report::to_text(result.report, asked_.output, width_of_output()));
+    if (console_.json()) console_.print_json(Json::parse(result.report.json));
+    console_.failures(result.failures);
+    console_.remark(report::timing_text(result.timing));
+    write_files(result);
+    if (!result.failures.empty()) return ExitCode::cases_failed;
+    return result.indeterminate ? ExitCode::indeterminate : ExitCode::done;
+  }
+
+  void write_files(const kinds::StudyOutcome& result) {
+    std::string failures;
+    for (const auto& [label, reason, outcome] : result.failures) failures += label + "\n" + reason + "\n";
+    const std::string digest = store::sha256(failures);
+    const auto present = store::read_study_record(asked_.output);
+    if (result.timing.runs == 0 && present &&
+        report_stands(asked_.output, *present, record_.manifest, digest)) {
+      return console_.remark(fmt::format("the report in {} stands as it is", asked_.output.string()));
+    }
+    store_->replace_tables(report::plain_tables(result.report));
+    keep();
+    const report::RenderedReport rendered = report::render_report(result.report, {.stop = &stop_requested()});
+    console_.remarks(rendered.remarks);
+    StudyRecord written = record_;
+    written.failures = digest;
+    written.manifest.wall_time = result.timing.wall_time;
+    // A report that lacks a picture is no finished one: the next time it is written again.
+    written.complete = rendered.pictures_missing == 0;
+    console_.remarks(console_.stored(store::write_report_files(asked_.output, written, rendered.files)));
+    console_.remark(fmt::format("wrote {} files to {}", rendered.files.size() + 1, asked_.output.string()));
+    if (!written.complete && stop_requested())
+      console_.fail(
+          fmt::format("interrupted while a picture was drawn; all results are kept; for the picture: {}",
+                      asked_.command),
+          ExitCode::interrupted);
+  }
+
+  const StudyArguments& asked_;
+  const study::StudyFile& file_;
+  Console& console_;
+  StudyRecord record_;  ///< what manifest.json is to say before there is a report
+  std::unique_ptr<store::CaseStore> store_;
+  std::optional<StudyWatch> watch_;  ///< once it runs
+  std::size_t remarks_printed_ = 0;
+};
+
+// --- study ---
 
 study::StudyOptions options_of(const StudyArguments& arguments, int jobs, store::CaseStore* store) {
   study::StudyOptions options;
@@ -34,16 +225,13 @@ std::optional<scene::InputError> refusal_of(const study::StudyFile& file, const 
 /// What the study would run, and at what cost; nothing is written.
 ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, Console& console) {
   const path& folder = arguments.output;
-  // Where the study itself would refuse the folder.
-  if (!folder.empty())
+  std::unique_ptr<store::CaseStore> store;
+  if (!folder.empty()) {
+    // Where the study itself would refuse the folder.
     if (const auto obstacle =
             obstacle_in_folder(folder, kinds::kind_of(file.study), study_manifest(file, 1), arguments.update))
       console.remark(*obstacle);
-  std::unique_ptr<store::CaseStore> store;
-  if (!folder.empty() && holds_store(folder)) {
-    auto opened = store::CaseStore::open_to_read(folder);
-    if (!opened) return console.end_with(opened.error());
-    store = std::move(*opened);
+    if (holds_store(folder)) store = console.stored(store::CaseStore::open_to_read(folder));
   }
   // Runs of the past tell how fast this machine is.
   const auto tells_rate = [](const store::RunRecord& entry) {
@@ -54,29 +242,93 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
                                  : measured_update_rate(file.cases.front().scene.scene, console);
   const study::Forecast forecast =
       study::forecast_study(file, options_of(arguments, arguments.jobs, store.get()), update_rate);
-  if (store)
-    for (const std::string& remark : store->remarks()) console.remark(remark);
-  console.print_text(forecast_text(file, forecast, folder, std::time(nullptr)));
-  console.print_json(forecast_json(file, forecast));
-  return ExitCode::done;
+  if (store) console.remarks(store->remarks());
+  return console.done(forecast_text(file, forecast, folder, std::time(nullptr)),
+                      forecast_json(file, forecast));
 }
-
-}  // namespace
 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
   if (arguments.output.empty() && !arguments.dry_run)
-    return console.refuse(
+    console.refuse(
         "study: --output is required unless with --dry-run (launchsafe study --help shows the usage)");
-  for (const std::string& note : file.scene.notes) console.remark(note);
+  console.remarks(file.scene.notes);
   if (!file.chosen_setting.empty()) console.remark("setting: " + file.chosen_setting);
   if (arguments.dry_run) return dry_run(file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
   const study::StudyOptions options = options_of(arguments, jobs, nullptr);
-  if (const auto error = refusal_of(file, arguments, options)) return console.refuse(*error);
+  console.refuse_any(refusal_of(file, arguments, options));
   StudySession session(arguments, file, jobs, console);
   return session.conclude(session.run(options));
 }
+
+// --- merge ---
+
+struct MergeArguments : StudyArguments {
+  std::vector<path> folders;  ///< of shards, to be copied from
+};
+
+void import_folders(const std::vector<path>& folders, StudySession& session, Console& console) {
+  for (const path& folder : folders) {
+    const auto imported = session.store().import_from(folder);
+    session.print_remarks();
+    if (!imported && imported.error().kind == store::Error::Kind::missing) console.refuse(imported.error());
+    if (!imported) console.end_with(imported.error());
+    console.remark(fmt::format("{}: copied {} cases, {} were there already", folder.string(), imported->cases,
+                               imported->already_there));
+  }
+}
+
+/// The mechanical runs that no shard has stored.
+Json missing_runs(const study::Forecast& forecast) {
+  Json missing;
+  for (const study::ForecastRun& run : forecast.runs)
+    if (!run.stored && !run.given_up) missing.push_back({{"mechanical_run", run.label}, {"why", run.why}});
+  return missing;
+}
+
+/// The runs that only turned out to be missing when they were asked for: coupled runs, whose gaps follow from
+/// the mechanics, and files that were damaged after they had been looked at.
+Json missing_runs(const kinds::StudyOutcome& result) {
+  Json missing;
+  for (const kinds::Failure& failure : result.failures)
+    if (failure.outcome == study::RunOutcome::not_stored) missing.push_back({{"run", failure.label}});
+  return missing;
+}
+
+/// Names what is missing; `what`: how many of which runs.
+ExitCode refuse_without(const Json& missing, const std::string& what, Console& console) {
+  for (const auto& run : missing) {
+    std::string line = "missing";
+    for (const auto& part : run) line += ": " + part.get<std::string>();
+    console.print_text(line + "\n");
+  }
+  console.print_json({{"missing", missing}});
+  console.error(what + " are missing; there is no report");
+  return ExitCode::cases_failed;
+}
+
+ExitCode perform(const MergeArguments& arguments, Console& console) {
+  const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
+  study::StudyOptions options;
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();
+  options.stop = &stop_requested();
+  options.compute = false;
+  StudySession session(arguments, file, options.jobs, console);
+  import_folders(arguments.folders, session, console);
+  options.store = &session.store();
+  constexpr double any_rate = 1.0;
+  const study::Forecast forecast = study::forecast_study(file, options, any_rate, study::largest_case_count);
+  if (const auto missing = missing_runs(forecast); !missing.empty())
+    return refuse_without(
+        missing, fmt::format("{} of {} mechanical runs", missing.size(), forecast.runs.size()), console);
+  const kinds::StudyOutcome result = session.run(options);
+  if (const auto missing = missing_runs(result); !missing.empty())
+    return session.end(refuse_without(missing, fmt::format("{} runs", missing.size()), console));
+  return session.conclude(result);
+}
+
+}  // namespace
 
 void add_study(CLI::App& app, CommandLine& line) {
   auto [command, study] = add_command<StudyArguments>(app, line, "study");
@@ -93,6 +345,16 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_amount(command, "--tolerance", study.tolerance, parse_temperature_difference);
   add(command, "--dry-run", study.dry_run);
   add(command, "--update", study.update);
+}
+
+void add_merge(CLI::App& app, CommandLine& line) {
+  auto [command, merge] = add_command<MergeArguments>(app, line, "merge");
+  add_required(command, "study", merge.study);
+  add_required(command, "-o,--output", merge.output);
+  add(command, "folder", merge.folders);
+  add(command, "--update", merge.update);
+  add_amount(command, "--tolerance", merge.tolerance, parse_temperature_difference);
+  add_jobs(command, merge.jobs);
 }
 
 }  // namespace launchsafe::app

@@ -14,7 +14,6 @@
 #include "launchsafe/surface/skin.hpp"
 
 #include <boost/algorithm/string.hpp>
-#include <fmt/format.h>
 
 #include <set>
 
@@ -252,19 +251,16 @@ ExitCode perform(const VerifyArguments& arguments, Console& console) {
   std::vector<Check> checks;
   std::set<std::string> groups;
   for (Check& check : all_checks()) {
-    if (stop_requested()) {
-      console.error("interrupted; no check was printed, and there is nothing to keep");
-      return ExitCode::interrupted;
-    }
+    if (stop_requested())
+      console.fail("interrupted; no check was printed, and there is nothing to keep", ExitCode::interrupted);
     groups.insert(check.group);
     if (!boost::algorithm::icontains(check.title(), arguments.filter)) continue;
     check.computed = check.compute();
     checks.push_back(std::move(check));
   }
   if (checks.empty())
-    return console.refuse(
-        fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
-                    arguments.filter, fmt::join(groups, ", ")));
+    console.refuse(fmt::format("--filter: found \"{}\", which no check has in its name; groups of checks: {}",
+                               arguments.filter, fmt::join(groups, ", ")));
   const auto passed = static_cast<std::size_t>(std::ranges::count(checks, true, &Check::pass));
   const report::Table table = report::table_of({}, check_quantities, checks,
                                                {fmt::format("{} of {} checks pass.", passed, checks.size())});

@@ -166,7 +166,7 @@ std::string answer_in_detail(const CriticalGapResult& result) {
 Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
   Row members{{"axes", report::axes_json(result.study.study)},
               // Of the only case; where there are several, each has its own.
-              {"critical_gap", result.answers.size() == 1 ? json_of_row(gaps, 0) : nullptr},
+              {"critical_gap", result.answers.size() == 1 ? json_rows(gaps).front() : nullptr},
               {"early_time_ms", shown_value(result.study.study.early_time, report::quantity::time(2).form)},
               {"counts", counts_json(result)},
               {"notes", report::mesh_notes(result.study)}};

@@ -2,8 +2,6 @@
 
 #include "case_pictures_parts.hpp"
 
-#include <fmt/format.h>
-
 #include <numeric>
 #include <ranges>
 

@@ -2,8 +2,6 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/study/verdict.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::report::detail {
 namespace {
 

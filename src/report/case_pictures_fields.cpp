@@ -1,10 +1,6 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/mesh.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace launchsafe::report::detail {
 namespace {

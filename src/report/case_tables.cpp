@@ -1,11 +1,9 @@
 #include "launchsafe/report/case_tables.hpp"
 
-#include "built_in_templates.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/named_material.hpp"
-
-#include <fmt/format.h>
 
 #include <numeric>
 
@@ -102,6 +100,13 @@ Quantities<FaceRow> face_quantities() {
 
 /// A gap that burnt, or closed.
 using OneGap = const run::GapResult*;
+template <class Part>
+std::vector<OneGap> gaps_with(const run::CaseResult& result, Part run::GapResult::*part) {
+  std::vector<OneGap> gaps;
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.*part) gaps.push_back(&gap);
+  return gaps;
+}
 
 using run::CombustionHistory;
 const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
@@ -177,10 +182,9 @@ const Quantities<BurningRow> burning_quantities{
     {quantity::heat_released, at_sample(&CombustionHistory::released)}};
 
 Quantities<AuditedGap> air_quantities(bool labelled) {
-  Quantities<AuditedGap> quantities;
-  if (labelled) quantities.emplace_back(quantity::case_name, &AuditedGap::label);
+  const Quantities<AuditedGap> names{{quantity::case_name, &AuditedGap::label}};
   return keys::joined<AuditedGap>(
-      {quantities,
+      {labelled ? names : Quantities<AuditedGap>{},
        {{quantity::gap, &AuditedGap::gap},
         {quantity::skin_took, &AuditedGap::air, &surface::AirEnergy::taken},
         {quantity::compression_supplies, &AuditedGap::air, &surface::AirEnergy::supplied},
@@ -219,18 +223,14 @@ Table interface_table(const run::MechanicsResult& mechanics) {
 }
 
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
-  std::vector<OneGap> burnt;
-  for (const run::GapResult& gap : result.gaps)
-    if (gap.combustion) burnt.push_back(&gap);
+  const std::vector<OneGap> burnt = gaps_with(result, &run::GapResult::combustion);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities, burnt);
   if (!burnt.empty()) table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
 }
 
 Table closing_table(const run::CaseResult& result) {
-  std::vector<OneGap> closed;
-  for (const run::GapResult& gap : result.gaps)
-    if (gap.closing) closed.push_back(&gap);
+  const std::vector<OneGap> closed = gaps_with(result, &run::GapResult::closing);
   return table_of("How the gap closed", closing_quantities, closed,
                   closed.empty() ? std::vector<std::string>{} : noted("closing"));
 }

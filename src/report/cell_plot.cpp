@@ -1,8 +1,6 @@
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

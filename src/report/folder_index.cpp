@@ -1,6 +1,5 @@
-#include "launchsafe/report/folder_index.hpp"
-
-#include "built_in_templates.hpp"
+// One page that leads to all reports of a folder.
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/store/atomic_file.hpp"
 
 #include <kainjow/mustache.hpp>
@@ -15,15 +14,6 @@ using std::filesystem::path;
 std::vector<std::string> names_in(const path& folder) {
   std::error_code failed;
   return store::list_folder(folder, failed);
-}
-
-/// Those of a safety report first, then the study's own.
-std::vector<std::string> pages_of(const std::vector<std::string>& names) {
-  std::vector<std::string> pages;
-  for (const std::string& name : names)
-    if (name.ends_with(".html") || name.ends_with(".md")) pages.push_back(name);
-  std::ranges::stable_partition(pages, [](const std::string& name) { return name.starts_with("report."); });
-  return pages;
 }
 
 /// The first lines of what a study answers, or what leads the first section of a safety report.
@@ -41,13 +31,15 @@ Row findings_of(const Row& told) {
 
 /// What a folder holds, as the index names it; null where that is neither a page nor a picture.
 Row entry_of(const path& folder, const std::string& place) {
-  const std::vector<std::string> names = names_in(folder);
   Row entry{{"place", place}, {"title", ""}, {"findings", Row::array()}};
-  for (const std::string& name : names)
-    if (name.ends_with(".svg")) entry["pictures"].push_back({{"file", place + "/" + name}, {"name", name}});
-  for (const std::string& name : pages_of(names))
-    entry["pages"].push_back({{"file", place + "/" + name}, {"name", name}});
+  for (const std::string& name : names_in(folder))
+    for (const auto& [ending, list] : {std::pair{".svg", "pictures"}, {".html", "pages"}, {".md", "pages"}})
+      if (name.ends_with(ending)) entry[list].push_back({{"file", place + "/" + name}, {"name", name}});
   if (!entry.contains("pages") && !entry.contains("pictures")) return {};
+  // Those of a safety report first, then the study's own.
+  if (entry.contains("pages"))
+    std::ranges::stable_partition(
+        entry["pages"], [](const Row& page) { return text_of(page, "name").starts_with("report."); });
   for (const char* results : {"report.json", "study.json"})
     if (const auto text = store::read_file(folder / results)) {
       const Row told = Row::parse(*text, nullptr, false);

@@ -1,17 +1,9 @@
-#include "launchsafe/report/gap_criterion.hpp"
-
+// The criterion under which a user recommends a largest gap.
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <optional>
 #include <regex>
 #include <sstream>
-#include <string_view>
 
 namespace launchsafe::report {
 namespace {

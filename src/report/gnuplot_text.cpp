@@ -2,9 +2,6 @@
 
 #include "launchsafe/report/number.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <cctype>
 #include <cmath>
 #include <tuple>

@@ -1,7 +1,5 @@
 #include "launchsafe/report/number.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>

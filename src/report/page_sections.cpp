@@ -1,7 +1,5 @@
 #include "launchsafe/report/page_texts.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <kainjow/mustache.hpp>
 #include <openssl/evp.h>
 

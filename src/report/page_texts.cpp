@@ -5,8 +5,6 @@
 
 #include <boost/algorithm/string/finder.hpp>
 #include <boost/algorithm/string/iter_find.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <kainjow/mustache.hpp>
 
 #include <cstdlib>

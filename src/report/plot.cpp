@@ -3,9 +3,6 @@
 #include "gnuplot_text.hpp"
 #include "launchsafe/report/number.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

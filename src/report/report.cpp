@@ -4,8 +4,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::report {
 namespace {
 

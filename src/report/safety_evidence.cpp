@@ -6,13 +6,6 @@
 #include "launchsafe/store/case_file.hpp"
 #include "safety_facts.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string_view>
-
 namespace launchsafe::report {
 namespace safety {
 namespace {
@@ -22,12 +15,13 @@ using store::Error;
 
 constexpr const char* results = "study.json";
 
-Error refused(std::string message) { return {Error::Kind::corrupt, std::move(message)}; }
-/// Of a file of a study, which its command would make anew.
-Error refused(const StudyEvidence& study, const path& file, std::string_view found,
-              std::string_view allowed) {
-  return refused(fmt::format("{}: {}; allowed: {} ({})", (study.folder / file).string(), found, allowed,
-                             study.command()));
+/// Ends the reading.
+[[noreturn]] void refuse(std::string message) { throw Error{Error::Kind::corrupt, std::move(message)}; }
+/// For a file of a study, which its command would make anew.
+[[noreturn]] void refuse(const StudyEvidence& study, const path& file, std::string_view found,
+                         std::string_view allowed) {
+  refuse(fmt::format("{}: {}; allowed: {} ({})", (study.folder / file).string(), found, allowed,
+                     study.command()));
 }
 
 // --- one study ---
@@ -43,17 +37,17 @@ std::pair<std::string, std::string> parts_of(const std::string& input) {
 }
 
 /// Files as they were written; a picture stands in the row that tells what it shows.
-store::MaybeError read_files(StudyEvidence& study) {
+void read_files(StudyEvidence& study) {
   auto files = store::read_as_written(study.folder, study.record.files);
   if (!files)
-    return refused(
+    refuse(
         fmt::format("{}; allowed: files as they were written ({})", files.error().message, study.command()));
   for (const store::TextFile& file : *files)
     if (file.name == results) study.study = Row::parse(file.text, nullptr, false);
-  if (study.study.is_null()) return {};
+  if (study.study.is_null()) return;
   const std::string kind = text_of(study.study, "kind");
   if (kind.empty() || kind != study.kind)
-    return refused(
+    refuse(
         study, results,
         fmt::format("found results of kind \"{}\", its manifest is of a study of kind {}", kind, study.kind),
         "results as a study writes them");
@@ -61,7 +55,6 @@ store::MaybeError read_files(StudyEvidence& study) {
   for (Row& picture : study.study["pictures"])
     for (store::TextFile& file : *files)
       if (file.name == text_of(picture, "file")) picture["svg"] = std::move(file.text);
-  return {};
 }
 
 bool closes(const StudyEvidence& study) {
@@ -104,46 +97,44 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
 }
 
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
-store::MaybeError check_verdicts(const StudyEvidence& study) {
-  if (!study.study.contains("verdicts")) return {};
+void check_verdicts(const StudyEvidence& study) {
+  if (!study.study.contains("verdicts")) return;
   const Row &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
   if (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0)
-    return refused(study, results,
-                   fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
-                   "every gap in every case");
+    refuse(study, results, fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
+           "every gap in every case");
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     if (!verdicts[i].contains(quantity::reason_code.key()) || !study.study.contains("extrapolated"))
-      return refused(study, results,
-                     "an earlier program wrote these verdicts, without what they rest on as columns",
-                     "a study that this program made");
+      refuse(study, results, "an earlier program wrote these verdicts, without what they rest on as columns",
+             "a study that this program made");
     if (text_of(verdicts[i], "verdict") == "SAFE" &&
         !may_be_safe(study, verdicts[i], cases[i * cases.size() / verdicts.size()]))
-      return refused(study, results,
-                     fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the "
-                                 "uncertainty or the critical gap contradicts",
-                                 number_of(verdicts[i], "gap_cm")),
-                     "verdicts as a study writes them");
+      refuse(
+          study, results,
+          fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the uncertainty or "
+                      "the critical gap contradicts",
+                      number_of(verdicts[i], "gap_cm")),
+          "verdicts as a study writes them");
   }
-  return {};
 }
 
-store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) {
+StudyEvidence read_study(const path& folder, std::size_t number) {
   StudyEvidence study;
   study.label = std::string(1, static_cast<char>('A' + number));
   study.folder = folder;
   auto record = store::read_study_record(folder);
   if (!record)
-    return refused((record.error().kind == Error::Kind::missing
-                        ? folder.string() + ": found no study there (no manifest.json)"
-                        : record.error().message) +
-                   "; allowed: folders that launchsafe study STUDY.toml -o DIR wrote");
+    refuse((record.error().kind == Error::Kind::missing
+                ? folder.string() + ": found no study there (no manifest.json)"
+                : record.error().message) +
+           "; allowed: folders that launchsafe study STUDY.toml -o DIR wrote");
   study.record = std::move(*record);
   const store::Manifest& manifest = study.record.manifest;
   if (manifest.model_version != run::model_version)
-    return refused(study, store::manifest_name,
-                   fmt::format("its study is of model version {}, this program is of {}",
-                               manifest.model_version, run::model_version),
-                   "studies of this version");
+    refuse(study, store::manifest_name,
+           fmt::format("its study is of model version {}, this program is of {}", manifest.model_version,
+                       run::model_version),
+           "studies of this version");
   const auto [file, scene_text] = parts_of(manifest.input_text);
   // Of a manifest that was edited nothing is asked, and it is refused for its kind.
   if (auto asked = scene::parse_toml(file, folder / store::manifest_name)) study.asked = std::move(*asked);
@@ -151,12 +142,12 @@ store::Result<StudyEvidence> read_study(const path& folder, std::size_t number) 
   study.title = study.asked["title"].value_or("");
   auto scene = scene::parse_scene(scene_text, folder / store::manifest_name);
   if (!scene)
-    return refused(fmt::format("{}: its input holds no scene that this program reads: {}",
-                               (folder / store::manifest_name).string(), scene.error().message()));
+    refuse(fmt::format("{}: its input holds no scene that this program reads: {}",
+                       (folder / store::manifest_name).string(), scene.error().message()));
   study.scene = std::move(*scene);
-  if (auto error = read_files(study)) return *error;
+  read_files(study);
   study.tells = told_by(study);
-  if (auto error = check_verdicts(study)) return *error;
+  check_verdicts(study);
   return study;
 }
 
@@ -172,15 +163,15 @@ bool is_of_shell(const std::string& key) {
 }
 
 /// One study of a kind, and all of one shell.
-store::MaybeError compare_studies(SafetyEvidence& evidence) {
+void compare_studies(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
   for (StudyEvidence& study : evidence.studies) {
     const auto first = std::ranges::find_if(evidence.studies, [&](const StudyEvidence& each) {
       return each.kind == study.kind && each.tells == study.tells;
     });
     if (&*first != &study)
-      return refused(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
-                                 first->folder.string(), study.folder.string(), study.kind));
+      refuse(fmt::format("{} and {}: both are studies of kind {}; allowed: one of each kind",
+                         first->folder.string(), study.folder.string(), study.kind));
     // One about the program, and not about a launch, has scenes of its own.
     if (&study == &main || study.tells == tells::stability) continue;
     study.differences = study::differences(study.scene.scene, main.scene.scene);
@@ -191,13 +182,12 @@ store::MaybeError compare_studies(SafetyEvidence& evidence) {
     for (const study::Difference& each : study.differences)
       if (is_of_shell(each.key.name)) of_shell.push_back(each.key.name);
     if (!of_shell.empty())
-      return refused(
+      refuse(
           fmt::format("the studies concern different shells: {} \"{}\", {} \"{}\", which differ in {}; "
                       "allowed: studies of one shell in a report",
                       main.folder.string(), main.scene.scene.title, study.folder.string(),
                       study.scene.scene.title, fmt::join(of_shell, ", ")));
   }
-  return {};
 }
 
 // --- one launch, whichever study judges it ---
@@ -232,7 +222,7 @@ bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
 /// critical gap: they do not rest on the same records or statements. Where numerics or any other key of the
 /// scene differs the bounds may. Not compared are critical gaps beyond the end of a search, and a comparison
 /// whose result is the record of other models, which it cannot use itself.
-store::MaybeError check_agreement(const SafetyEvidence& evidence) {
+void check_agreement(const SafetyEvidence& evidence) {
   const auto text = [](const CaseEvidence& each) {
     const double bound = bound_of(each);
     return fmt::format("{} (case {}) {}", each.study->folder.string(), each.label,
@@ -244,23 +234,22 @@ store::MaybeError check_agreement(const SafetyEvidence& evidence) {
       const std::string kind = text_of(*each.critical, "critical_gap_kind");
       if (kind != "value" && kind != "all-ignite") continue;
       for (const CaseEvidence& other : earlier) {
-        if (other.study == &study || have_one_bound(other, each) || !is_same_launch(other, each)) continue;
-        return refused(fmt::format(
-            "two studies give one launch different lower bounds of its critical gap: {}, {}; allowed: "
-            "studies of a launch with one uncertainty, which name the same calibration, accuracy and "
-            "model_form and state the same",
-            text(other), text(each)));
+        if (other.study != &study && !have_one_bound(other, each) && is_same_launch(other, each))
+          refuse(fmt::format(
+              "two studies give one launch different lower bounds of its critical gap: {}, {}; allowed: "
+              "studies of a launch with one uncertainty, which name the same calibration, accuracy and "
+              "model_form and state the same",
+              text(other), text(each)));
       }
       earlier.push_back(std::move(each));
     }
-  return {};
 }
 
 // --- the stored runs of the main study ---
 
 /// Gaps of a case, evaluated again on its stored run: one that is called SAFE must be as warm as its verdict
 /// says. Others that are not went on from ignition in a run of their own.
-store::MaybeError check_against_run(const CaseEvidence& judged, StoredLaunch& stored) {
+void check_against_run(const CaseEvidence& judged, StoredLaunch& stored) {
   constexpr double same_temperature = 0.01;  // K
   const run::MechanicsResult& mechanics = stored.result.mechanics;
   for (const Row* row : judged.verdicts) {
@@ -270,39 +259,37 @@ store::MaybeError check_against_run(const CaseEvidence& judged, StoredLaunch& st
     if (std::abs(temperature - said) <= same_temperature)
       stored.result.gaps.push_back(std::move(found));
     else if (text_of(*row, "verdict") == "SAFE")
-      return refused(*judged.study, results,
-                     fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} "
-                                 "gives {:.6g} K",
-                                 gap, said, judged.label, temperature),
-                     "results and case files of one study");
+      refuse(
+          *judged.study, results,
+          fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K",
+                      gap, said, judged.label, temperature),
+          "results and case files of one study");
   }
-  return {};
 }
 
 /// As far as they were kept. A file under another case's name is damaged too.
-store::MaybeError read_stored_runs(SafetyEvidence& evidence) {
+void read_stored_runs(SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
-  if (main.tells != tells::launch) return {};
+  if (main.tells != tells::launch) return;
   for (const CaseEvidence& each : cases_of(main)) {
     const path name(text_of(*each.run, "stored_case"));
     if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(main.folder / name))
       continue;
     const auto scene = each.scene();
     if (!scene)
-      return refused(main, results, "found a case that its scene cannot be: " + scene.error().message(),
-                     "results as a study writes them");
+      refuse(main, results, "found a case that its scene cannot be: " + scene.error().message(),
+             "results as a study writes them");
     auto read = store::read_case_file(main.folder / name);
     if (!read)
-      return refused(fmt::format("{}; allowed: case files as they were written ({})", read.error().message,
-                                 main.command()));
+      refuse(fmt::format("{}; allowed: case files as they were written ({})", read.error().message,
+                         main.command()));
     if (store::CaseIdentity(read->manifest.input_text).hash() != name.stem())
-      return refused(main, name, "this is the file of another case", "case files as they were written");
+      refuse(main, name, "this is the file of another case", "case files as they were written");
     StoredLaunch stored{scene->scene, {std::move(read->result.mechanics), {}}};
     if (stored.result.mechanics.trace.samples() < 2) continue;
-    if (auto error = check_against_run(each, stored)) return *error;
+    check_against_run(each, stored);
     evidence.stored.emplace(each.label, std::move(stored));
   }
-  return {};
 }
 
 }  // namespace
@@ -378,21 +365,20 @@ const StudyEvidence& SafetyEvidence::main() const {
   return found != studies.end() ? *found : studies.front();
 }
 
-store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) {
+store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) try {
   SafetyEvidence evidence;
-  for (const std::filesystem::path& folder : folders) {
-    auto study = safety::read_study(folder, evidence.studies.size());
-    if (!study) return study.error();
-    evidence.studies.push_back(std::move(*study));
-  }
+  for (const std::filesystem::path& folder : folders)
+    evidence.studies.push_back(safety::read_study(folder, evidence.studies.size()));
   // A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
   if (evidence.find(tells::launch) == nullptr)
     for (StudyEvidence& study : evidence.studies)
       if (study.tells == tells::closing) study.tells = tells::launch;
-  if (auto error = safety::compare_studies(evidence)) return *error;
-  if (auto error = safety::check_agreement(evidence)) return *error;
-  if (auto error = safety::read_stored_runs(evidence)) return *error;
+  safety::compare_studies(evidence);
+  safety::check_agreement(evidence);
+  safety::read_stored_runs(evidence);
   return evidence;
+} catch (const store::Error& error) {
+  return error;
 }
 
 }  // namespace launchsafe::report

@@ -31,9 +31,4 @@ bool is_of_launch(const study::Difference& difference);
 /// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 
-/// The scene and its inputs, and what of the physics was left out.
-Row scene_facts(const StudyEvidence& study);
-/// The load, histories, profiles and fields of a case that was stored, with its verdicts.
-Row picture_facts(const StudyEvidence& study, const Row& own, const StoredLaunch& stored, PageFacts& all);
-
 }  // namespace launchsafe::report::safety

@@ -4,8 +4,6 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::report {
 namespace {
 
@@ -67,11 +65,8 @@ constexpr double below_panel = 78, row_height = 24;
 constexpr std::string_view ink = "#263238", soft_ink = "#546e7a", axis_colour = "#b23a48";
 
 /// Cool for what is inert, warm for charges; a scene with more bodies begins again.
-std::string_view colour_of(bool charge, std::size_t index) {
-  constexpr std::array<std::string_view, 5> inert{"#c5d3e0", "#d9d4e7", "#c3dcd3", "#aebfce", "#dfe3e6"};
-  constexpr std::array<std::string_view, 3> warm{"#f5d49a", "#f2b99b", "#efe3a4"};
-  return charge ? warm[index % warm.size()] : inert[index % inert.size()];
-}
+constexpr std::array<std::string_view, 5> inert{"#c5d3e0", "#d9d4e7", "#c3dcd3", "#aebfce", "#dfe3e6"};
+constexpr std::array<std::string_view, 3> warm{"#f5d49a", "#f2b99b", "#efe3a4"};
 
 struct DrawnBody {
   const scene::Body* body;
@@ -89,10 +84,11 @@ struct Section {
 
 Section section_of(const scene::Scene& scene) {
   Section section{scene, scene::lines_at_rest(scene)};
-  std::size_t counts[2] = {0, 0};
+  std::size_t charges = 0, others = 0;
   for (const scene::Body& body : scene.bodies) {
     const bool charge = scene::is_charge(scene, body);
-    section.bodies.push_back({&body, charge, colour_of(charge, counts[charge ? 1 : 0]++)});
+    section.bodies.push_back(
+        {&body, charge, charge ? warm[charges++ % warm.size()] : inert[others++ % inert.size()]});
   }
   const scene::Extent extent = scene::extent_of(scene);
   section.x_begin = std::min(extent.x_begin, section.lines.x.front());
@@ -147,15 +143,12 @@ std::string grid_elements(const Section& section, const Panel& panel) {
 
 std::string body_elements(const Section& section, const Panel& panel, bool filled) {
   std::string text;
-  for (const DrawnBody& each : section.bodies) {
-    const scene::Body& body = *each.body;
-    const std::string look =
-        filled ? fmt::format("class=\"body\" fill=\"{}\"", each.colour)
-               : fmt::format("class=\"edge\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"", ink);
-    text +=
-        svg_rectangle(panel.x(body.x_begin), panel.y(body.r_end), panel.scale * (body.x_end - body.x_begin),
-                      panel.scale * (body.r_end - body.r_begin), look);
-  }
+  for (const auto& [body, is_charge, colour] : section.bodies)
+    text += svg_rectangle(
+        panel.x(body->x_begin), panel.y(body->r_end), panel.scale * (body->x_end - body->x_begin),
+        panel.scale * (body->r_end - body->r_begin),
+        filled ? fmt::format("class=\"body\" fill=\"{}\"", colour)
+               : fmt::format("class=\"edge\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.3\"", ink));
   return text;
 }
 
@@ -301,46 +294,30 @@ std::string panel_elements(const Section& section, const Panel& panel) {
 
 // --- the page ---
 
-struct LegendEntry {
-  std::string label;
-  std::string sample;  ///< elements in a square of 16 pixels whose upper left corner is the origin
-};
-
-std::vector<LegendEntry> legend_entries(const Section& section) {
-  std::vector<LegendEntry> entries;
-  const std::string edge = fmt::format("stroke=\"{}\"", ink);
-  for (const DrawnBody& each : section.bodies)
-    entries.push_back({each.body->name == each.body->material
-                           ? each.body->name
-                           : fmt::format("{} ({})", each.body->name, each.body->material),
-                       svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" {}", each.colour, edge))});
-  entries.push_back({"line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink))});
-  if (!section.scene.output.observation_points.empty())
-    entries.push_back({"observation point", svg_circle(8, 8, 3.2, ink)});
-  entries.push_back(
-      {section.scene.symmetry == scene::Symmetry::axisymmetric ? "axis of symmetry" : "plane of symmetry",
-       svg_line(0, 8, 16, 8,
-                fmt::format("stroke=\"{}\" stroke-width=\"1.6\" "
-                            "stroke-dasharray=\"8 2 2 2\"",
-                            axis_colour))});
-  return entries;
-}
-
 /// Row by row; `top` moves to below the last.
-std::string legend_elements(const std::vector<LegendEntry>& entries, double& top) {
-  constexpr double size = 14, sample = 24, between = 26;
+std::string legend_elements(const Section& section, double& top) {
   std::string text;
   double left = margin;
-  for (const LegendEntry& entry : entries) {
-    const double width = sample + text_width(entry.label, size) + between;
+  // `sample`: elements in a square of 16 pixels whose upper left corner is the origin.
+  const auto add = [&](const std::string& label, const std::string& sample) {
+    constexpr double size = 14, beside = 24, between = 26;
+    const double width = beside + text_width(label, size) + between;
     if (left > margin && left + width - between > page_width - margin) {
       left = margin;
       top += row_height;
     }
-    text += fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n", left, top, entry.sample);
-    text += svg_text(left + sample, top + 13, size, "start", ink, entry.label);
+    text += fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n", left, top, sample);
+    text += svg_text(left + beside, top + 13, size, "start", ink, label);
     left += width;
-  }
+  };
+  for (const auto& [body, is_charge, colour] : section.bodies)
+    add(body->name == body->material ? body->name : fmt::format("{} ({})", body->name, body->material),
+        svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" stroke=\"{}\"", colour, ink)));
+  add("line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink)));
+  if (!section.scene.output.observation_points.empty()) add("observation point", svg_circle(8, 8, 3.2, ink));
+  add(section.scene.symmetry == scene::Symmetry::axisymmetric ? "axis of symmetry" : "plane of symmetry",
+      svg_line(0, 8, 16, 8,
+               fmt::format("stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"8 2 2 2\"", axis_colour)));
   top += row_height;
   return text;
 }
@@ -387,7 +364,7 @@ std::string section_svg(const scene::Scene& scene) {
   text += svg_text(margin, 68, 14, "start", soft_ink,
                    fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr,
                                plan.particles(), scene::time_text(plan.time_step)));
-  text += legend_elements(legend_entries(section), bottom);
+  text += legend_elements(section, bottom);
   bottom += 46;
   text += panels(section, bottom);
   return fmt::format(

@@ -1,14 +1,9 @@
 #include "launchsafe/report/study_text.hpp"
 
-#include "built_in_templates.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <iterator>
 
 namespace launchsafe::report {
 namespace {

@@ -29,6 +29,14 @@ std::vector<std::size_t> places_for(const Table& table, Audience audience) {
 
 bool is_text(const Column& column) { return column.form.notation == Notation::text; }
 
+/// A cell as people read it.
+std::string cell_text(const Cell& cell, const Column& column) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
+  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
+  return {};
+}
+
 /// What people read: the cells as text, the headings first.
 struct Grid {
   std::vector<Column> columns;
@@ -144,13 +152,6 @@ nlohmann::ordered_json json_cell(const Cell& cell) {
 
 }  // namespace
 
-std::string cell_text(const Cell& cell, const Column& column) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* number = std::get_if<double>(&cell)) return rounded(*number, column.form);
-  if (const auto* count = std::get_if<std::int64_t>(&cell)) return std::to_string(*count);
-  return {};
-}
-
 Cell shown_cell(Cell cell_si, const Column& column) {
   if (auto* number = std::get_if<double>(&cell_si)) *number = shown_value(*number, column.form);
   return cell_si;
@@ -241,17 +242,14 @@ Table for_programs(const Table& table) {
   return part;
 }
 
-nlohmann::ordered_json json_of_row(const Table& table, std::size_t row) {
-  const auto keys = keys_of(table);
-  auto object = nlohmann::ordered_json::object();
-  for (const std::size_t i : places_for(table, Audience::programs))
-    object[keys[i]] = json_cell(table.rows[row][i]);
-  return object;
-}
-
 nlohmann::ordered_json json_rows(const Table& table) {
   auto rows = nlohmann::ordered_json::array();
-  for (std::size_t row = 0; row < table.rows.size(); ++row) rows.push_back(json_of_row(table, row));
+  const auto keys = keys_of(table);
+  const auto places = places_for(table, Audience::programs);
+  for (const auto& row : table.rows) {
+    auto& object = rows.emplace_back(nlohmann::ordered_json::object());
+    for (const std::size_t i : places) object[keys[i]] = json_cell(row[i]);
+  }
   return rows;
 }
 

@@ -1,6 +1,6 @@
 #include "launchsafe/report/verdict_text.hpp"
 
-#include "built_in_templates.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -9,8 +9,6 @@
 #include "launchsafe/study/run_cases.hpp"
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/verdict.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::report {
 namespace {
@@ -55,33 +53,7 @@ void add_off_grid(const study::StudyFile& study, Row& facts) {
 
 double percent_of(double share) { return shown_value(share, keys::significant(6, percent)); }
 
-/// Where the uncertainty of the calibrated constants comes from, and how it grows.
-void add_fit(const study::Study& study, Row& facts) {
-  const study::CalibrationEvidence& evidence = study.calibration.evidence;
-  const bool stated = std::isfinite(study.fit_uncertainty);
-  facts.update({{"fit_K", stated ? study.fit_uncertainty : evidence.fit_uncertainty},
-                {"fit_stated", stated},
-                {"firings", study.calibration.firings != nullptr},
-                {"firing_risk_percent", percent_of(study::firing_risk)},
-                {"friction_rise_K", evidence.friction_rise},
-                {"air_rise_K", evidence.air_rise},
-                {"other_load_shape_K", study::assumed_other_load_shape},
-                {"other_numerics_K", study::assumed_numerical_uncertainty}});
-}
-
-/// Likewise of what is not known of the launch.
-void add_inputs(const study::Study& study, Row& facts) {
-  if (std::isfinite(study.input_uncertainty)) facts["inputs_K"] = study.input_uncertainty;
-  facts.update({{"load_spread_percent", percent_of(study::assumed_load_spread)},
-                {"interpolated", study.raised_load == study::RaisedLoad::interpolated},
-                {"least_percent", percent_of(study::least_load_ratio - 1.0)},
-                {"most_percent", percent_of(study::largest_load_ratio - 1.0)},
-                {"pulse_spread_percent", percent_of(study::assumed_pulse_spread)},
-                {"temperature_spread_K", study::assumed_temperature_spread},
-                {"gaps_by_cooling", study.gaps_by_cooling}});
-}
-
-/// Likewise of other models of the launch.
+/// What is uncertain as other models would say otherwise.
 void add_model_form(const study::StudyFile& file, Row& facts) {
   const study::Study& study = file.study;
   if (std::isfinite(study.model_form_uncertainty))
@@ -345,14 +317,33 @@ Table gap_share_table(const std::vector<NamedGap>& cases) {
                   noted("gap_shares", {{"coverage", study::coverage_factor}}));
 }
 
-std::string uncertainty_remark(const study::StudyFile& study) {
-  const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(study);
+std::string uncertainty_remark(const study::StudyFile& file) {
+  const study::Study& study = file.study;
+  const study::NumericalUncertainty numerical = study::numerical_uncertainty_of(file);
+  const study::CalibrationEvidence& evidence = study.calibration.evidence;
+  const bool stated = std::isfinite(study.fit_uncertainty);
   Row facts{{"largest_K", numerical.largest},
             {"source", numerical.source},
-            {"heat_exponent", study::heat_exponent}};
-  add_fit(study.study, facts);
-  add_inputs(study.study, facts);
-  add_model_form(study, facts);
+            {"heat_exponent", study::heat_exponent},
+            // Where that of the calibrated constants comes from, and how it grows.
+            {"fit_K", stated ? study.fit_uncertainty : evidence.fit_uncertainty},
+            {"fit_stated", stated},
+            {"firings", study.calibration.firings != nullptr},
+            {"firing_risk_percent", percent_of(study::firing_risk)},
+            {"friction_rise_K", evidence.friction_rise},
+            {"air_rise_K", evidence.air_rise},
+            {"other_load_shape_K", study::assumed_other_load_shape},
+            {"other_numerics_K", study::assumed_numerical_uncertainty},
+            // What is not known of the launch.
+            {"load_spread_percent", percent_of(study::assumed_load_spread)},
+            {"interpolated", study.raised_load == study::RaisedLoad::interpolated},
+            {"least_percent", percent_of(study::least_load_ratio - 1.0)},
+            {"most_percent", percent_of(study::largest_load_ratio - 1.0)},
+            {"pulse_spread_percent", percent_of(study::assumed_pulse_spread)},
+            {"temperature_spread_K", study::assumed_temperature_spread},
+            {"gaps_by_cooling", study.gaps_by_cooling}};
+  if (std::isfinite(study.input_uncertainty)) facts["inputs_K"] = study.input_uncertainty;
+  add_model_form(file, facts);
   return fmt::format("{}", fmt::join(noted("uncertainty", facts), " "));
 }
 

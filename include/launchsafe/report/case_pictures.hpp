@@ -7,10 +7,6 @@
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/study/study_file.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// A case and what of it is to be drawn.

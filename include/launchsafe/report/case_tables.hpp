@@ -8,10 +8,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// A run with the name of its case.

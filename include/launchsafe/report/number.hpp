@@ -1,11 +1,10 @@
 // Numbers as text.
 #pragma once
 
-#include <cstddef>
+#include <fmt/ranges.h>
+
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <string_view>
 
 namespace launchsafe::report {
 

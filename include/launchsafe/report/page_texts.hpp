@@ -9,10 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace launchsafe::report {
 
@@ -84,5 +81,27 @@ struct PageFacts {
 store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
                                           const PageTemplates& templates, const Row& head,
                                           const DrawingLimits& limits = {});
+
+/// How a page of `index_page` begins, by which it is known.
+inline constexpr const char* index_begin = "<!DOCTYPE html>\n<!-- launchsafe report --index 1 -->\n";
+
+/// An entry for every folder within `folder` that holds a page or a picture: title and answer as its
+/// study.json or report.json has them, or else the heading of its page, with links to its pages and pictures.
+/// Folders further down are links in the entry of the folder that they are in. Empty where there is no
+/// report.
+std::string index_page(const std::filesystem::path& folder);
+
+// Built in, as they are in src/report/templates and src/report/notes.mustache.
+
+/// Of a safety report.
+extern const char *const built_in_html, *const built_in_markdown, *const built_in_texts;
+/// What is said of a study while it runs.
+extern const char *const status_text_template, *const status_page_template;
+/// Of the page that leads to all reports of a folder.
+extern const char* const index_template;
+
+/// What the notes under a name say of tables and pages of several kinds of study, "mesh" those of
+/// "mesh.stated" too; empty ones are left out.
+std::vector<std::string> noted(const std::string& name, const Row& facts = Row::object());
 
 }  // namespace launchsafe::report

@@ -3,12 +3,6 @@
 
 #include "launchsafe/store/program.hpp"
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// What ends gnuplot. A report is whole without its pictures: one that is not drawn is a remark.

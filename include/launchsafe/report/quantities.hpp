@@ -4,8 +4,6 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
 
-#include <string>
-
 namespace launchsafe::report {
 
 /// A length in cm as people read it, six digits.

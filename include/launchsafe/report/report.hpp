@@ -7,13 +7,6 @@
 #include "launchsafe/store/case_store.hpp"
 #include "launchsafe/store/study_record.hpp"
 
-#include <cstddef>
-#include <filesystem>
-#include <limits>
-#include <string>
-#include <variant>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// Paragraphs, lists and headings of the page, in Markdown, ending with a line break; left out where empty.

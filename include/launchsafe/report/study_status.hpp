@@ -7,14 +7,14 @@
 #include "launchsafe/study/scheduler.hpp"
 
 #include <ctime>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace launchsafe::report {
 
 /// What a writer tells of its progress: members of its status file.
 Row progress_row(const study::Progress& progress);
+
+/// The same as a line of a terminal of so many columns.
+std::string progress_line(const study::Progress& progress, std::time_t now, std::size_t width);
 
 /// The local time of day, such as "05:40"; with the day before it where that is another one than now's.
 std::string clock_time(std::time_t time, std::time_t now);

@@ -11,9 +11,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// The heading is "peak pressure" or "load.exponent", the name peak_pressure or load_exponent.
@@ -58,8 +55,6 @@ nlohmann::ordered_json timing_json(const study::Timing& timing);
 std::string limiters_text(const run::LimiterCounts& limiters);
 /// A number, or null where it is not finite.
 nlohmann::ordered_json number(double value);
-/// An object as a file holds it. What is not UTF-8, such as an odd name of a file, is replaced.
-std::string json_file_text(const nlohmann::ordered_json& object);
 /// What a study varies: name, scene key, key of its column, unit, and its values or its distribution.
 nlohmann::ordered_json axes_json(const study::Study& study);
 /// study.json: kind, study, title and answer, `members` of the kind, and the rows of the report's tables.

@@ -5,10 +5,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace launchsafe::report {
 
 using keys::always, keys::Audience, keys::Cell, keys::count, keys::for_people, keys::for_programs, keys::Form,
@@ -59,8 +55,6 @@ Table table_of(std::string title, const Quantities<Row>& quantities, const std::
   return table;
 }
 
-/// A cell as people read it.
-std::string cell_text(const Cell& cell, const Column& column);
 /// Text in which nothing is markup to GitHub's Markdown.
 std::string markdown_escaped(const std::string& text);
 
@@ -86,12 +80,10 @@ nlohmann::ordered_json json_rows(const Table& table);
 /// whole of it as objects in memory.
 void append_json_rows(std::string& text, const Table& table);
 
-/// The row of a table as an object.
-nlohmann::ordered_json json_of_row(const Table& table, std::size_t row);
 /// One row as an object, for programs.
 template <class Row, class Json = nlohmann::ordered_json>
 Json json_of(const Quantities<Row>& quantities, const Row& row) {
-  return json_of_row(table_of({}, quantities, std::vector<Row>{row}), 0);
+  return json_rows(table_of({}, quantities, std::vector<Row>{row})).front();
 }
 
 }  // namespace launchsafe::report

@@ -5,10 +5,6 @@
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/study/verdict.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::report {
 
 /// From T max to the energy of the air: what is known of one gap of one case.
