@@ -142,9 +142,8 @@ std::vector<std::string> uncovered_load(const Load& load) {
   if (history.stated_peak() == 0.0) return uncovered;  // nothing can be missing of no load
   for (const std::string& each :
        {reaches_its_peak(load, history), is_over(load), begins_at_rest(load, history),
-        is_whole(load, history), shows_its_peak(load)}) {
+        is_whole(load, history), shows_its_peak(load)})
     if (!each.empty()) uncovered.push_back(each);
-  }
   return uncovered;
 }
 

@@ -23,19 +23,15 @@ constexpr double collapse_share = 1e-3;
 class FlushDenormals {
  public:
 #if defined(__SSE2__)
-  FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | flush_to_zero | denormals_are_zero); }
+  FlushDenormals() { _mm_setcsr(saved_ | flush_to_zero | denormals_are_zero); }
   ~FlushDenormals() { _mm_setcsr(saved_); }
 
  private:
   static constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
-  unsigned saved_;
+  const unsigned saved_ = _mm_getcsr();
 #else
   FlushDenormals() {}
-  ~FlushDenormals() {}
 #endif
- public:
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
 };
 
 /// Processor time (s) that the calling thread has used: other work on the machine does not count.

@@ -12,12 +12,10 @@ namespace {
 using scene::Scene;
 
 /// Clauses for people.
-struct Warnings {
-  std::vector<std::string> all = {};
-
+struct Warnings : std::vector<std::string> {
   template <class... Values>
   void add(fmt::format_string<Values...> text, Values&&... values) {
-    all.push_back(fmt::format(text, std::forward<Values>(values)...));
+    push_back(fmt::format(text, std::forward<Values>(values)...));
   }
 };
 
@@ -158,12 +156,11 @@ void check_cracks(const Scene& scene, const MechanicsResult& mechanics, Warnings
   if (initial > room_in_cells ||
       (crack > room_in_cells && !(work <= largest_crack_work_of_a_corner * viscous)))
     warn(fmt::format("{:.3g} cells", crack / cell));
-  if (growth > largest_growth_over_flaw * flaw && work > largest_crack_work_over_viscous * viscous) {
+  if (growth > largest_growth_over_flaw * flaw && work > largest_crack_work_over_viscous * viscous)
     warnings.add(
-        "cracks run away, by {:.4g} mm or {:.3g} flaw sizes: the heat of a charge that softens "
-        "depends on cells and steps",
+        "cracks run away, by {:.4g} mm or {:.3g} flaw sizes: the heat of a charge that softens depends on "
+        "cells and steps",
         1e3 * growth, growth / flaw);
-  }
   if (crack > room) warn(fmt::format("more than the charge measures, {:.4g} mm", 1e3 * room));
 }
 
@@ -210,9 +207,8 @@ void check_selective_rise(const Scene& scene, const MechanicsResult&, Warnings& 
 double bulk_temperature(const Scene& scene, const trace::BottomTrace& trace) {
   const auto closure = static_cast<std::size_t>(scene.surface.friction);
   double most = 0;
-  if (closure < trace.friction.size()) {
+  if (closure < trace.friction.size())
     for (const double energy : trace.friction[closure]) most = std::max(most, energy);
-  }
   return scene.initial_temperature + most / (scene.charge().density * scene.charge().specific_heat);
 }
 
@@ -379,7 +375,7 @@ std::vector<std::string> combustion_validity_warnings(const Scene& scene,
                  1e3 * (end - measured.back()));
   if (combustion.end == CombustionEnd::broke_off)
     warnings.add("the run broke off after ignition: {}", combustion.reason);
-  return std::move(warnings.all);
+  return warnings;
 }
 
 std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsResult& mechanics) {
@@ -388,13 +384,13 @@ std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsRe
     for (const auto check : checks) check(scene, mechanics, warnings);
   };
   hold({check_history, check_flight, check_inertia, check_sliding_inertia});
-  for (std::string& each : uncovered_load(scene.load)) warnings.all.push_back(std::move(each));
+  std::ranges::move(uncovered_load(scene.load), std::back_inserter(warnings));
   hold({check_samples});
   if (scene::has_charge(scene))
     hold({check_cracks, check_rise, check_selective_rise, check_measured_curve, check_charge, check_bottom,
           check_bearing, check_stations});
   hold({check_faces, check_bonds, check_steel});
-  return std::move(warnings.all);
+  return warnings;
 }
 
 }  // namespace launchsafe::run
