@@ -129,8 +129,7 @@ struct Key : KeyDescription {
 /// The one of that name, or nullptr.
 template <class Named>
 const Named* find_named(const std::vector<Named>& all, std::string_view name) {
-  const auto found =
-      std::ranges::find(all, name, [](const Named& each) -> std::string_view { return each.name; });
+  const auto found = std::ranges::find(all, name, &Named::name);
   return found == all.end() ? nullptr : &*found;
 }
 template <class Owner>
@@ -264,7 +263,7 @@ auto words_key(std::string name, Standing standing, std::string sentence, std::v
       [words](const auto& source) {
         std::string list;
         for (std::size_t i = 0; i < words.size(); ++i)
-          if (std::find(source.begin(), source.end(), static_cast<Enumeration>(i)) != source.end())
+          if (std::ranges::count(source, static_cast<Enumeration>(i)) > 0)
             list += (list.empty() ? "" : ", ") + words[i];
         return list;
       });
@@ -332,11 +331,11 @@ auto keys_of_part(const std::string& prefix, Member member,
   return lifted;
 }
 
-/// Several lists of keys one after the other.
-template <class Owner>
-std::vector<Key<Owner>> joined(std::initializer_list<std::vector<Key<Owner>>> lists) {
-  std::vector<Key<Owner>> all;
-  for (const auto& keys : lists) all.insert(all.end(), keys.begin(), keys.end());
+/// Several lists, of keys or of quantities, one after the other.
+template <class Owner, template <class> class Described>
+auto joined(std::initializer_list<std::vector<Described<Owner>>> lists) {
+  std::vector<Described<Owner>> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 

@@ -190,14 +190,6 @@ inline std::optional<double> known(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Several lists of quantities one after the other.
-template <class Row>
-Quantities<Row> joined(std::initializer_list<Quantities<Row>> lists) {
-  Quantities<Row> all;
-  for (const Quantities<Row>& list : lists) all.insert(all.end(), list.begin(), list.end());
-  return all;
-}
-
 /// The quantities of a part as those of the row that has it. `path`: to the part, as of a Quantity.
 template <class Row, class Part, class... Path>
 Quantities<Row> of_part(const Quantities<Part>& quantities, Path... path) {
