@@ -1,5 +1,12 @@
-#include "launchsafe/scene/pressure_curve.hpp"
+// The keys of a load, and what it must satisfy beyond the range of each: a measured curve, what stands beside
+// it, and its end.
+#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load_roughness.hpp"
 #include "scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
 
 namespace launchsafe::scene {
 namespace {
@@ -15,6 +22,160 @@ auto analytic(bool scales = false) {
       return !load.curve_time.empty() && !(scales && load.rescale_to_peak);
     };
   };
+}
+
+/// Whether a peak was given that the measured curve makes useless. A study that gives a scene a curve
+/// replaces its peak.
+bool has_useless_peak(const SceneFile& file) {
+  const auto peak = file.given.find("load.peak"), curve = file.given.find("load.curve");
+  if (peak == file.given.end()) return false;
+  const bool replaced = curve != file.given.end() && curve->second.place.file != file.file &&
+                        peak->second.place.file == file.file;
+  return !replaced;
+}
+
+/// A measured curve beside a peak that would silently do nothing, and one that ends too early. A scene
+/// written back has its curve's points rather than their file, and every key: its peak is no sign of a
+/// mistake.
+void check_curve_use(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (load.curve_time.empty()) return;
+  if (!load.curve_file.empty() && !load.rescale_to_peak && has_useless_peak(file))
+    throw fault_at(file, "load.peak",
+                   pressure_text(load.peak) + " beside a measured curve, which has a peak of its own",
+                   "load.curve alone, or both with load.rescale_to_peak = true");
+  if (load.duration && load.curve_time.back() < read_time(load) * (1.0 - 1e-9)) {
+    const char* key = load.curve_file.empty() ? "load.curve_time" : "load.curve";
+    throw fault_at(file, key, "a curve that ends at " + time_text(load.curve_time.back()),
+                   "a curve that lasts until the end of the launch, " + time_text(*load.duration) +
+                       ", or no load.duration, with which it ends at its last point");
+  }
+}
+
+/// Numbers of the other analytic shape would silently do nothing.
+void check_shape(const SceneFile& file) {
+  const bool bell = file.scene.load.shape == LoadShape::bell;
+  const std::vector<std::string> of_bell{"load.width", "load.steepness"}, of_power{"load.exponent"};
+  for (const std::string& key : bell ? of_power : of_bell) {
+    if (file.given.contains(key))
+      throw fault_at(
+          file, key,
+          fmt::format("a number that the shape \"{}\" does not have", word_of(file.scene.load.shape)),
+          fmt::format("{}, or another load.shape", fmt::join(bell ? of_bell : of_power, " and ")));
+  }
+}
+
+/// A curve of next to nothing has no shape that could be scaled.
+void check_rescaling(const SceneFile& file) {
+  constexpr double least_peak = 1.0;  // Pa
+  const Load& load = file.scene.load;
+  if (load.curve_pressure.empty() || !load.rescale_to_peak) return;
+  const double measured = *std::ranges::max_element(load.curve_pressure);
+  if (measured >= least_peak) return;
+  throw fault_at(file, "load.rescale_to_peak",
+                 fmt::format("true with a curve whose largest pressure is {}", pressure_text(measured)),
+                 "a curve that reaches " + pressure_text(least_peak));
+}
+
+void check_smoothing(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (!(load.smoothing > 0.0)) return;
+  const std::string window = time_text(load.smoothing);
+  if (load.curve_time.empty())
+    throw fault_at(file, "load.smoothing", window + " without a measured curve",
+                   "a window only together with load.curve");
+  const double length = load.curve_time.back() - load.curve_time.front();
+  if (load.smoothing >= least_smoothing_share * length && load.smoothing <= length) return;
+  throw fault_at(file, "load.smoothing", window,
+                 fmt::format("a window from {} to that of the measured curve, {}, or 0 ms for none",
+                             time_text(least_smoothing_share * length), time_text(length)));
+}
+
+/// Largest difference of a stated travel from that which the load gives at the stated exit.
+constexpr double largest_difference_of_travel = 0.05;
+/// Likewise of a velocity that is expected.
+constexpr double largest_difference_of_velocity = 0.05;
+/// s; no launch is longer.
+constexpr double longest_launch = 1.0;
+
+/// What only an exit gives a meaning to.
+void check_without_exit(const SceneFile& file) {
+  for (const char* key : {"load.exit_decay", "load.muzzle_exit_spread"})
+    if (file.given.contains(key))
+      throw fault_at(file, key, "a number of the muzzle exit, which is not stated",
+                     "only together with load.muzzle_exit or load.muzzle_travel");
+}
+
+void check_travel(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (!load.muzzle_travel) return;
+  const double stated = *load.muzzle_travel;
+  Scene barrel = file.scene;
+  barrel.load = without_exit(load);
+  barrel.load.duration.reset();
+  if (!load.muzzle_exit) {
+    if (exit_time(load)) return;
+    const double end = launch_end(barrel.load);
+    throw fault_at(file, "load.muzzle_travel", length_text(stated) + ", which the projectile does not reach",
+                   fmt::format("at most {}, where the load drives it until it ends at {}",
+                               length_text(rigid_motion(barrel, end).travel), time_text(end)));
+  }
+  const double travel = rigid_motion(barrel, *load.muzzle_exit).travel;
+  if (std::abs(stated - travel) <= largest_difference_of_travel * travel) return;
+  throw fault_at(
+      file, "load.muzzle_travel",
+      fmt::format("{}, while the load drives the projectile {:.3g} m until load.muzzle_exit, {}",
+                  length_text(stated), travel, time_text(*load.muzzle_exit)),
+      fmt::format("within {:g} % of that, or one of the two alone", 100.0 * largest_difference_of_travel));
+}
+
+/// An exit that is no end of this load.
+void check_exit(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  const double exit = *exit_time(load);
+  const std::string key = load.muzzle_exit ? "load.muzzle_exit" : "load.muzzle_travel";
+  const std::string found = load.muzzle_exit ? time_text(exit)
+                                             : fmt::format("{}, which is reached at {}",
+                                                           length_text(*load.muzzle_travel), time_text(exit));
+  Load barrel = without_exit(load);
+  barrel.duration.reset();
+  const double peak = PressureHistory(barrel).peak_time(), end = launch_end(barrel);
+  const std::string allowed = fmt::format("a time after the peak, {}, and before the load is over, {}",
+                                          time_text(peak), time_text(end));
+  if (!(exit > peak)) throw fault_at(file, key, found + ", not after the peak of the load", allowed);
+  if (exit > end * (1.0 + 1e-9)) throw fault_at(file, key, found + ", after the end of the load", allowed);
+}
+
+/// Which unit was taken for which other one where a velocity, which grows with the pressure, is so many times
+/// the expected one; empty for none.
+std::string unit_taken_for(double ratio) {
+  constexpr std::array<std::pair<const char*, double>, 5> units{
+      {{"psi", 6894.757}, {"bar", 1e5}, {"MPa", 1e6}, {"ksi", 6.894757e6}, {"kgf/mm2", 9.80665e6}}};
+  constexpr double near = 0.06;  // of the logarithm: the expected velocity is known to 5 %
+  std::string text;
+  for (const auto& [typed, size] : units)
+    for (const auto& [meant, true_size] : units)
+      if (typed != meant && std::abs(std::log(size / true_size / ratio)) < near)
+        text += fmt::format("{}{} typed as {}", text.empty() ? "" : ", or ", meant, typed);
+  return text.empty() ? text : fmt::format("; the ratio, {:.3g}, is that of {}", ratio, text);
+}
+
+/// The first fault of `load.muzzle_exit`, `.muzzle_travel` and what depends on them, or of a load without
+/// end.
+void check_end(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (load.muzzle_exit || load.muzzle_travel) {
+    check_travel(file);
+    return check_exit(file);
+  }
+  check_without_exit(file);
+  const double end = end_time(load);
+  if (end > 0.0 && end <= longest_launch) return;
+  const bool measured = !load.curve_time.empty();
+  const std::string key =
+      measured ? load.curve_file.empty() ? "load.curve_time" : "load.curve" : "load.peak_time";
+  throw fault_at(file, key, fmt::format("a load that ends at {}", time_text(end)),
+                 fmt::format("a load that is over within {}, or load.duration", time_text(longest_launch)));
 }
 
 }  // namespace
@@ -121,6 +282,50 @@ std::vector<Key<Load>> load_keys() {
                                 &Load::obturation) |
           always_plausible("it has to lie where the shell has its full radius", Role{}),
   };
+}
+
+void check_load(const SceneFile& file) {
+  const Load& load = file.scene.load;
+  if (load.curve_time.size() != load.curve_pressure.size())
+    throw fault_at(file, "load.curve_pressure",
+                   fmt::format("{} values for {} times", load.curve_pressure.size(), load.curve_time.size()),
+                   "one pressure for every time");
+  if (load.curve_time.size() == 1)
+    throw fault_at(file, "load.curve_time", "1 point", "a curve of at least two points");
+  const auto& times = load.curve_time;
+  const auto late =
+      std::ranges::adjacent_find(times, [](double a, double b) { return !(b - a > least_curve_interval); });
+  if (late != times.end())
+    throw fault_at(file, "load.curve_time",
+                   fmt::format("{} followed by {}", time_text(*late), time_text(*std::next(late))),
+                   "times in increasing order, more than " + time_text(least_curve_interval) + " apart");
+  check_shape(file);
+  check_curve_use(file);
+  check_rescaling(file);
+  if (times.empty() && load.rescale_to_peak)
+    throw fault_at(file, "load.rescale_to_peak", "true without a measured curve",
+                   "true together with load.curve");
+  check_smoothing(file);
+  if (times.empty() && load.base > load.peak)
+    throw fault_at(
+        file, file.given.contains("load.base") ? "load.base" : "load.peak",
+        fmt::format("a base of {} and a peak of {}", pressure_text(load.base), pressure_text(load.peak)),
+        "a base pressure of at most the peak");
+  return check_end(file);
+}
+
+Fault check_expected_velocity(const SceneFile& file) {
+  const std::optional<double> expected = file.scene.load.expected_velocity;
+  if (!expected) return std::nullopt;
+  Scene whole = file.scene;
+  whole.load.duration.reset();
+  const double time = read_time(whole.load), velocity = rigid_motion(whole, time).velocity;
+  if (std::abs(*expected - velocity) <= largest_difference_of_velocity * velocity) return std::nullopt;
+  return fault_at(file, "load.expected_velocity",
+                  fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
+                              rigid_motion_text(whole, time), time_text(time)),
+                  fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",
+                              100.0 * largest_difference_of_velocity, unit_taken_for(velocity / *expected)));
 }
 
 }  // namespace launchsafe::scene

@@ -1,26 +1,19 @@
-#include "launchsafe/scene/named_material.hpp"
-
+// The tables [material.NAME] of a file, and a scene whose bodies are of these.
 #include "input_text.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
+
+#include <set>
 
 namespace launchsafe::scene {
 namespace {
 
-/// A key of a law under the name that materials have for it.
-struct LawKey {
-  std::string scene_key;
-  KeyDescription description;
-};
-
-std::vector<LawKey> keys_of_law_in_material(const std::string& law) {
-  std::vector<LawKey> keys;
+/// Under their names in a scene.
+std::vector<KeyDescription> keys_of_law(const std::string& law) {
+  std::vector<KeyDescription> keys;
   materials::for_each_law([&]<class Law>(const Law&) {
-    if (law != Law::name) return;
-    for (const Key<Law>& key : Law::parameters()) {
-      LawKey& own = keys.emplace_back(LawKey{key.name, key});
-      own.description.name = key_in_material(law, key.name);
-    }
+    if (law == Law::name) std::ranges::copy(Law::parameters(), std::back_inserter(keys));
   });
   return keys;
 }
@@ -37,25 +30,28 @@ NamedMaterial read_material(const std::string& name, const toml::table& table, c
   NamedMaterial material;
   material.name = name;
   material.place = place_of(table, file);
-  const std::vector<LawKey> law_keys = keys_of_law_in_material(read_law(table, material.place, file));
+  const std::string law = read_law(table, material.place, file);
+  std::vector<KeyDescription> law_keys = keys_of_law(law);
+  std::map<std::string, std::string> scene_keys;  // by their names here
   std::vector<const KeyDescription*> described = descriptions_of(material_keys());
   const std::size_t own = described.size();
-  for (const LawKey& key : law_keys) described.push_back(&key.description);
+  for (KeyDescription& key : law_keys) {
+    const std::string scene_key = std::exchange(key.name, key_in_material(law, key.name));
+    scene_keys[key.name] = scene_key;
+    described.push_back(&key);
+  }
   const ReadValues read = read_described(table, described, {"source"}, file).or_throw();
   std::vector<std::string> given;
-  std::map<std::string, std::string> scene_key_of;
   for (const auto& [index, value] : read.values) {
-    if (index < own) {
+    const std::string& key = described[index]->name;
+    if (index < own)
       material_keys()[index].set(material, value);
-      continue;
-    }
-    const LawKey& key = law_keys[index - own];
-    scene_key_of[given.emplace_back(key.description.name)] = key.scene_key;
-    material.values[key.scene_key] = {read.places.at(key.description.name), value, true};
+    else
+      material.values[scene_keys.at(given.emplace_back(key))] = {read.places.at(key), value, true};
   }
   material.sources = read_sources(table, given, file);
   for (Source& source : material.sources)
-    for (std::string& key : source.keys) key = scene_key_of.at(key);
+    for (std::string& key : source.keys) key = scene_keys.at(key);
   return material;
 }
 
@@ -71,39 +67,36 @@ void check_name(const toml::node& node, const std::string& name, const std::stri
 }
 
 /// Whether a key of the law that is not given is settled by one that is, as kinetics.set is by its numbers.
-bool is_settled(const NamedMaterial& material, const LawKey& key, const std::vector<LawKey>& keys) {
-  return std::ranges::any_of(keys, [&](const LawKey& other) {
-    return material.values.contains(other.scene_key) &&
-           (contains(other.description.overrides, key.scene_key) ||
-            contains(key.description.overrides, other.scene_key));
+bool is_settled(const NamedMaterial& material, const KeyDescription& key,
+                const std::vector<KeyDescription>& keys) {
+  return std::ranges::any_of(keys, [&](const KeyDescription& other) {
+    return material.values.contains(other.name) &&
+           (contains(other.overrides, key.name) || contains(key.overrides, other.name));
   });
 }
 
 /// Takes what a material does not give from the one that it is like, and says so of each value.
 void take_over(NamedMaterial& material, const NamedMaterial& from) {
-  const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
+  const std::vector<KeyDescription> keys = keys_of_law(material.law);
   const NamedMaterial own = material;
   Source taken{{}, Standing::assumed, "as of " + from.name};
-  for (const LawKey& key : keys) {
-    const auto value = from.values.find(key.scene_key);
-    if (value == from.values.end() || own.values.contains(key.scene_key) || is_settled(own, key, keys))
-      continue;
+  for (const KeyDescription& key : keys) {
+    const auto value = from.values.find(key.name);
+    if (value == from.values.end() || own.values.contains(key.name) || is_settled(own, key, keys)) continue;
     material.values.insert(*value);
-    taken.keys.push_back(key.scene_key);
+    taken.keys.push_back(key.name);
   }
   if (!taken.keys.empty()) material.sources.push_back(std::move(taken));
 }
 
 void check_complete(const NamedMaterial& material) {
-  const std::vector<LawKey> keys = keys_of_law_in_material(material.law);
-  for (const LawKey& key : keys) {
-    if (material.values.contains(key.scene_key) || is_settled(material, key, keys) ||
-        !key.description.usual.empty())
-      continue;
-    throw error_at(material.place, "material." + material.name + "." + key.description.name,
-                   "nothing; the key is missing",
-                   fmt::format("{}; or like = \"NAME\", a material whose value stands for it",
-                               allowed_text(key.description)));
+  const std::vector<KeyDescription> keys = keys_of_law(material.law);
+  for (const KeyDescription& key : keys) {
+    if (material.values.contains(key.name) || is_settled(material, key, keys) || !key.usual.empty()) continue;
+    throw error_at(
+        material.place, fmt::format("material.{}.{}", material.name, key_in_material(material.law, key.name)),
+        "nothing; the key is missing",
+        fmt::format("{}; or like = \"NAME\", a material whose value stands for it", allowed_text(key)));
   }
 }
 
@@ -134,6 +127,103 @@ void complete(std::vector<NamedMaterial>& materials, std::size_t index, std::vec
   check_complete(material);
 }
 
+/// Names of the materials of each law that bodies are of, in the order of the bodies.
+using NamesByLaw = std::map<std::string, std::vector<std::string>>;
+
+InputError unknown_material(const SceneFile& file, const std::string& body, const std::string& name) {
+  std::vector<std::string> names = names_of(usual_materials());
+  for (const auto* list : {&file.materials, &shipped_materials()})
+    for (const NamedMaterial& each : *list) names.push_back(each.name);
+  return fault_at(file, "body." + body + ".material",
+                  fmt::format("\"{}\", a material that is nowhere described", name),
+                  quoted_list(names) + "; or one that a table [material.NAME] describes",
+                  in_quotes(nearest_of(name, names)));
+}
+
+NamesByLaw names_by_law(const SceneFile& file, const Scene& scene) {
+  NamesByLaw by_law;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const std::string& name = file.body_materials[i];
+    const NamedMaterial* named = find_named_material(file, name);
+    if (named == nullptr && find_named(usual_materials(), name) == nullptr)
+      throw unknown_material(file, scene.bodies[i].name, name);
+    std::vector<std::string>& names = by_law[named ? named->law : name];
+    if (!contains(names, name)) names.push_back(name);
+  }
+  return by_law;
+}
+
+/// Whether the scene itself gives the key, or one that overrides it.
+bool scene_gives(const SceneFile& file, const std::string& name) {
+  return std::ranges::any_of(file.given, [&](const auto& each) {
+    return !each.second.of_material &&
+           (each.first == name || contains(find_key(scene_keys(), each.first)->overrides, name));
+  });
+}
+
+/// The named material as the scene's material of its law. A number that is the program's own is no given one:
+/// what rests on defaults, such as the constants of a calibration, stays as it is.
+void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
+  std::vector<Source> sources = material.sources;
+  materials::for_each_law([&]<class Law>(const Law& usual) {
+    if (material.law != Law::name) return;
+    static const std::vector<Key<Law>> keys = Law::parameters();
+    for (const Key<Law>& key : keys) {
+      const Given* given = find_in(material.values, key.name);
+      if (given == nullptr) continue;
+      if (scene_gives(file, key.name))
+        forget_source(sources, key.name);
+      else if (given->value != key.get(usual) || (key.is_written && !key.is_written(usual)))
+        file.given[key.name] = *given;
+    }
+  });
+  const std::string title = material.law + ".title";
+  if (!material.title.empty() && !scene_gives(file, title))
+    file.given[title] = {material.place, Value(material.title), true};
+  scene.sources.insert(scene.sources.end(), sources.begin(), sources.end());
+}
+
+/// The named material beside another one of its law.
+void add_beside(const NamedMaterial& material, Scene& scene) {
+  materials::for_each_law([&]<class Law>(Law law) {
+    if (material.law != Law::name) return;
+    for (const Key<Law>& key : Law::parameters())
+      if (const Given* given = find_in(material.values, key.name)) key.set(law, given->value);
+    scene.materials.push_back({material.name, law, material.title});
+  });
+  for (Source source : material.sources) {
+    for (std::string& key : source.keys)
+      key = fmt::format("material.{}.{}", material.name, key_in_material(material.law, key));
+    scene.sources.push_back(std::move(source));
+  }
+}
+
+InputError two_explosives(const SceneFile& file, const Scene& scene, const std::vector<std::string>& names) {
+  const auto second = std::ranges::find(file.body_materials, names[1]) - file.body_materials.begin();
+  return fault_at(file, "body." + scene.bodies[static_cast<std::size_t>(second)].name + ".material",
+                  fmt::format("\"{}\" beside \"{}\", two explosives", names[1], names[0]),
+                  "one explosive in a scene, whose skin is followed");
+}
+
+/// Keys of a law of whose materials none has the law's name.
+void check_unambiguous(const SceneFile& file, const std::string& law, const std::vector<std::string>& names) {
+  for (const auto& [key, given] : file.given)
+    if (!given.of_material && key.starts_with(law + "."))
+      throw error_at(given.place, key,
+                     fmt::format("a key of [{}], where bodies are of {}", law, quoted_list(names)),
+                     fmt::format("[material.NAME] of each, or a body of material \"{}\"", law));
+}
+
+/// Of the file's own material, which may have other numbers than the shipped one.
+void set_number(SceneFile& file, const std::string& name, const KeyDescription& key, const Value& value) {
+  if (find_named(file.materials, name) == nullptr) file.materials.push_back(*find_named_material(file, name));
+  NamedMaterial& material = *std::ranges::find(file.materials, name, &NamedMaterial::name);
+  for (const std::string& overridden : key.overrides) material.values.erase(overridden);
+  Given& given = material.values[key.name];
+  if (given.value != value) forget_source(material.sources, key.name);
+  given = {material.place, value, true};
+}
+
 }  // namespace
 
 const std::vector<Key<NamedMaterial>>& material_keys() {
@@ -156,13 +246,12 @@ const std::vector<Key<NamedMaterial>>& material_keys() {
 }
 
 const KeyDescription& material_file_key() {
-  static const KeyDescription key{
-      .name = "material_file",
-      .kind = KeyKind::text,
-      .standing = Standing::input,
-      .sentence = "File with tables [material.NAME] and [contact.NAME], by its path from the scene's folder.",
-      .example = "explosives.toml",
-      .plausible = {.because = "the numbers are judged"}};
+  static const KeyDescription key =
+      text_key<std::string>(
+          "material_file", Standing::input,
+          "File with tables [material.NAME] and [contact.NAME], by its path from the scene's folder.",
+          "explosives.toml", std::identity{}) |
+      always_plausible("the numbers are judged");
   return key;
 }
 
@@ -183,6 +272,61 @@ std::vector<NamedMaterial> read_materials(const toml::table& root, const std::st
   std::vector<bool> done(materials.size());
   for (std::size_t i = 0; i < materials.size(); ++i) complete(materials, i, done, known);
   return materials;
+}
+
+const NamedMaterial* find_named_material(const SceneFile& file, const std::string& name) {
+  for (const auto* list : {&file.materials, &shipped_materials()})
+    if (const NamedMaterial* found = find_named(*list, name)) return found;
+  return nullptr;
+}
+
+std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
+  std::vector<Key<SceneFile>> keys;
+  for (const std::string& name :
+       std::set<std::string>(file.body_materials.begin(), file.body_materials.end())) {
+    const NamedMaterial* named = find_named_material(file, name);
+    if (named == nullptr) continue;
+    materials::for_each_law([&]<class Law>(const Law&) {
+      if (named->law != Law::name) return;
+      for (const Key<Law>& key : Law::parameters()) {
+        const KeyDescription own = key;
+        Key<SceneFile>& lifted = keys.emplace_back(Key<SceneFile>{own});
+        lifted.name = fmt::format("material.{}.{}", name, key_in_material(Law::name, key.name));
+        lifted.overrides.clear();
+        lifted.set = [name, own](SceneFile& owner, const Value& value) {
+          set_number(owner, name, own, value);
+        };
+        lifted.get = [name, own, usual = key.default_value()](const SceneFile& owner) {
+          const Given* given = find_in(find_named_material(owner, name)->values, own.name);
+          return given == nullptr ? usual : given->value;
+        };
+      }
+    });
+  }
+  return keys;
+}
+
+void use_materials(SceneFile& file, Scene& scene) {
+  std::erase_if(file.given, [](const auto& each) { return each.second.of_material; });
+  scene.sources = file.sources;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].material = file.body_materials[i];
+  for (const auto& [law, names] : names_by_law(file, scene)) {
+    const bool has_own = contains(names, law);
+    if (names.size() > 1 && is_explosive(find_material(scene, law)->law))
+      throw two_explosives(file, scene, names);
+    if (names.size() > 1 && !has_own) check_unambiguous(file, law, names);
+    const std::string& first = has_own ? law : names.front();
+    for (Body& body : scene.bodies)
+      if (body.material == first) body.material = law;
+    for (const std::string& name : names) {
+      const NamedMaterial* named = find_named_material(file, name);
+      if (named == nullptr) continue;
+      if (name == first)
+        use_as_law(*named, file, scene);
+      else
+        add_beside(*named, scene);
+    }
+  }
 }
 
 }  // namespace launchsafe::scene
