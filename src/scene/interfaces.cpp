@@ -2,7 +2,7 @@
 #include "launchsafe/scene/interfaces.hpp"
 
 #include "input_text.hpp"
-#include "launchsafe/scene/read_scene.hpp"
+#include "scene_file.hpp"
 
 #include <fmt/format.h>
 
@@ -96,12 +96,9 @@ Interface read_interface(const std::string& body, const toml::table& table, cons
 
 bool share_a_face(const Scene& scene, const Body& a, const Body& b) {
   const double tolerance = length_tolerance(scene);
-  const auto meet = [&](double end, double begin) { return std::abs(end - begin) <= tolerance; };
-  const double common_x = std::min(a.x_end, b.x_end) - std::max(a.x_begin, b.x_begin);
-  const double common_r = std::min(a.r_end, b.r_end) - std::max(a.r_begin, b.r_begin);
-  const bool ends = meet(a.x_end, b.x_begin) || meet(b.x_end, a.x_begin);
-  const bool sides = meet(a.r_end, b.r_begin) || meet(b.r_end, a.r_begin);
-  return (ends && common_r > tolerance) || (sides && common_x > tolerance);
+  const double along_x = overlap(a, b, axis_x), along_r = overlap(a, b, axis_r);
+  return (std::abs(along_x) <= tolerance && along_r > tolerance) ||
+         (std::abs(along_r) <= tolerance && along_x > tolerance);
 }
 
 const std::vector<Key<Interface>>& interface_keys() {
@@ -199,13 +196,11 @@ const std::vector<Key<NamedContact>>& contact_keys() {
 }
 
 const KeyDescription& contact_of_interface_key() {
-  static const KeyDescription key{
-      .name = "contact",
-      .kind = KeyKind::text,
-      .standing = Standing::input,
-      .sentence = "Contact by name, whose values stand for those that are not given here.",
-      .example = "smooth",
-      .plausible = {.because = "the values are judged"}};
+  static const KeyDescription key =
+      text_key<std::string>("contact", Standing::input,
+                            "Contact by name, whose values stand for those that are not given here.",
+                            "smooth", std::identity{}) |
+      always_plausible("the values are judged");
   return key;
 }
 

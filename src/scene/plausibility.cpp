@@ -6,6 +6,7 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/scene_keys.hpp"
 
+#include <boost/math/special_functions/lambert_w.hpp>
 #include <fmt/format.h>
 
 namespace launchsafe::scene {
@@ -117,23 +118,16 @@ auto of_charge(double (*value)(const Scene&)) {
 }
 
 /// Temperature (K) at which self-heating without loss runs away within a second, with the leading term of the
-/// induction time, c T^2/(Q Z E) exp(E/T); infinite without reaction. (Frank-Kamenetskii 1969.)
+/// induction time, c T^2/(Q Z E) exp(E/T); infinite without reaction. (Frank-Kamenetskii 1969.) Up to E/2
+/// that time falls with T; with y = E/(2 T) > 1 it is y exp(-y) that is given.
 double explosion_temperature(const Scene& scene) {
   const materials::KineticsParameters& kinetics = scene.charge().kinetics;
   const double activation = kinetics.activation_temperature;
   const double rate = kinetics.heat_of_reaction * kinetics.frequency / scene.charge().specific_heat;
   constexpr double delay = 1.0;  // s
-  const auto too_slow = [&](double temperature) {
-    return std::log(temperature * temperature / (rate * activation)) + activation / temperature >
-           std::log(delay);
-  };
-  double lower = 1.0, upper = std::min(0.5 * activation, 1e5);  // up to E/2 the time falls with T
-  if (!(rate > 0.0) || too_slow(upper)) return std::numeric_limits<double>::infinity();
-  for (int halving = 0; halving < 60; ++halving) {
-    const double middle = 0.5 * (lower + upper);
-    (too_slow(middle) ? lower : upper) = middle;
-  }
-  return upper;
+  const double given = std::sqrt(0.25 * activation / (rate * delay));
+  if (!(given < std::exp(-1.0))) return std::numeric_limits<double>::infinity();
+  return -0.5 * activation / boost::math::lambert_wm1(-given);
 }
 
 /// `value`: of a scene, or of it and its motion.

@@ -221,73 +221,56 @@ class DecimalMark {
   Fault ambiguous_;                       ///< of the first comma that may be another one
 };
 
-/// Reads the points of a curve line by line.
-class CurveReader {
- public:
-  CurveReader(Header header, double lowest, PressureCurve& curve)
-      : header_(std::move(header)), lowest_(lowest), curve_(curve) {}
+InputError wrong_count(const Header& header, std::size_t count, const Place& place) {
+  const char* separator = header.separator == ','   ? "a comma"
+                          : header.separator == ';' ? "a semicolon"
+                                                    : "a tab";
+  const bool decimal_commas = header.separator == ',' && count > header.columns;
+  const std::string values = header.columns == 2
+                                 ? std::string("two values, a time and a pressure,")
+                                 : fmt::format("{} values, one for each column,", header.columns);
+  return error_at(
+      place, {}, fmt::format("{} value{}", count, count == 1 ? "" : "s"),
+      fmt::format("{} with {} between them{}", values, separator,
+                  decimal_commas ? "; where numbers have decimal commas, a semicolon in every line"
+                                 : " as in the header"));
+}
 
-  /// Adds the point of one line, which must come later than the last one.
-  void add(std::string_view line, const Place& place) {
-    const auto cells = cells_of(line, header_.separator);
-    if (!cells) throw error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
-    if (cells->size() != header_.columns) throw wrong_count(cells->size(), place);
-    const auto fault = [&](const Column& column, std::string allowed, std::string suggestion = {}) {
-      return error_at(place, name_of(column.dimension), (*cells)[column.cell] + " " + column.unit, allowed,
-                      suggestion);
-    };
-    const double time = read_cell(*cells, header_.time, place),
-                 pressure = read_cell(*cells, header_.pressure, place);
-    if (pressure < lowest_ || pressure > largest_load)
-      throw fault(header_.pressure,
-                  fmt::format("a pressure of at least {}, at most {}",
-                              lowest_ < 0.0 ? pressure_text(lowest_) : "0 " + header_.pressure.unit,
-                              pressure_text(largest_load)),
-                  pressure < lowest_ ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
-    if (std::abs(time) > largest_curve_time)
-      throw fault(header_.time, fmt::format("a time within {} of the start", time_text(largest_curve_time)));
-    if (!curve_.time.empty() && !(time - curve_.time.back() > least_curve_interval))
-      throw fault(header_.time, fmt::format("times in increasing order, here later than {} by more than {}",
-                                            time_text(curve_.time.back()), time_text(least_curve_interval)));
-    curve_.time.push_back(time);
-    curve_.pressure.push_back(pressure);
-  }
+double read_cell(const std::string& cell, const Column& column, DecimalMark& decimals, const Place& place) {
+  const std::string key(name_of(column.dimension)), number = decimals.pointed(cell, key, place);
+  const bool plain =
+      number.find_first_of(" \t") == std::string::npos && parse_quantity(number, Dimension::number);
+  const auto value = parse_quantity(number + " " + column.unit, column.dimension);
+  if (plain && value) return *value;
+  throw error_at(place, key, fmt::format("\"{}\"", cell), fmt::format("a finite number of {}", column.unit));
+}
 
-  void check_decimals() const { decimal_mark_.check(); }
-
- private:
-  InputError wrong_count(std::size_t count, const Place& place) const {
-    const char* separator = header_.separator == ','   ? "a comma"
-                            : header_.separator == ';' ? "a semicolon"
-                                                       : "a tab";
-    const bool decimal_commas = header_.separator == ',' && count > header_.columns;
-    const std::string values = header_.columns == 2
-                                   ? std::string("two values, a time and a pressure,")
-                                   : fmt::format("{} values, one for each column,", header_.columns);
-    return error_at(
-        place, {}, fmt::format("{} value{}", count, count == 1 ? "" : "s"),
-        fmt::format("{} with {} between them{}", values, separator,
-                    decimal_commas ? "; where numbers have decimal commas, a semicolon in every line"
-                                   : " as in the header"));
-  }
-
-  double read_cell(const std::vector<std::string>& cells, const Column& column, const Place& place) {
-    const std::string& cell = cells[column.cell];
-    const std::string key(name_of(column.dimension));
-    const std::string number = decimal_mark_.pointed(cell, key, place);
-    const bool plain =
-        number.find_first_of(" \t") == std::string::npos && parse_quantity(number, Dimension::number);
-    const auto value = parse_quantity(number + " " + column.unit, column.dimension);
-    if (plain && value) return *value;
-    throw error_at(place, key, fmt::format("\"{}\"", cell),
-                   fmt::format("a finite number of {}", column.unit));
-  }
-
-  Header header_;
-  double lowest_;  ///< Pa
-  PressureCurve& curve_;
-  DecimalMark decimal_mark_;
-};
+/// Adds the point of one line, which must come later than the last one. `lowest`: pressure, Pa.
+void add_point(std::string_view line, const Header& header, double lowest, DecimalMark& decimals,
+               const Place& place, PressureCurve& curve) {
+  const auto cells = cells_of(line, header.separator);
+  if (!cells) throw error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
+  if (cells->size() != header.columns) throw wrong_count(header, cells->size(), place);
+  const auto fault = [&](const Column& column, std::string allowed, std::string suggestion = {}) {
+    return error_at(place, name_of(column.dimension), (*cells)[column.cell] + " " + column.unit, allowed,
+                    suggestion);
+  };
+  const double time = read_cell((*cells)[header.time.cell], header.time, decimals, place),
+               pressure = read_cell((*cells)[header.pressure.cell], header.pressure, decimals, place);
+  if (pressure < lowest || pressure > largest_load)
+    throw fault(header.pressure,
+                fmt::format("a pressure of at least {}, at most {}",
+                            lowest < 0.0 ? pressure_text(lowest) : "0 " + header.pressure.unit,
+                            pressure_text(largest_load)),
+                pressure < lowest ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
+  if (std::abs(time) > largest_curve_time)
+    throw fault(header.time, fmt::format("a time within {} of the start", time_text(largest_curve_time)));
+  if (!curve.time.empty() && !(time - curve.time.back() > least_curve_interval))
+    throw fault(header.time, fmt::format("times in increasing order, here later than {} by more than {}",
+                                         time_text(curve.time.back()), time_text(least_curve_interval)));
+  curve.time.push_back(time);
+  curve.pressure.push_back(pressure);
+}
 
 /// `gauge`: the pressure's column in a gauge's record; none for a curve that is a load.
 PressureCurve parse(const std::string& text, const std::string& file, const std::string* gauge) {
@@ -298,24 +281,25 @@ PressureCurve parse(const std::string& text, const std::string& file, const std:
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   PressureCurve curve;
-  std::optional<CurveReader> reader;
+  std::optional<Header> header;
+  DecimalMark decimals;
   Place place{file};
   while (!rest.empty()) {
     ++place.line;
     const std::string_view line = take_line(rest);
     const std::string_view content = without_blanks_around(line);
     if (content.empty() || content.starts_with('#')) continue;
-    if (reader)
-      reader->add(line, place);
+    if (header)
+      add_point(line, *header, gauge ? -largest_load : 0.0, decimals, place, curve);
     else
-      reader.emplace(read_header(line, place, gauge), gauge ? -largest_load : 0.0, curve);
+      header = read_header(line, place, gauge);
   }
-  if (!reader) throw error_at({file, 1}, {}, "no header", allowed_header);
+  if (!header) throw error_at({file, 1}, {}, "no header", allowed_header);
   if (curve.time.size() < 2)
     throw error_at(place, "time",
                    fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
                    "a curve of at least two points");
-  reader->check_decimals();
+  decimals.check();
   return curve;
 }
 

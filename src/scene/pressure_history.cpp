@@ -102,11 +102,9 @@ std::vector<double> marks_between(const Load& load, double begin, double end, do
 /// after the time at which it is.
 std::pair<double, double> largest_at(const std::vector<double>& marks,
                                      const std::function<double(double)>& pressure, bool smoothed) {
-  std::size_t best = 0;
   std::vector<double> values;
   for (const double mark : marks) values.push_back(pressure(mark));
-  for (std::size_t i = 1; i < values.size(); ++i)
-    if (values[i] > values[best]) best = i;
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
   const std::pair<double, double> at_mark{marks[best], values[best]};
   if (!smoothed || marks.size() < 2) return at_mark;
   const double begin = marks[best > 0 ? best - 1 : 0], end = marks[std::min(best + 1, marks.size() - 1)];

@@ -87,15 +87,14 @@ const Interface& interface_of(const Scene& scene, const std::string& body) {
   return faces != scene.interfaces.end() ? *faces : bonded;
 }
 
-/// The key, which takes back the friction of faces that slid where it makes them bonded.
-Key<Scene> with_friction_only_where_used(Key<Scene> key, const std::string& body) {
-  key.set = [set = std::move(key.set), body](Scene& scene, const Value& value) {
-    const bool slid = interface_of(scene, body).condition == Condition::sliding;
-    set(scene, value);
-    Interface& faces = interface_of(scene, body);
-    if (slid && faces.condition == Condition::bonded) faces.friction.reset();
-  };
-  return key;
+/// Keys of an interface, of which the condition takes back the friction of faces that it makes bonded for
+/// good.
+std::vector<Key<Interface>> changing_interface_keys() {
+  std::vector<Key<Interface>> keys = interface_keys();
+  keys::then([](Interface& faces) {
+    if (!can_slide(faces)) faces.friction.reset();
+  })(*std::ranges::find(keys, "condition", &KeyDescription::name));
+  return keys;
 }
 
 /// Keys of the scene's bodies, "body.<name>.x", ".r" and ".material", of the interfaces of all bodies that
@@ -113,14 +112,11 @@ std::vector<Key<SceneFile>> keys_of_tables(const SceneFile& file) {
         "comp-b", [i](auto& owner) -> auto& { return owner.body_materials[i]; });
     all.push_back(std::move(material));
   }
-  for (const std::string& body : bodies_at_the_charge(scene)) {
-    std::vector<Key<Scene>> keys;
-    for (Key<Scene>& key : keys::keys_of_part<Scene>(
-             "interface." + body + ".", [body](auto& owner) -> auto& { return interface_of(owner, body); },
-             interface_keys()))
-      keys.push_back(with_friction_only_where_used(std::move(key), body));
-    all = keys::joined({all, keys::keys_of_part("", &SceneFile::scene, keys)});
-  }
+  for (const std::string& body : bodies_at_the_charge(scene))
+    all = keys::joined({all, keys::keys_of_part<SceneFile>(
+                                 "interface." + body + ".",
+                                 [body](auto& owner) -> auto& { return interface_of(owner.scene, body); },
+                                 changing_interface_keys())});
   return keys::joined({all, keys_of_used_materials(file)});
 }
 

@@ -28,6 +28,19 @@ void use_materials(SceneFile& file, Scene& scene);
 /// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
 std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
 
+/// The extent of a body along one axis.
+struct Axis {
+  const char* name;
+  double Body::*begin;
+  double Body::*end;
+};
+inline constexpr Axis axis_x{"x", &Body::x_begin, &Body::x_end}, axis_r{"r", &Body::r_begin, &Body::r_end};
+
+/// How far two bodies overlap along an axis, m; less than 0 for a distance.
+inline double overlap(const Body& a, const Body& b, const Axis& along) {
+  return std::min(a.*along.end, b.*along.end) - std::max(a.*along.begin, b.*along.begin);
+}
+
 /// A fault of a scene, at the place where the user gave the key.
 inline InputError fault_at(const SceneFile& file, const std::string& key, std::string_view found,
                            std::string_view allowed, std::string_view suggestion = {}) {

@@ -1,5 +1,6 @@
 #include "launchsafe/scene/scene_keys.hpp"
 
+#include "input_text.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "scene_file.hpp"
@@ -88,17 +89,16 @@ Keys general_keys() {
 }
 
 Key<Combustion> flame_kinetics_key() {
-  KeyDescription description = keys::description(
-      "kinetics", KeyKind::word, Standing::literature,
+  Key<Combustion> key = text_key(
+      "kinetics", Standing::literature,
       "What the flame lives on after ignition: a decomposition whose numbers belong together, of RDX or of "
       "Composition B, or effective, the charge's own. These alone decide ignition, and what is released "
-      "stays kinetics.heat_of_reaction.");
-  for (const Decomposition& each : shipped_decompositions()) description.words.push_back(each.name);
-  description.words.emplace_back(effective_kinetics);
-  return keys::bound_key<Combustion>(
-      std::move(description), &Combustion::kinetics,
-      [](std::string& word, const Value& value) { word = std::get<std::string>(value); },
-      [](const std::string& word) { return word; });
+      "stays kinetics.heat_of_reaction.",
+      "", &Combustion::kinetics);
+  key.kind = KeyKind::word;
+  key.words = names_of(shipped_decompositions());
+  key.words.emplace_back(effective_kinetics);
+  return key;
 }
 
 std::vector<Key<Combustion>> combustion_keys() {

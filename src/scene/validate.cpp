@@ -33,7 +33,7 @@ void check_names(const SceneFile& file) {
   if (file.scene.bodies.empty())
     throw fault_at(file, "body", "no body", "at least one [[body]] with name, material, x and r");
   check_names_of(file, "body", "body", file.scene.bodies);
-  return check_names_of(file, "observation_point", "observation point", file.scene.output.observation_points);
+  check_names_of(file, "observation_point", "observation point", file.scene.output.observation_points);
 }
 
 void check_charge_fits(const SceneFile& file) {
@@ -97,19 +97,16 @@ void check_cell_size(const SceneFile& file) {
 void check_formulation(const SceneFile& file) {
   const Numerics& numerics = file.scene.numerics;
   if (numerics.formulation == Formulation::total_lagrangian) return;
-  const Numerics usual;
-  const std::string even = " with formulation \"updated-lagrangian\", whose grid is even";
-  for (const auto& [key, found, allowed] :
-       {std::tuple{"numerics.growth_x", numerics.growth_x, usual.growth_x},
-        std::tuple{"numerics.growth_r", numerics.growth_r, usual.growth_r}})
-    if (found < allowed || found > allowed)
-      throw fault_at(file, key, fmt::format("{:g}", found), fmt::format("{:g}{}", allowed, even));
+  const std::string with_it = " with formulation \"updated-lagrangian\", ",
+                    even = with_it + "whose grid is even";
+  for (const auto& [key, factor, allowed] : {std::tuple{"numerics.growth_x", numerics.growth_x, "1" + even},
+                                             {"numerics.growth_r", numerics.growth_r, "1" + even},
+                                             {"numerics.selective_inertia", numerics.selective_inertia,
+                                              "1" + with_it + "which has one factor on all inertia"}})
+    if (factor > 1.0) throw fault_at(file, key, fmt::format("{:g}", factor), allowed);
   for (const auto& [key, places] : {std::pair{"numerics.refined_x", &numerics.refined_x},
                                     std::pair{"numerics.refined_r", &numerics.refined_r}})
     if (!places->empty()) throw fault_at(file, key, length_text(places->front()), "absent" + even);
-  if (numerics.selective_inertia > 1.0)
-    throw fault_at(file, "numerics.selective_inertia", fmt::format("{:g}", numerics.selective_inertia),
-                   "1 with formulation \"updated-lagrangian\", which has one factor on all inertia");
 }
 
 /// Refined lines belong to the bodies.

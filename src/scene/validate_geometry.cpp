@@ -17,19 +17,6 @@ std::string exact_range(double begin, double end) {
   return fmt::format("{:.10g} to {}", in_unit(begin, Dimension::length, "cm"), centimetres(end));
 }
 
-/// The extent of a body along one axis.
-struct Axis {
-  const char* name;
-  double Body::*begin;
-  double Body::*end;
-};
-constexpr Axis axis_x{"x", &Body::x_begin, &Body::x_end}, axis_r{"r", &Body::r_begin, &Body::r_end};
-
-/// How far two bodies overlap along an axis, m; less than 0 for a distance.
-double overlap(const Body& a, const Body& b, const Axis& along) {
-  return std::min(a.*along.end, b.*along.end) - std::max(a.*along.begin, b.*along.begin);
-}
-
 /// Of a body that begins or ends near a place (m); `what` lies there.
 InputError fault_of(const SceneFile& file, const Body& body, const Axis& along, bool at_end, double place,
                     const std::string& what) {
@@ -119,7 +106,7 @@ void check_hold(const SceneFile& file) {
       file, fmt::format("body.{}.x", body.name),
       fmt::format("\"{}\", r {}, where no face holds it to \"{}\"", exact_range(body.x_begin, body.x_end),
                   exact_range(body.r_begin, body.r_end), bodies.front().name),
-      "bodies that hold each other through shared faces, directly or through others", {});
+      "bodies that hold each other through shared faces, directly or through others");
 }
 
 void check_chamber(const SceneFile& file) {
@@ -131,8 +118,7 @@ void check_chamber(const SceneFile& file) {
       fmt::format("a driving band in a ring of the full radius, {}, that closes the chamber by itself "
                   "and with it the charge (the formulation \"total-lagrangian\" where not the "
                   "rearmost face alone is behind it)",
-                  centimetres(extent_of(file.scene).r_end)),
-      {});
+                  centimetres(extent_of(file.scene).r_end)));
 }
 
 }  // namespace
