@@ -365,6 +365,31 @@ const StudyEvidence& SafetyEvidence::main() const {
   return found != studies.end() ? *found : studies.front();
 }
 
+namespace safety {
+namespace {
+
+/// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
+/// and all thinner ones SAFE too.
+void hold_against_closing_gaps(SafetyEvidence& evidence) {
+  const StudyEvidence* closing = evidence.find(tells::closing);
+  if (closing == nullptr) return;
+  const Row& judged = closing->rows("verdicts");
+  const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
+  Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
+  for (Row& row : study["verdicts"]) {
+    if (text_of(row, "verdict") != "SAFE" || number_of(row, "gap_cm") <= largest) continue;
+    row["verdict"] = "INDETERMINATE";
+    row[quantity::reason_code.key()] = to_string(study::ReasonCode::closing_corner);
+    row["reason"] = row["cause"] = "where the gap closes it is not SAFE: " + closing->label;
+  }
+  for (Row& row : study["cases"])
+    if (number_of(row, "largest_safe_gap_cm") > largest)
+      row["largest_safe_gap_cm"] = largest < 0.0 ? Row() : Row(largest);
+}
+
+}  // namespace
+}  // namespace safety
+
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) try {
   SafetyEvidence evidence;
   for (const std::filesystem::path& folder : folders)
@@ -376,6 +401,7 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesy
   safety::compare_studies(evidence);
   safety::check_agreement(evidence);
   safety::read_stored_runs(evidence);
+  safety::hold_against_closing_gaps(evidence);
   return evidence;
 } catch (const store::Error& error) {
   return error;

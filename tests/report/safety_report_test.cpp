@@ -227,12 +227,31 @@ TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirG
 TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOtherwise) {
   const path closing = shipped("closing_gap_155mm");
   const std::string page = file_of({shipped("critical_gap_155mm"), closing}, "report.md");
-  EXPECT_TRUE(has(page.substr(0, page.find("## 2.")), "worst corner), it ignites at 0 cm: no verdict of A"));
+  EXPECT_TRUE(has(page.substr(0, page.find("## 2.")), "worst corner), it ignites at 0 cm. The air of A"));
   EXPECT_TRUE(has(page, "the base takes heat): no ignition up to 0.075 cm."));
   EXPECT_TRUE(has(page, "**Both models of the gap"));
-  EXPECT_TRUE(has(page, "is 0.02 cm, at 300 K before launch."))
-      << "A is the main study, whichever comes first";
+  EXPECT_TRUE(has(page, "The critical gap is 0.038")) << "A is the main study, whichever comes first";
   EXPECT_TRUE(has(file_of({closing}, "report.md"), "No computed gap has the verdict SAFE"));
+}
+
+// Issue 34: SAFE only where the reservoir is SAFE and the worst corner of a gap that closes does not ignite.
+TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
+  const path reservoir = shipped("critical_gap_155mm"), closing = copy_of("closing_gap_155mm");
+  const auto criterion = *parse_criterion("margin >= 1.5 uncertainty", "works standard 12");
+  const auto answer = [&](const std::vector<path>& studies) {
+    return nlohmann::json::parse(file_of(studies, "report.json", criterion))["answer"];
+  };
+  EXPECT_EQ(answer({reservoir})["recommended_gap_cm"], 0.02);
+  const auto none = answer({reservoir, closing});
+  EXPECT_TRUE(none["recommended_gap_cm"].is_null());
+  EXPECT_TRUE(none["largest_safe_gap_cm"].is_null());
+  EXPECT_EQ(none["cases"][0]["SAFE"], 0);
+  EXPECT_TRUE(has(file_of({reservoir, closing}, "report.md"), "where the gap closes it is not SAFE: B"));
+  change(closing, [](auto& results) {
+    results["cases"][0]["critical_gap_at_least_cm"] = 0.015;
+    for (const std::size_t row : {0, 1}) results["verdicts"][row]["verdict"] = "SAFE";
+  });
+  EXPECT_EQ(answer({reservoir, closing})["recommended_gap_cm"], 0.01);
 }
 
 /// Sentences are taken from lists, whatever parentheses and words a reason has.
