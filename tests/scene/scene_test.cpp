@@ -146,7 +146,8 @@ TEST(PressureHistory, DrivesAsFarAndFastAsItsIntegralsOfAnyShape) {
   }
   load.muzzle_exit = 15e-3;
   expect_driven_as_finely(load, 18e-3);
-  load = Load{.shape = LoadShape::power_exponential};
+  load = Load();
+  load.shape = LoadShape::power_exponential;
   for (const double exponent : {1.0, 13.578, 50.0}) {
     load.exponent = exponent;
     expect_driven_as_finely(load, 18e-3);
