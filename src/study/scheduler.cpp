@@ -158,7 +158,7 @@ int limited(int cores, double quota, double period) {
 constexpr double unlimited = math::infinity;
 
 /// The number in a file; infinity where there is none ("max", no such file).
-double number_in(const fs::path& file) {
+double number_read_from(const fs::path& file) {
   std::ifstream stream(file);
   double number = 0;
   return stream >> number ? number : unlimited;
@@ -177,7 +177,7 @@ double machine_memory() {
 /// What a limit leaves beside what is used, by the numbers in two files (bytes), of which `given_up` may go.
 /// In version 1 the limit is a huge number where there is none.
 double left_of(const fs::path& limit_file, const fs::path& used_file, double given_up) {
-  const double limit = number_in(limit_file), used = number_in(used_file);
+  const double limit = number_read_from(limit_file), used = number_read_from(used_file);
   if (!(limit < 1e15)) return unlimited;
   return std::max(0.0, limit - (used == unlimited ? 0.0 : used) + given_up);
 }
