@@ -20,7 +20,7 @@ void check_record(const study::AccuracyRecord& record) {
   const auto again = study::parse_accuracy_record(written, "accuracy.json");
   fuzz::require(again.has_value(), "a record can be written and read", written);
   fuzz::require(study::to_json_text(*again) == written, "what was written is the same record", written);
-  fuzz::require(record.rise > 0.0 && !record.launch.gaps.empty(), "a record is of a launch", written);
+  fuzz::require(record.rise > 0.0 && !record.launch.shape.empty(), "a record is of a launch", written);
   const study::RecordedSetting* nearest = study::most_accurate(record);
   for (const study::RecordedSetting& each : record.settings) {
     const double least = 1e-5, most = 10.0 * study::highest_recorded_temperature;
