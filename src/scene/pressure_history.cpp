@@ -7,7 +7,6 @@
 // clang-format off
 #include <math.h>  // Boost 1.74's pchip.hpp calls ::isnan without including it, so this comes first.
 #include <boost/math/interpolators/pchip.hpp>
-#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -194,8 +193,12 @@ RigidMotion PressureHistory::drive(double until, std::optional<double> goal) con
       double, boost::math::policies::policy<domain_error<ignored>, evaluation_error<ignored>>>
       shape_rule;
   constexpr double tolerance = 1e-4;  // of its last step but one; each step squares the error
-  // A curve is cubic between its points, and so is the integral of two nodes.
-  using CurveRule = boost::math::quadrature::gauss<double, 2>;
+  // Gauss's rule of two nodes: a curve is cubic between its points, and of cubics it is exact.
+  const auto curve_rule = [](const auto& push, double begin, double end) {
+    const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin),
+                 beside = half / std::numbers::sqrt3;
+    return half * (push(middle - beside) + push(middle + beside));
+  };
   const std::vector<double> marks = marks_between(load_, 0.0, until, exit_);
   RigidMotion motion;
   for (std::size_t i = 1; i < marks.size(); ++i) {
@@ -203,7 +206,7 @@ RigidMotion PressureHistory::drive(double until, std::optional<double> goal) con
       const auto push = [&](double time) { return std::complex(1.0, end - time) * at(time); };
       const std::complex<double> gained = load_.curve_time.empty()
                                               ? shape_rule.integrate(push, begin, end, tolerance)
-                                              : CurveRule::integrate(push, begin, end);
+                                              : curve_rule(push, begin, end);
       return {motion.velocity + gained.real(),
               motion.travel + motion.velocity * (end - begin) + gained.imag(), end};
     };
