@@ -335,7 +335,7 @@ std::vector<const toml::table*> variants_in(const StudySource& source, const Stu
     if (!table.contains(variants_key)) continue;
     if (!variants.empty())
       refuse_if(error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                                "all variants in one [[vary]]"));
+                         "all variants in one [[vary]]"));
     variants = taken(study::tables_of(table, variants_key, study), table_name);
   }
   if (variants.empty())
