@@ -53,7 +53,8 @@ void describe_calibration(RecordObject& object, CalibrationRecord& record) {
   object.value("station_change_from_coarser_K", record.stations.coarser, temperature_or_none);
 }
 
-constexpr RecordFormat firing_format{"launchsafe firing record 1", "calibration.json",
+/// Those of format 1 may have started from constants at a guess.
+constexpr RecordFormat firing_format{"launchsafe firing record 2", "calibration.json",
                                      "a study of kind calibration with firings"};
 constexpr std::size_t most_firings = 1000, most_points = 10'000;
 
@@ -106,7 +107,10 @@ void describe_firing_record(RecordObject& object, CalibrationRecord& record) {
   record.calibration.firings = std::make_shared<const FiringEvidence>(std::move(firings));
 }
 
-bool is_firing_record(const std::string& text) { return text.find(firing_format.name) != std::string::npos; }
+/// Of this format or an earlier one, which is refused as such.
+bool is_firing_record(const std::string& text) {
+  return text.find("launchsafe firing record") != std::string::npos;
+}
 
 constexpr std::array constants{"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"};
 constexpr std::array load_shape{"load.shape", "load.peak_time", "load.width", "load.steepness"};

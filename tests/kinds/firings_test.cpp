@@ -285,6 +285,21 @@ TEST_F(StudyOnFirings, RefusesAnEditedRecord) {
   EXPECT_NE(study.error().message().find("digest"), std::string::npos) << study.error().message();
 }
 
+// Records of format 1 may have started from constants at a guess, with which thick gaps were SAFE.
+TEST_F(StudyOnFirings, RefusesARecordOfAnEarlierFormat) {
+  const FiringResult result = fire(firing("no ignition", 60, "0.6 mm"));
+  ASSERT_TRUE(result.record);
+  std::string text = to_json_text(*result.record);
+  const std::string format = "launchsafe firing record 2";
+  ASSERT_NE(text.find(format), std::string::npos);
+  text.replace(text.find(format), format.size(), "launchsafe firing record 1");
+  write(text);
+  const auto study = read("");
+  ASSERT_FALSE(study);
+  EXPECT_NE(study.error().message().find("launchsafe firing record 1"), std::string::npos)
+      << study.error().message();
+}
+
 TEST_F(StudyOnFirings, RefusesFiringsThatStartFromFirings) {
   record(firing("no ignition", 5, "0.2 mm"));
   const auto study = kinds::parse_study(
