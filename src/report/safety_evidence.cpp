@@ -4,6 +4,7 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/study/closing_gaps.hpp"
 #include "safety_facts.hpp"
 
 namespace launchsafe::report {
@@ -96,6 +97,20 @@ bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical
          (kind == "value" && gap < at_least);
 }
 
+/// Whether all launches that this program takes looked for the worst corner of a gap (cm) that closes.
+bool corner_is_whole(const CaseEvidence& judged, double gap) {
+  const auto scene = judged.scene();
+  if (!scene) return false;
+  study::StudyCase input;
+  input.scene = *scene;
+  input.closing = scene->scene.surface;
+  const std::size_t wanted = study::closing_bounds(input).back().terms.size();
+  return std::ranges::any_of(judged.study->rows("closing"), [&](const Row& row) {
+    return text_of(row, "case") == judged.label && number_of(row, "gap_cm") == gap &&
+           number_of(row, "corner_launches") >= static_cast<double>(wanted);
+  });
+}
+
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
 void check_verdicts(const StudyEvidence& study) {
   if (!study.study.contains("verdicts")) return;
@@ -116,6 +131,16 @@ void check_verdicts(const StudyEvidence& study) {
                       number_of(verdicts[i], "gap_cm")),
           "verdicts as a study writes them");
   }
+  if (!closes(study)) return;
+  for (const CaseEvidence& judged : cases_of(study))
+    for (const Row* verdict : judged.verdicts)
+      if (text_of(*verdict, "verdict") == "SAFE" && !corner_is_whole(judged, number_of(*verdict, "gap_cm")))
+        refuse(
+            study, results,
+            fmt::format("a gap of {} cm is called SAFE, and fewer launches looked for its worst corner than "
+                        "this program takes",
+                        number_of(*verdict, "gap_cm")),
+            "a study that this program made");
 }
 
 StudyEvidence read_study(const path& folder, std::size_t number) {
@@ -300,7 +325,7 @@ bool is_of_launch(const study::Difference& difference) {
 }
 
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
-  if (study.tells != tells::launch && study.tells != tells::sweep) return {};
+  if (study.tells != tells::launch && study.tells != tells::sweep && study.tells != tells::closing) return {};
   // Peak pressure and defect stand in every table of cases or verdicts.
   Row axes = study.rows("axes");
   for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure},

@@ -111,6 +111,12 @@ Work work_of(const Load& load) {
   return {work_along(pressures), noiseless};
 }
 
+/// A number (> 0) with so many digits.
+double in_digits(double value, int digits) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
+  return unit * std::round(value / unit);
+}
+
 /// A number with two digits, rounded up.
 double rounded_up(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
@@ -205,18 +211,35 @@ std::string size_text(const Ring& ring, const Load& load) {
                      100.0 * ring.amplitude / PressureHistory(load).stated_peak());
 }
 
+/// Pa, the peak of a pulse without a ring of a period (s), of which averages over one, two and four periods
+/// have nothing. What they take from a pulse that falls as |t|^n about its peak grows 2^n-fold from each to
+/// the next, from which follows what an average over nothing would have (Aitken's extrapolation); no more
+/// than the record.
+double peak_without_ring(const Load& load, double period) {
+  const PressureHistory one(averaged(load, period));
+  const auto at_peak = [&](double window) {
+    return PressureHistory(averaged(load, window)).at(one.peak_time());
+  };
+  const double two = at_peak(2.0 * period), four = at_peak(4.0 * period), record = one.stated_peak();
+  const double growth = (two - four) / (one.peak() - two);
+  return growth > 1.0 ? std::min(record, one.peak() + (one.peak() - two) / (growth - 1.0)) : record;
+}
+
 /// How to take a ring away: averages over its period have none of it.
 std::string removal_text(const Load& load) {
   if (const auto gone = smoothed_ring(load)) return "; it took away a ring at " + size_text(*gone, load);
   const auto ring = ring_of(load);
   if (!ring) return {};
-  // In three digits, which its frequency bears.
-  const double digit = std::pow(10.0, std::floor(-std::log10(ring->frequency)) - 2.0);
-  const Load smoothed = averaged(load, digit * std::round(1.0 / ring->frequency / digit));
-  return fmt::format(
+  const double period = in_digits(1.0 / ring->frequency, 3);  // which its frequency bears
+  const std::string text = fmt::format(
       "; if the ring is the gauge's own, load.smoothing = \"{}\", its period, takes it away, and {} from the "
       "peak",
-      time_text(smoothed.smoothing), percent(peak_lost_to_smoothing(smoothed)));
+      time_text(period), percent(peak_lost_to_smoothing(averaged(load, period))));
+  if (load.rescale_to_peak) return text;
+  const double peak = in_digits(peak_without_ring(without_exit(load), period), 4);
+  return text +
+         fmt::format("; load.rescale_to_peak = true and load.peak = \"{}\" give the pulse its own back",
+                     pressure_text(peak));
 }
 
 std::string smoothing_text(const Load& load) {

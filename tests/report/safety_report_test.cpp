@@ -247,11 +247,18 @@ TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
   EXPECT_TRUE(none["largest_safe_gap_cm"].is_null());
   EXPECT_EQ(none["cases"][0]["SAFE"], 0);
   EXPECT_TRUE(has(file_of({reservoir, closing}, "report.md"), "where the gap closes it is not SAFE: B"));
+  static constexpr int corner_launches = 2 * 8;  // flows of air, instants of release
   change(closing, [](auto& results) {
     results["cases"][0]["critical_gap_at_least_cm"] = 0.015;
-    for (const std::size_t row : {0, 1}) results["verdicts"][row]["verdict"] = "SAFE";
+    for (const std::size_t row : {0, 1}) {
+      results["verdicts"][row]["verdict"] = "SAFE";
+      results["closing"][row]["corner_launches"] = corner_launches;
+    }
   });
   EXPECT_EQ(answer({reservoir, closing})["recommended_gap_cm"], 0.01);
+  // An earlier program looked at fewer instants of release.
+  change(closing, [](auto& results) { results["closing"][1]["corner_launches"] = corner_launches - 1; });
+  EXPECT_TRUE(has(fault_of({reservoir, closing}), "fewer launches looked for its worst corner"));
 }
 
 /// Sentences are taken from lists, whatever parentheses and words a reason has.
