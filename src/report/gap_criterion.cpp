@@ -1,5 +1,5 @@
-// The criterion under which a user recommends a largest gap.
-#include "launchsafe/report/safety_report.hpp"
+#include "launchsafe/report/gap_criterion.hpp"
+
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <regex>

@@ -77,26 +77,6 @@ std::string told_by(const StudyEvidence& study) {
   return first_has("cases", "variant") ? tells::models : tells::nothing;
 }
 
-/// Whether a gap's own numbers, and the critical gap of its case, allow it to be called SAFE.
-bool may_be_safe(const StudyEvidence& study, const Row& row, const Row& critical) {
-  constexpr double slack = 1e-6;  // K
-  const double margin = number_of(row, "margin_K"), gap = number_of(row, "gap_cm"),
-               at_least = number_of(critical, "critical_gap_at_least_cm");
-  if (!(margin > 0.0)) return false;
-  // Of many cases whose gaps close the worst corner was not computed.
-  if (study.tells == tells::sweep && closes(study)) return false;
-  for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
-    if (!text_of(row, fault).empty()) return false;
-  // Another ignition temperature than the scene's may be what a sweep is over.
-  const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
-  if (study.tells != tells::sweep &&
-      !(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack))
-    return false;
-  const std::string kind = text_of(critical, "critical_gap_kind");
-  return (kind == "all-safe" && gap <= at_least && margin > number_of(row, "uncertainty_K")) ||
-         (kind == "value" && gap < at_least);
-}
-
 /// Whether all launches that this program takes looked for the worst corner of a gap (cm) that closes.
 bool corner_is_whole(const CaseEvidence& judged, double gap) {
   const auto scene = judged.scene();
@@ -111,6 +91,29 @@ bool corner_is_whole(const CaseEvidence& judged, double gap) {
   });
 }
 
+/// What contradicts a verdict SAFE among the gap's own numbers and those of its case; empty for none.
+std::string contradiction_of(const CaseEvidence& judged, const Row& row) {
+  constexpr double slack = 1e-6;  // K
+  const StudyEvidence& study = *judged.study;
+  const double margin = number_of(row, "margin_K"), gap = number_of(row, "gap_cm"),
+               at_least = number_of(*judged.critical, "critical_gap_at_least_cm");
+  if (!(margin > 0.0)) return "its margin";
+  // Of many cases whose gaps close the worst corner was not computed.
+  if (closes(study) && (study.tells == tells::sweep || !corner_is_whole(judged, gap)))
+    return "its worst corner, for which fewer launches looked than this program takes";
+  for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
+    if (!text_of(row, fault).empty()) return std::string("its ") + fault;
+  // Another ignition temperature than the scene's may be what a sweep is over.
+  const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
+  if (study.tells != tells::sweep &&
+      !(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack))
+    return "its temperature";
+  const std::string kind = text_of(*judged.critical, "critical_gap_kind");
+  const bool is_below = (kind == "all-safe" && gap <= at_least && margin > number_of(row, "uncertainty_K")) ||
+                        (kind == "value" && gap < at_least);
+  return is_below ? "" : "the uncertainty or the critical gap";
+}
+
 /// Rows that are not all there, or whose own numbers contradict their SAFE.
 void check_verdicts(const StudyEvidence& study) {
   if (!study.study.contains("verdicts")) return;
@@ -118,29 +121,18 @@ void check_verdicts(const StudyEvidence& study) {
   if (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0)
     refuse(study, results, fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
            "every gap in every case");
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    if (!verdicts[i].contains(quantity::reason_code.key()) || !study.study.contains("extrapolated"))
-      refuse(study, results, "an earlier program wrote these verdicts, without what they rest on as columns",
-             "a study that this program made");
-    if (text_of(verdicts[i], "verdict") == "SAFE" &&
-        !may_be_safe(study, verdicts[i], cases[i * cases.size() / verdicts.size()]))
-      refuse(
-          study, results,
-          fmt::format("a gap of {} cm is called SAFE, which its temperature, its margin, the uncertainty or "
-                      "the critical gap contradicts",
-                      number_of(verdicts[i], "gap_cm")),
-          "verdicts as a study writes them");
-  }
-  if (!closes(study)) return;
+  const auto has_code = [](const Row& row) { return row.contains(quantity::reason_code.key()); };
+  if (!study.study.contains("extrapolated") || !std::ranges::all_of(verdicts, has_code))
+    refuse(study, results, "an earlier program wrote these verdicts, without what they rest on as columns",
+           "a study that this program made");
   for (const CaseEvidence& judged : cases_of(study))
     for (const Row* verdict : judged.verdicts)
-      if (text_of(*verdict, "verdict") == "SAFE" && !corner_is_whole(judged, number_of(*verdict, "gap_cm")))
-        refuse(
-            study, results,
-            fmt::format("a gap of {} cm is called SAFE, and fewer launches looked for its worst corner than "
-                        "this program takes",
-                        number_of(*verdict, "gap_cm")),
-            "a study that this program made");
+      if (text_of(*verdict, "verdict") == "SAFE")
+        if (const std::string contradiction = contradiction_of(judged, *verdict); !contradiction.empty())
+          refuse(study, results,
+                 fmt::format("a gap of {} cm is called SAFE against {}", number_of(*verdict, "gap_cm"),
+                             contradiction),
+                 "verdicts as a study of this program writes them");
 }
 
 StudyEvidence read_study(const path& folder, std::size_t number) {
@@ -270,6 +262,25 @@ void check_agreement(const SafetyEvidence& evidence) {
     }
 }
 
+/// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
+/// and all thinner ones SAFE too.
+void hold_against_closing_gaps(SafetyEvidence& evidence) {
+  const StudyEvidence* closing = evidence.find(tells::closing);
+  if (closing == nullptr) return;
+  const Row& judged = closing->rows("verdicts");
+  const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
+  Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
+  for (Row& row : study["verdicts"]) {
+    if (text_of(row, "verdict") != "SAFE" || number_of(row, "gap_cm") <= largest) continue;
+    row["verdict"] = "INDETERMINATE";
+    row[quantity::reason_code.key()] = to_string(study::ReasonCode::closing_corner);
+    row["reason"] = row["cause"] = "where the gap closes it is not SAFE: " + closing->label;
+  }
+  for (Row& row : study["cases"])
+    if (number_of(row, "largest_safe_gap_cm") > largest)
+      row["largest_safe_gap_cm"] = largest < 0.0 ? Row() : Row(largest);
+}
+
 // --- the stored runs of the main study ---
 
 /// Gaps of a case, evaluated again on its stored run: one that is called SAFE must be as warm as its verdict
@@ -389,31 +400,6 @@ const StudyEvidence& SafetyEvidence::main() const {
       studies, [](const StudyEvidence& study) { return !study.finished() || study.tells == tells::sweep; });
   return found != studies.end() ? *found : studies.front();
 }
-
-namespace safety {
-namespace {
-
-/// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
-/// and all thinner ones SAFE too.
-void hold_against_closing_gaps(SafetyEvidence& evidence) {
-  const StudyEvidence* closing = evidence.find(tells::closing);
-  if (closing == nullptr) return;
-  const Row& judged = closing->rows("verdicts");
-  const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
-  Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
-  for (Row& row : study["verdicts"]) {
-    if (text_of(row, "verdict") != "SAFE" || number_of(row, "gap_cm") <= largest) continue;
-    row["verdict"] = "INDETERMINATE";
-    row[quantity::reason_code.key()] = to_string(study::ReasonCode::closing_corner);
-    row["reason"] = row["cause"] = "where the gap closes it is not SAFE: " + closing->label;
-  }
-  for (Row& row : study["cases"])
-    if (number_of(row, "largest_safe_gap_cm") > largest)
-      row["largest_safe_gap_cm"] = largest < 0.0 ? Row() : Row(largest);
-}
-
-}  // namespace
-}  // namespace safety
 
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) try {
   SafetyEvidence evidence;

@@ -258,7 +258,7 @@ TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
   EXPECT_EQ(answer({reservoir, closing})["recommended_gap_cm"], 0.01);
   // An earlier program looked at fewer instants of release.
   change(closing, [](auto& results) { results["closing"][1]["corner_launches"] = corner_launches - 1; });
-  EXPECT_TRUE(has(fault_of({reservoir, closing}), "fewer launches looked for its worst corner"));
+  EXPECT_TRUE(has(fault_of({reservoir, closing}), "SAFE against its worst corner, for which fewer launches"));
 }
 
 /// Sentences are taken from lists, whatever parentheses and words a reason has.
