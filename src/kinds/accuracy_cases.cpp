@@ -31,7 +31,7 @@ void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
 void check_reference_meshes(StudyFile& study) {
   std::vector<double>& sizes = own(study).reference_cell_sizes;
   std::ranges::sort(sizes);
-  refuse_if(check_twice(study, meshes_key, Dimension::length, sizes));
+  check_twice(study, meshes_key, Dimension::length, sizes);
   if (sizes.size() < least_reference_meshes)
     refuse_at(study, meshes_key, fmt::format("{} cell sizes", sizes.size()),
               fmt::format("at least {}, from which the reference is extrapolated", least_reference_meshes));
@@ -105,7 +105,7 @@ void check_setting_count(StudyFile& study) {
     for (const SettingsAxis& axis : block) product *= static_cast<double>(axis.size());
     count += product;
   }
-  refuse_if(check_count(study, "settings", count, "every combination of [[settings]]"));
+  check_count(study, "settings", count, "every combination of [[settings]]");
 }
 
 void read_settings(const toml::table& root, StudyFile& study) {
@@ -158,11 +158,11 @@ std::string name_of_variant(const toml::table& table, StudyFile& study) {
   const std::string name = node ? node->value_or(std::string{}) : std::string{};
   const Place place = scene::place_of(node ? *node : table, study.file);
   if (name.empty() || name.size() > longest || name.find_first_not_of(allowed) != std::string::npos)
-    refuse_if(error_at(place, "variant.name", node ? found_text(*node) : "no name",
-                       fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest)));
+    throw error_at(place, "variant.name", node ? found_text(*node) : "no name",
+                   fmt::format("up to {} letters, digits, \"_\", \".\" and \"-\"", longest));
   if (keys::find_named(own(study).variants, name) != nullptr)
-    refuse_if(error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
-                       "a name that no other variant has"));
+    throw error_at(place, "variant.name", fmt::format("\"{}\" a second time", name),
+                   "a name that no other variant has");
   return name;
 }
 
@@ -175,8 +175,8 @@ void add_variant(const StudySource& source, std::size_t index, StudyFile& study)
   table.erase("name");
   for (const char* common : {"kind", variant_key})
     if (const toml::node* node = table.get(common))
-      refuse_if(error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common),
-                         found_text(*node), "keys of a study that variants may have otherwise"));
+      throw error_at(scene::place_of(*node, study.file), fmt::format("variant.{}", common), found_text(*node),
+                     "keys of a study that variants may have otherwise");
   move_into(root, table);
   StudyFile variant =
       taken(read_study_table({root, source.text, source.folder, source.tolerance}, study.file,
@@ -195,7 +195,7 @@ std::vector<const toml::table*> variants_of(const StudySource& source, const Stu
   constexpr const char* allowed = "tables, each written [[variant]], with a name and what it has otherwise";
   const auto tables = taken(scene::tables_of(source.root, variant_key, study.file, allowed));
   if (const toml::node* node = source.root.get(variant_key); node != nullptr && tables.empty())
-    refuse_if(error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed));
+    throw error_at(scene::place_of(*node, study.file), variant_key, "no variant", allowed);
   return tables;
 }
 

@@ -223,7 +223,7 @@ void compare_stations(CalibrationResult& result) {
 void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
   result.in_scene = surface::constants_of(surface::skin_model(study.scene.scene));
-  const CalibrationTargets targets = *calibration_targets(study);  // reading refuses a study without them
+  const CalibrationTargets targets = calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
   for (const StudyCase& input : study.cases) {
     CalibrationRun& run = result.runs.emplace_back(input);
@@ -269,7 +269,7 @@ CalibrationResult run_calibration(const StudyFile& study, const StudyOptions& op
 }
 
 std::optional<CalibrationRecord> record_of(const CalibrationResult& result) {
-  const auto targets = calibration_targets(result.study);
+  const auto targets = scene::caught([&] { return calibration_targets(result.study); });
   if (!targets || result.interrupted) return std::nullopt;
   CalibrationRecord record;
   record.title = result.study.study.title;

@@ -9,29 +9,29 @@ using study::Firing, study::fitted_keys;
 
 namespace {
 
-scene::InputError missing(const StudyFile& study, std::string found, std::string allowed) {
+[[noreturn]] void refuse_rows(const StudyFile& study, std::string found, std::string allowed) {
   const char* at = study.places.contains("reference.0.gap") ? "reference.0.gap" : "kind";
-  return error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
+  throw error_at(place_of_key(study, at), "reference", std::move(found), std::move(allowed));
 }
 
 /// What a fit of the load needs besides: a bell, and no fewer numbers than unknowns.
-study::Fault check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
+void check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
   constexpr const char* key = "load_fitted";
   const Load& load = study.scene.scene.load;
   if (!load.curve_time.empty())
-    return fault_at(study, key, "a load to be fitted beside a measured curve",
-                    "load_fitted = false, or a scene without load.curve");
+    refuse_at(study, key, "a load to be fitted beside a measured curve",
+              "load_fitted = false, or a scene without load.curve");
   if (load.shape != scene::LoadShape::bell)
-    return fault_at(study, key, fmt::format("a load of shape \"{}\"", word_of(load.shape)),
-                    "load.shape = \"bell\", whose peak time, width and steepness are fitted");
+    refuse_at(study, key, fmt::format("a load of shape \"{}\"", word_of(load.shape)),
+              "load.shape = \"bell\", whose peak time, width and steepness are fitted");
   const std::size_t numbers = fitted_numbers(targets.zero_gap) + fitted_numbers(targets.wide_gap);
-  if (numbers >= fitted_keys.size()) return std::nullopt;
-  return fault_at(
-      study, key,
-      fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
-      fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and rise_ends in the "
-                  "two rows together",
-                  fitted_keys.size()));
+  if (numbers < fitted_keys.size())
+    refuse_at(
+        study, key,
+        fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
+        fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and rise_ends in the "
+                    "two rows together",
+                    fitted_keys.size()));
 }
 
 const std::vector<Key<CalibrationSettings>> calibration_keys{
@@ -149,7 +149,7 @@ std::vector<Key<Study>> firing_keys() {
 
 void read_firings(const toml::table& root, StudyFile& study) {
   std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
-  refuse_if(study::read_rows(root, "firing", firing_row_keys, study.file, study, firings));
+  study::read_rows(root, "firing", firing_row_keys, study.file, study, firings);
   for (std::size_t place = 0; place < firings.size(); ++place) {
     complete(firings[place], study.scene.scene);
     check_curve(study, firings[place], place);
@@ -199,15 +199,13 @@ void read_calibration(const StudySource& source, StudyFile& study) {
   read_firings(source.root, study);
   check_firings(study);
   read_references(source, study);
-  refuse_if(
-      add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes));
+  add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes);
 }
 
 void make_calibration_cases(const StudySource&, StudyFile& study) {
   if (!firings_of(study).empty()) return make_firing_cases(study);
-  taken(calibration_targets(study));
-  refuse_if(make_factorial(
-      study, [](const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); }));
+  calibration_targets(study);
+  make_factorial(study, [](const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); });
 }
 
 /// Of the launches that a result has in `runs`.
@@ -227,7 +225,7 @@ StudyOutcome run(const StudyFile& study, const StudyOptions& options) {
 
 }  // namespace
 
-Expected<CalibrationTargets> calibration_targets(const StudyFile& study) {
+CalibrationTargets calibration_targets(const StudyFile& study) {
   CalibrationTargets targets;
   double safe = -1.0, igniting = 1e300;
   int zero = 0, wide = 0;
@@ -242,22 +240,20 @@ Expected<CalibrationTargets> calibration_targets(const StudyFile& study) {
     ++(is_zero ? zero : wide);
     (is_zero ? targets.zero_gap : targets.wide_gap) = row;
     if (!std::isfinite(row.maximum_temperature))
-      return missing(study, "a calibrated row without maximum_temperature", "one with it");
+      refuse_rows(study, "a calibrated row without maximum_temperature", "one with it");
   }
   if (zero != 1 || wide != 1)
-    return missing(study, fmt::format("{} calibrated rows at gap 0 and {} at other gaps", zero, wide),
-                   "one calibrated row at gap 0 (sets the localisation) and one at another gap that does not "
-                   "ignite (sets the exchange time)");
+    refuse_rows(study, fmt::format("{} calibrated rows at gap 0 and {} at other gaps", zero, wide),
+                "one calibrated row at gap 0 (sets the localisation) and one at another gap that does not "
+                "ignite (sets the exchange time)");
   if (igniting > 1.0 || !(safe < igniting))
-    return missing(study,
-                   igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
-                   "rows with an ignition_time, all at larger gaps than the rows without");
+    refuse_rows(study, igniting > 1.0 ? "no row that ignites" : "a row that ignites below one that does not",
+                "rows with an ignition_time, all at larger gaps than the rows without");
   targets.safe_gap = safe;
   targets.igniting_gap = igniting;
   targets.load_fitted = settings_of<CalibrationSettings>(study).load_fitted;
   targets.early_time = study.study.early_time;
-  if (targets.load_fitted)
-    if (const study::Fault fault = check_fit_of_load(study, targets)) return *fault;
+  if (targets.load_fitted) check_fit_of_load(study, targets);
   return targets;
 }
 

@@ -37,8 +37,8 @@ std::vector<double> weighted_misfits(const SkinModel& model, const BottomTrace& 
 /// has values that are not plausible and that nobody accepted. Empty for a sound one.
 std::string calibration_validity_warnings(const Scene& scene, const MechanicsResult& mechanics);
 
-/// The targets among a study's references, or what is missing.
-scene::Expected<CalibrationTargets> calibration_targets(const StudyFile& study);
+/// The targets among a study's references; throws what is missing.
+CalibrationTargets calibration_targets(const StudyFile& study);
 
 /// Fills the compared numbers, the placements and the root mean squares of a row.
 void compare(const Study& study, const SkinModel& model, const BottomTrace& trace, CalibrationRow& row);

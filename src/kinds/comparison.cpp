@@ -20,7 +20,7 @@ const std::vector<Key<ComparisonSettings>> comparison_keys{
 CalibrationRecord read_calibration_record(const StudyFile& study, const StudySource& source,
                                           const std::string& name, const std::string& key) {
   const std::string text =
-      taken(read_named_file(study, source.folder, key, name, "the calibration.json of a calibration"));
+      read_named_file(study, source.folder, key, name, "the calibration.json of a calibration");
   return taken(study::parse_calibration_record(text, (source.folder / name).string()));
 }
 
@@ -64,7 +64,7 @@ struct VariantMaker {
                  {{"set", source.root.get("set")},
                   {"vary.variants.set", table == nullptr ? nullptr : table->get("set")}},
                  own);
-    refuse_if(check_load_axes(own));
+    check_load_axes(own);
     for (const Axis& axis : own.study.axes)
       if (own.overrides.contains(axis.key.name))
         refuse_at(study, axis.study_key, axis.key.name + ", which a table of scene keys fixes",
@@ -79,7 +79,7 @@ struct VariantMaker {
       refuse_at(study, "early_time",
                 fmt::format("an instant after the launch of variant \"{}\"", variant.name),
                 "a time within the load's duration of every variant");
-    refuse_if(make_factorial(own));
+    make_factorial(own);
     take(std::move(variant), own);
   }
 
@@ -100,8 +100,7 @@ struct VariantMaker {
 
   void take(Variant variant, StudyFile& own) {
     const bool is_first = variants().empty();
-    refuse_if(check_count(study, "vary", static_cast<double>(study.cases.size() + own.cases.size()),
-                          "of all variants"));
+    check_count(study, "vary", static_cast<double>(study.cases.size() + own.cases.size()), "of all variants");
     if (is_first && !own.study.calibration_record.empty())
       variant.calibration =
           read_calibration_record(study, source, own.study.calibration_record, "calibration");

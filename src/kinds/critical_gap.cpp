@@ -259,12 +259,12 @@ void check_raised_load(const StudyFile& study) {
 
 void read_critical_gap(const StudySource& source, StudyFile& study) {
   read_references(source, study);
-  refuse_if(read_cited_limits(source.root, study));
+  read_cited_limits(source.root, study);
 }
 
 void make_critical_gap_cases(const StudySource&, StudyFile& study) {
   if (settings_of<CriticalGapSettings>(study.study).surrogate) check_sweep_surrogate(study);
-  refuse_if(make_factorial(study));
+  make_factorial(study);
   check_raised_load(study);
   const bool few = study.cases.size() <= most_cases_in_detail;
   bool& confirm = settings_of<CriticalGapSettings>(study.study).confirm;

@@ -21,8 +21,8 @@ void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   const auto& [table_name, node] = overrides;
   if (!node) return;
   if (!node->is_table())
-    refuse_if(error_at(scene::place_of(*node, study.file), table_name, found_text(*node),
-                       fmt::format("a table, written [{}], of scene keys", table_name)));
+    throw error_at(scene::place_of(*node, study.file), table_name, found_text(*node),
+                   fmt::format("a table, written [{}], of scene keys", table_name));
   std::vector<Change> changes;
   for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
     const Place place = scene::place_of(*leaf.node, study.file);
@@ -85,14 +85,13 @@ void check_former(const toml::table& root, const std::string& file) {
   const toml::node* kind = root.get("kind");
   const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
   if (name == "sweep")
-    refuse_if(error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
-                       "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
-                       "kind = \"critical-gap\""));
+    throw error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
+                   "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
+                   "kind = \"critical-gap\"");
   for (const FormerKey& former : former_keys)
     if (const toml::node* node = root.get(former.name);
         node != nullptr && (former.kind.empty() || former.kind == name))
-      refuse_if(
-          error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now));
+      throw error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now);
 }
 
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
@@ -138,9 +137,9 @@ void check_kind(const toml::table& root, const Kind& kind, const std::string& fi
   if (others.empty()) return;
   const Leaf first =
       std::ranges::min(others, {}, [](const Leaf& each) { return each.node->source().begin.line; });
-  refuse_if(error_at(scene::place_of(*first.node, file), first.name,
-                     "a key of kind " + scene::quoted_list(kinds_with(first.name)),
-                     "keys of kind \"" + kind.traits.name + '"'));
+  throw error_at(scene::place_of(*first.node, file), first.name,
+                 "a key of kind " + scene::quoted_list(kinds_with(first.name)),
+                 "keys of kind \"" + kind.traits.name + '"');
 }
 
 void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
@@ -150,15 +149,15 @@ void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys,
   check_stated_uncertainties(keys, study);
   for (const std::string& name : tables)
     if (const toml::node* node = root.get(name)) study.places[name] = scene::place_of(*node, study.file);
-  refuse_if(check_twice(study, "gaps", Dimension::length, study.study.gaps));
+  check_twice(study, "gaps", Dimension::length, study.study.gaps);
 }
 
 void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (kind.read != nullptr) kind.read(source, study);
   if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
-  refuse_if(check_load_axes(study));
+  check_load_axes(study);
   settle_acceptances(source.root, keys, study);
-  refuse_if(settle_gaps(study));
+  settle_gaps(study);
   kind.make_cases(source, study);
   // Labels have six digits; cases that they do not tell apart are numbered.
   std::unordered_map<std::string, int> seen;
@@ -191,12 +190,12 @@ study::AccuracyRecords settle_scene(const StudySource& source, const std::vector
                                     StudyFile& study) {
   study.scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
-  refuse_if(use_calibration(study, source.folder));
+  use_calibration(study, source.folder);
   refuse_if(scene::check_expected_velocity(study.scene));
-  refuse_if(read_model_form(study, source.folder));
-  study::AccuracyRecords records = taken(read_records(study, source.folder));
+  read_model_form(study, source.folder);
+  study::AccuracyRecords records = read_records(study, source.folder);
   const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
-  if (std::isfinite(wanted)) refuse_if(choose_setting(study, records, wanted));
+  if (std::isfinite(wanted)) choose_setting(study, records, wanted);
   check_scene(study);
   return records;
 }

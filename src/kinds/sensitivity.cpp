@@ -76,8 +76,8 @@ void add_evaluations(StudyFile& study, const std::function<std::string(std::size
   };
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
     check_limits(study, coordinates(evaluation));
-  refuse_if(add_varied_cases(study, count, coordinates,
-                             [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); }));
+  add_varied_cases(study, count, coordinates,
+                   [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); });
 }
 
 void make_saltelli(StudyFile& study) {
@@ -85,8 +85,8 @@ void make_saltelli(StudyFile& study) {
   const std::vector<SensitivityInput> each_input = inputs_of(s);
   const int rows = settings_of<SensitivitySettings>(s).samples;
   const std::size_t blocks = each_input.size() + 2;
-  refuse_if(check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
-                        fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size())));
+  check_count(study, "samples", static_cast<double>(rows) * static_cast<double>(blocks),
+              fmt::format("{} samples x ({} inputs + 2)", rows, each_input.size()));
   add_evaluations(study, [&](std::size_t evaluation) {
     const std::size_t block = evaluation % blocks;
     const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
@@ -136,8 +136,8 @@ void make_chaos_samples(StudyFile& study) {
   const auto& own = settings_of<SensitivitySettings>(study);
   const auto fitted = static_cast<std::size_t>(own.samples),
              all = fitted + static_cast<std::size_t>(own.held_out);
-  refuse_if(check_count(study, "samples", static_cast<double>(all),
-                        fmt::format("{} samples and {} held out", own.samples, own.held_out)));
+  check_count(study, "samples", static_cast<double>(all),
+              fmt::format("{} samples and {} held out", own.samples, own.held_out));
   const std::size_t fewest = math::fewest_chaos_points(study.study.axes.size());
   if (fitted < fewest)
     refuse_at(study, "samples", fmt::format("{} samples for a fit", fitted),

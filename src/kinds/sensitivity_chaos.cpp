@@ -101,11 +101,17 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points, con
   const std::size_t designed = static_cast<std::size_t>(own.samples + own.held_out);
   StudyFile round = result.study;
   round.cases = {};
-  if (add_varied_cases(
-          round, points.size() / axes,
-          [&](std::size_t row) { return inputs.values_at(math::point_of_row(points, row, axes)); },
-          [&](std::size_t row, const auto&) { return fmt::format("added {}", known - designed + row + 1); }))
+  const auto values_at = [&](std::size_t row) {
+    return inputs.values_at(math::point_of_row(points, row, axes));
+  };
+  const auto label_of = [&](std::size_t row, const auto&) {
+    return fmt::format("added {}", known - designed + row + 1);
+  };
+  try {
+    add_varied_cases(round, points.size() / axes, values_at, label_of);
+  } catch (const scene::InputError&) {
     return false;
+  }
   StudyOptions of_round = options;
   if (options.progress)
     of_round.progress = [&](study::Progress progress) {

@@ -57,8 +57,8 @@ Changed with_keys(const SceneFile& start, const std::vector<OverrideTable>& all,
     if (!node) continue;
     std::vector<Change> earlier = std::exchange(changes, {});
     if (!node->is_table())
-      refuse_if(error_at(scene::place_of(*node, file), name, found_text(*node),
-                         "a table of scene keys, written { key = value, ... }"));
+      throw error_at(scene::place_of(*node, file), name, found_text(*node),
+                     "a table of scene keys, written { key = value, ... }");
     for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
       const Place place = scene::place_of(*leaf.node, file);
       const auto key = taken(scene::describe_key(start, leaf.name, place), name);
@@ -158,9 +158,9 @@ void read_group(const toml::table& group, const StudySource& source, StudyFile& 
   taken(scene::read_table(group, case_keys, {"set", "against", "cases"}, study.file, defaults), "group");
   const toml::node* cases = group.get("cases");
   if (!cases || !cases->is_array_of_tables())
-    refuse_if(error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
-                       cases ? found_text(*cases) : "nothing; the key is missing",
-                       "an array of tables, written [{ name = \"...\", set = { ... } }, ...]"));
+    throw error_at(scene::place_of(cases ? *cases : group, study.file), "group.cases",
+                   cases ? found_text(*cases) : "nothing; the key is missing",
+                   "an array of tables, written [{ name = \"...\", set = { ... } }, ...]");
   for (const toml::node& element : *cases->as_array())
     read_case({study, source, group, *element.as_table(), defaults});
 }
@@ -174,8 +174,8 @@ void make_stability_cases(const StudySource& source, StudyFile& study) {
   for (const toml::table* group : taken(scene::tables_of(source.root, "group", study.file, allowed)))
     read_group(*group, source, study);
   if (study.cases.empty())
-    refuse_if(error_at(place_of_key(study, source.root.contains("group") ? "group" : "kind"), "group",
-                       "no case that runs", allowed));
+    throw error_at(place_of_key(study, source.root.contains("group") ? "group" : "kind"), "group",
+                   "no case that runs", allowed);
 }
 
 /// A case that is WRONG is the worst outcome of a study. No case makes it indeterminate.

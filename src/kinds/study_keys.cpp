@@ -96,15 +96,15 @@ void read_shared_references(const StudySource& source, StudyFile& study) {
   if (source.root.contains(table_name))
     refuse_at(study, key, fmt::format("a file of references beside {}", tables), "one of both");
   const std::string text =
-      taken(read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables)));
+      read_named_file(study, source.folder, key, name, fmt::format("a file with {}", tables));
   study.records.push_back(store::sha256(text));
   const std::string file = (source.folder / name).string();
   const toml::table table = taken(scene::parse_toml(text, file));
   for (const auto& [each, node] : table)
     if (each.str() != table_name)
-      refuse_if(error_at(scene::place_of(node, file), std::string(each.str()),
-                         "a key of another kind of file", fmt::format("only {}", tables)));
-  refuse_if(study::read_rows(table, table_name, published_row_keys, file, study, study.study.references));
+      throw error_at(scene::place_of(node, file), std::string(each.str()), "a key of another kind of file",
+                     fmt::format("only {}", tables));
+  study::read_rows(table, table_name, published_row_keys, file, study, study.study.references);
 }
 
 void check_references(const StudyFile& study) {
@@ -242,9 +242,9 @@ void check_bare_uncertainties(const toml::table& root, const StudyKeys& keys, co
     const toml::node* node = root.get(name);
     if (node == nullptr || (node->is_table() && !node->as_table()->empty())) continue;
     const std::string value = node->is_string() ? found_text(*node) : "\"1 K\"";
-    refuse_if(error_at(scene::place_of(*node, file), name, found_text(*node) + " without a source",
-                       "a value with where it comes from, in words",
-                       fmt::format("{{ value = {}, because = \"...\" }}", value)));
+    throw error_at(scene::place_of(*node, file), name, found_text(*node) + " without a source",
+                   "a value with where it comes from, in words",
+                   fmt::format("{{ value = {}, because = \"...\" }}", value));
   }
 }
 
@@ -264,8 +264,7 @@ void check_stated_uncertainties(const StudyKeys& keys, const StudyFile& study) {
 }
 
 void read_references(const StudySource& source, StudyFile& study) {
-  refuse_if(study::read_rows(source.root, "reference", published_row_keys, study.file, study,
-                             study.study.references));
+  study::read_rows(source.root, "reference", published_row_keys, study.file, study, study.study.references);
   read_shared_references(source, study);
   check_references(study);
 }

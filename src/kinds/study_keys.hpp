@@ -21,12 +21,8 @@ using StudyKeys = std::vector<Key<Study>>;
 
 // Readers of study files throw what is wrong; `read_study_table` and `read_references` give it back as a
 // value.
-inline void refuse_if(const study::Fault& fault) {
+inline void refuse_if(const std::optional<scene::InputError>& fault) {
   if (fault) throw *fault;
-}
-[[noreturn]] inline void refuse_at(const StudyFile& study, const std::string& key, std::string found,
-                                   std::string allowed, std::string suggestion = {}) {
-  throw fault_at(study, key, std::move(found), std::move(allowed), std::move(suggestion));
 }
 /// What was read, or else refused; `table`: of the study file, in which it stands.
 template <class Read>

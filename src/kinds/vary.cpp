@@ -166,7 +166,7 @@ KeyDescription read_scene_key(VaryReader& reader, const Varied& admitted) {
   if (name == "gap" || name == "gap.thickness")
     reader.refuse("key", name + ", which all cases share",
                   "a scene key that takes one number; the gaps are the study's key gaps");
-  KeyDescription key = taken(varied_key(reader.study, name, "vary.key", place));
+  KeyDescription key = varied_key(reader.study, name, "vary.key", place);
   if (admitted.distributions && key.dimension == Dimension::count)
     reader.refuse("key", name + ", a whole number", "a key that may take any number between two");
   return key;
@@ -201,7 +201,7 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
   reader.places =
       taken(scene::read_table(reader.table, vary_keys(key), {}, reader.study.file, reader.text), table_name);
   for (const auto& [given, place] : reader.places) reader.study.places[reader.study_key(given)] = place;
-  refuse_if(check_free(reader.study, key.name, reader.place_of("key"), "vary.key"));
+  check_free(reader.study, key.name, reader.place_of("key"), "vary.key");
   Axis axis{study::name_of_axis(key.name), reader.study_key("key"), key, {}};
   if (admitted.distributions) {
     for (const char* given : {"values", "count"})
@@ -215,7 +215,7 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
   } else {
     settle_values(reader);
     axis.values_key = reader.study_key(reader.given("values") ? "values" : "range");
-    refuse_if(check_twice(reader.study, axis.values_key, key.dimension, reader.text.values));
+    check_twice(reader.study, axis.values_key, key.dimension, reader.text.values);
     axis.values = std::move(reader.text.values);
   }
   reader.study.study.axes.push_back(std::move(axis));
@@ -224,9 +224,9 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
 /// Entries of other forms have no other key.
 void check_variants(const VaryReader& reader, const Varied& admitted) {
   if (!admitted.variants)
-    refuse_if(error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file), "vary.variants",
-                       "variants in a study of kind " + reader.study.study.kind.name,
-                       "a key of the scene; variants are compared by kind comparison"));
+    throw error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file), "vary.variants",
+                   "variants in a study of kind " + reader.study.study.kind.name,
+                   "a key of the scene; variants are compared by kind comparison");
   taken(scene::read_described(reader.table, {}, {variants_key}, reader.study.file), table_name);
 }
 
@@ -253,8 +253,8 @@ void check_place_of_record(const VaryReader& reader) {
 /// The record, with a covariance.
 CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
-  auto record = taken(study::read_named_record(reader.study, folder, reader.study_key("calibration"),
-                                               reader.text.name, wanted, study::parse_calibration_record));
+  auto record = read_named_record(reader.study, folder, reader.study_key("calibration"), reader.text.name,
+                                  wanted, study::parse_calibration_record);
   if (!record.failure.empty())
     reader.refuse("calibration", "a record without constants: " + record.failure, wanted);
   if (record.covariance.empty())
@@ -279,8 +279,8 @@ void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
   settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
   for (std::size_t i = 0; i < count; ++i) {
     const std::string key_name = study::fitted_keys[i];
-    refuse_if(check_free(reader.study, key_name, place, "vary.calibration"));
-    const KeyDescription key = taken(varied_key(reader.study, key_name, "vary.calibration", place));
+    check_free(reader.study, key_name, place, "vary.calibration");
+    const KeyDescription key = varied_key(reader.study, key_name, "vary.calibration", place);
     const double median =
         std::get<double>(scene::find_key(scene::scene_keys(), key_name)->get(record.calibration.scene));
     const double deviation = std::sqrt(record.covariance[i * count + i]);
@@ -315,7 +315,7 @@ StudyTable vary_table() {
 }
 
 void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study) {
-  const auto tables = taken(study::tables_of(source.root, table_name, study, admitted.needed));
+  const auto tables = study::tables_of(source.root, table_name, study, admitted.needed);
   for (std::size_t index = 0; const toml::table* table : tables) {
     VaryReader reader{study, *table, index++};
     if (table->contains(variants_key))
@@ -334,13 +334,13 @@ std::vector<const toml::table*> variants_in(const StudySource& source, const Stu
     const toml::table& table = *entry.as_table();
     if (!table.contains(variants_key)) continue;
     if (!variants.empty())
-      refuse_if(error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                         "all variants in one [[vary]]"));
-    variants = taken(study::tables_of(table, variants_key, study), table_name);
+      throw error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
+                     "all variants in one [[vary]]");
+    variants = scene::within(table_name, [&] { return study::tables_of(table, variants_key, study); });
   }
   if (variants.empty())
-    refuse_if(error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
-                       "a [[vary]] with variants, each with a name and what it changes"));
+    throw error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
+                   "a [[vary]] with variants, each with a name and what it changes");
   return variants;
 }
 

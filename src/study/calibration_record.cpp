@@ -126,35 +126,33 @@ bool takes_load(const StudyFile& study, const CalibrationRecord& record) {
          std::ranges::none_of(load_shape, is_stated);
 }
 
-/// The first constant to which the study's scene gives another value than the record.
-Fault contradicted_constant(const StudyFile& study, const scene::Scene& calibrated) {
+/// Refuses a constant to which the study's scene gives another value than the record.
+void check_constants(const StudyFile& study, const scene::Scene& calibrated) {
   constexpr double digits = 1e-3;  // scenes round what a calibration found
   for (const std::string name : constants) {
     const auto& key = *scene::find_key(scene::scene_keys(), name);
     const scene::Value record = key.get(calibrated), own = key.get(study.scene.scene);
     if (study.overrides.contains(name))
-      return fault_at(study, "calibration", "a calibration beside [set] " + name,
-                      "either a calibration or its constants in [set]");
+      refuse_at(study, "calibration", "a calibration beside [set] " + name,
+                "either a calibration or its constants in [set]");
     const double wanted = std::get<double>(record), found = std::get<double>(own);
     if (!study.scene.given.contains(name) || std::abs(found - wanted) <= digits * std::abs(wanted)) continue;
-    return fault_at(
-        study, "calibration",
-        fmt::format("{} {} in the scene and {} in the record", name, scene::format_value(key, own),
-                    scene::format_value(key, record)),
-        "constants from one of both: leave " + name + " out of the scene, or name no calibration");
+    refuse_at(study, "calibration",
+              fmt::format("{} {} in the scene and {} in the record", name, scene::format_value(key, own),
+                          scene::format_value(key, record)),
+              "constants from one of both: leave " + name + " out of the scene, or name no calibration");
   }
-  return std::nullopt;
 }
 
 /// A constant's uncertainty may be stated larger than its record shows, not smaller.
-Fault settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) {
+void settle_fit_uncertainty(StudyFile& study, const CalibrationRecord& record) {
   const double shown = record.calibration.evidence.fit_uncertainty;
   double& stated = study.study.fit_uncertainty;
   if (std::isnan(stated)) stated = shown;
-  if (stated >= shown) return std::nullopt;
-  return fault_at(study, "fit_uncertainty.value",
-                  fmt::format("{:.3g} K, and {:.3g} K in the record of the calibration", stated, shown),
-                  "no less than the record shows, or no fit_uncertainty, which takes it");
+  if (!(stated >= shown))
+    refuse_at(study, "fit_uncertainty.value",
+              fmt::format("{:.3g} K, and {:.3g} K in the record of the calibration", stated, shown),
+              "no less than the record shows, or no fit_uncertainty, which takes it");
 }
 
 }  // namespace
@@ -250,48 +248,43 @@ scene::Expected<CalibrationRecord> parse_calibration_record(const std::string& t
   return parse_either_calibration(text, file);
 }
 
-Fault use_calibration(StudyFile& study, const std::filesystem::path& folder) {
+void use_calibration(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.calibration_record;
-  if (name.empty()) return std::nullopt;
+  if (name.empty()) return;
   const auto record = read_named_record(study, folder, "calibration", name,
                                         "the calibration.json of a calibration", parse_either_calibration);
-  if (!record) return record.error();
-  if (record->calibration.firings && !study.study.kind.gives_verdicts)
-    return fault_at(study, "calibration",
-                    "a calibration on firings, of whose constants a study of this kind would take one value",
-                    "the record of a calibration on published results");
-  if (!record->failure.empty())
-    return fault_at(study, "calibration", "a record without constants: " + record->failure,
-                    "the record of a calibration that meets its rows");
-  if (Fault fault = contradicted_constant(study, record->calibration.scene)) return fault;
+  if (record.calibration.firings && !study.study.kind.gives_verdicts)
+    refuse_at(study, "calibration",
+              "a calibration on firings, of whose constants a study of this kind would take one value",
+              "the record of a calibration on published results");
+  if (!record.failure.empty())
+    refuse_at(study, "calibration", "a record without constants: " + record.failure,
+              "the record of a calibration that meets its rows");
+  check_constants(study, record.calibration.scene);
   std::vector<std::string> keys(constants.begin(), constants.end());
-  if (takes_load(study, *record)) keys.insert(keys.end(), load_shape.begin(), load_shape.end());
+  if (takes_load(study, record)) keys.insert(keys.end(), load_shape.begin(), load_shape.end());
   Setting values;
   for (const std::string& key : keys) {
     const auto& known = *scene::find_key(scene::scene_keys(), key);
-    values[key] = known.get(record->calibration.scene);
+    values[key] = known.get(record.calibration.scene);
     study.overrides[key] = scene::format_value(known, values[key]);
   }
-  if (Fault fault = set_keys(study, values, "calibration")) return fault;
-  study.study.calibration = record->calibration;
+  set_keys(study, values, "calibration");
+  study.study.calibration = record.calibration;
   const auto& firings = study.study.calibration.firings;
   study.study.demonstration |= firings && firings->demonstration;
-  return settle_fit_uncertainty(study, *record);
+  settle_fit_uncertainty(study, record);
 }
 
-Fault read_model_form(StudyFile& study, const std::filesystem::path& folder) {
+void read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   const std::string& name = study.study.model_form_record;
-  if (name.empty()) return std::nullopt;
+  if (name.empty()) return;
   if (std::isfinite(study.study.model_form_uncertainty))
-    return fault_at(study, "model_form_uncertainty.value",
-                    "a stated uncertainty beside a record of other models",
-                    "either model_form_uncertainty or model_form");
-  auto record =
+    refuse_at(study, "model_form_uncertainty.value", "a stated uncertainty beside a record of other models",
+              "either model_form_uncertainty or model_form");
+  study.study.model_form =
       read_named_record(study, folder, "model_form", name,
                         "the model_form.json of a comparison of calibrated models", parse_model_form);
-  if (!record) return record.error();
-  study.study.model_form = std::move(*record);
-  return std::nullopt;
 }
 
 }  // namespace launchsafe::study

@@ -205,50 +205,47 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
   return text;
 }
 
-scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder) {
+AccuracyRecords read_records(StudyFile& study, const std::filesystem::path& folder) {
   AccuracyRecords records;
   const std::string& names = study.study.accuracy;
   if (!names.empty() && std::isfinite(study.study.numerical_uncertainty))
-    return fault_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
-                    "either numerical_uncertainty or accuracy");
+    refuse_at(study, "numerical_uncertainty.value", "a stated uncertainty beside an accuracy record",
+              "either numerical_uncertainty or accuracy");
   for (const auto part : std::views::split(names, std::string_view(", "))) {
     const std::string name(part.begin(), part.end());
-    auto record = read_named_record(study, folder, "accuracy", name, "the accuracy.json of an accuracy study",
-                                    parse_accuracy_record);
-    if (!record) return record.error();
-    records.push_back(std::move(*record));
+    records.push_back(read_named_record(study, folder, "accuracy", name,
+                                        "the accuracy.json of an accuracy study", parse_accuracy_record));
   }
   return records;
 }
 
-Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance) {
+void choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance) {
   const std::string asked = fmt::format("a tolerance of {:g} K", tolerance);
   if (records.empty())
-    return fault_at(study, "accuracy", asked + ", and no accuracy record", "accuracy = \"...accuracy.json\"");
+    refuse_at(study, "accuracy", asked + ", and no accuracy record", "accuracy = \"...accuracy.json\"");
   if (has_other_numerics(study))
-    return fault_at(study, "set", asked + ", and numerics of the study's own",
-                    "a tolerance, or numerics in [set] or [[vary]]");
+    refuse_at(study, "set", asked + ", and numerics of the study's own",
+              "a tolerance, or numerics in [set] or [[vary]]");
   const scene::Scene& own = study.scene.scene;
   const AccuracyRecord& record = record_for(records, own);
   const std::string foreign = why_foreign(record, own);
   const Coverage coverage = coverage_of(record, own);
   if (const std::string reason = foreign.empty() ? coverage.reason : foreign; !reason.empty())
-    return fault_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
-                    "the record of an accuracy study on this scene");
+    refuse_at(study, "accuracy", asked + ", and a record that does not apply: " + reason,
+              "the record of an accuracy study on this scene");
   const RecordedSetting* chosen = cheapest_within(record, tolerance / coverage.growth);
   if (chosen == nullptr) {
     const RecordedSetting* best = most_accurate(record);
-    return fault_at(study, "accuracy", asked + ", which no recorded setting meets",
-                    best == nullptr ? "a record with settings"
-                                    : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
-                                                  best->temperature_bound * coverage.growth, best->label));
+    refuse_at(study, "accuracy", asked + ", which no recorded setting meets",
+              best == nullptr ? "a record with settings"
+                              : fmt::format("at least {:.3g} K, the bound of the most accurate one: {}",
+                                            best->temperature_bound * coverage.growth, best->label));
   }
   // Reading let nothing else pass than the keys of a setting with values that scenes may have.
-  if (Fault fault = set_keys(study, chosen->setting, "accuracy")) return fault;
+  set_keys(study, chosen->setting, "accuracy");
   study.chosen_setting = fmt::format(
       "{}: T max within {:.3g} K where {:.3g} K were asked, {:.3g} s of processor time a run", chosen->label,
       coverage.growth * chosen->temperature_bound, tolerance, chosen->processor_time);
-  return std::nullopt;
 }
 
 double numerical_share(const StudyCase& input, double gap, double rise) {

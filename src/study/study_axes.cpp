@@ -43,14 +43,14 @@ InputError unfit_key(const StudyFile& study, const std::string& name, const std:
 
 /// The peak matters under a measured curve that is rescaled to it; the other numbers of the analytic shape
 /// never do.
-Fault check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
+void check_load_axis(const StudyFile& study, const std::string& key, const std::string& scene_key) {
   const auto* known = scene::find_key(scene::scene_keys(), scene_key);
-  if (known == nullptr || !known->is_replaced || !known->is_replaced(study.scene.scene)) return std::nullopt;
+  if (known == nullptr || !known->is_replaced || !known->is_replaced(study.scene.scene)) return;
   if (scene_key == "load.peak")
-    return fault_at(study, key, "peak pressures for a measured curve that is not rescaled",
-                    "peak pressures with load.rescale_to_peak = true in the scene");
-  return fault_at(study, key, scene_key + ", which a measured curve does not have",
-                  "a scene without a measured curve, or a key that has an effect");
+    refuse_at(study, key, "peak pressures for a measured curve that is not rescaled",
+              "peak pressures with load.rescale_to_peak = true in the scene");
+  refuse_at(study, key, scene_key + ", which a measured curve does not have",
+            "a scene without a measured curve, or a key that has an effect");
 }
 
 /// Of so many cases those whose peak pressure is nearest to one (Pa): the ones that have the defect of the
@@ -98,24 +98,24 @@ LimitComparison compare(const StudyFile& study, const std::vector<const Critical
 
 }  // namespace
 
-scene::Expected<Tables> tables_of(const toml::table& root, const std::string& name, const StudyFile& study,
-                                  const std::string& needed) {
+Tables tables_of(const toml::table& root, const std::string& name, const StudyFile& study,
+                 const std::string& needed) {
   const std::string allowed = needed.empty()
                                   ? fmt::format("tables, each written [[{}]]", name)
                                   : fmt::format("at least one table, written [[{}]], {}", name, needed);
-  auto tables = scene::tables_of(root, name, study.file, allowed);
-  if (!tables || !tables->empty() || needed.empty()) return tables;
-  return scene::error_at(place_of_key(study, root.contains(name) ? name : "kind"), name, "no " + name,
-                         allowed);
+  Tables tables = scene::tables_of(root, name, study.file, allowed).or_throw();
+  if (tables.empty() && !needed.empty())
+    throw scene::error_at(place_of_key(study, root.contains(name) ? name : "kind"), name, "no " + name,
+                          allowed);
+  return tables;
 }
 
-scene::Expected<std::string> read_named_file(const StudyFile& study, const std::filesystem::path& folder,
-                                             const std::string& key, const std::string& name,
-                                             const std::string& wanted) {
+std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
+                            const std::string& key, const std::string& name, const std::string& wanted) {
   auto text = scene::read_text_file(folder / name);
-  if (text) return text;
-  return fault_at(study, key, fmt::format("\"{}\", which cannot be read", name),
-                  wanted + ", by its path from the study file's folder", text.error().suggestion);
+  if (text) return std::move(*text);
+  refuse_at(study, key, fmt::format("\"{}\", which cannot be read", name),
+            wanted + ", by its path from the study file's folder", text.error().suggestion);
 }
 
 std::vector<Leaf> leaves_as_written(const toml::table& table) {
@@ -136,62 +136,53 @@ const std::vector<NamedAxis>& named_axes() {
   return axes;
 }
 
-scene::Expected<KeyDescription> varied_key(const StudyFile& study, const std::string& name,
-                                           const std::string& faulty_key, const Place& place) {
+KeyDescription varied_key(const StudyFile& study, const std::string& name, const std::string& faulty_key,
+                          const Place& place) {
   const auto named = std::ranges::find(named_axes(), name, &NamedAxis::name);
   const std::string& wanted = named == named_axes().end() ? name : named->key;
   auto key = scene::describe_key(study.scene, wanted, place);
-  if (!key || key->kind != KeyKind::number) {
-    std::vector<std::string> short_names;
-    for (const NamedAxis& axis : named_axes()) short_names.push_back(axis.name);
-    return unfit_key(study, name, faulty_key, place, short_names);
-  }
-  return key;
+  if (key && key->kind == KeyKind::number) return std::move(*key);
+  std::vector<std::string> short_names;
+  for (const NamedAxis& axis : named_axes()) short_names.push_back(axis.name);
+  throw unfit_key(study, name, faulty_key, place, short_names);
 }
 
 double number_in(const scene::SceneFile& file, const std::string& key) {
   return std::get<double>(scene::value_in(file, key));
 }
 
-Fault check_load_axes(const StudyFile& study) {
-  for (const Axis& axis : study.study.axes) {
-    if (Fault fault = check_load_axis(study, axis.study_key, axis.key.name)) return fault;
-  }
-  return std::nullopt;
+void check_load_axes(const StudyFile& study) {
+  for (const Axis& axis : study.study.axes) check_load_axis(study, axis.study_key, axis.key.name);
 }
 
-Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
-               std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  auto key = varied_key(study, name, study_key, place_of_key(study, study_key));
-  if (!key) return key.error();
-  if (Fault fault = check_twice(study, study_key, key->dimension, values)) return fault;
-  study.study.axes.push_back({name_of_axis(key->name), study_key, std::move(*key), std::move(values)});
-  return std::nullopt;
+void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
+              std::vector<double> values) {
+  if (values.empty()) return;
+  KeyDescription key = varied_key(study, name, study_key, place_of_key(study, study_key));
+  check_twice(study, study_key, key.dimension, values);
+  study.study.axes.push_back({name_of_axis(key.name), study_key, std::move(key), std::move(values)});
 }
 
-Fault check_free(const StudyFile& study, const std::string& scene_key, const Place& place,
-                 const std::string& faulty_key) {
+void check_free(const StudyFile& study, const std::string& scene_key, const Place& place,
+                const std::string& faulty_key) {
   if (study.overrides.contains(scene_key))
-    return scene::error_at(place, faulty_key, scene_key + ", which [set] or the calibration fixes",
-                           fmt::format("{} either in [[vary]], or in [set] or a calibration", scene_key));
-  for (const Axis& other : study.study.axes) {
-    if (other.key.name != scene_key) continue;
-    return scene::error_at(place, faulty_key,
-                           fmt::format("{} a second time, after {}", scene_key, other.name),
-                           "each scene key once");
-  }
-  return std::nullopt;
+    throw scene::error_at(place, faulty_key, scene_key + ", which [set] or the calibration fixes",
+                          fmt::format("{} either in [[vary]], or in [set] or a calibration", scene_key));
+  for (const Axis& other : study.study.axes)
+    if (other.key.name == scene_key)
+      throw scene::error_at(place, faulty_key,
+                            fmt::format("{} a second time, after {}", scene_key, other.name),
+                            "each scene key once");
 }
 
-Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
-                  std::vector<double> values) {
+void check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
+                 std::vector<double> values) {
   std::ranges::sort(values);
   const auto twice = std::adjacent_find(values.begin(), values.end(), [](double a, double b) {
     return b - a <= 1e-9 * std::max(std::abs(b), 1e-6);
   });
-  if (twice == values.end()) return std::nullopt;
-  return fault_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
+  if (twice != values.end())
+    refuse_at(study, key, scene::format_quantity(*twice, dimension) + " twice", "each value once");
 }
 
 const std::vector<scene::Key<CitedLimit>>& cited_limit_keys() {
@@ -209,8 +200,8 @@ const std::vector<scene::Key<CitedLimit>>& cited_limit_keys() {
   return keys;
 }
 
-Fault read_cited_limits(const toml::table& root, StudyFile& study) {
-  return read_rows(root, "cited_limit", cited_limit_keys(), study.file, study, study.study.cited_limits);
+void read_cited_limits(const toml::table& root, StudyFile& study) {
+  read_rows(root, "cited_limit", cited_limit_keys(), study.file, study, study.study.cited_limits);
 }
 
 std::vector<LimitComparison> compare_with_limits(const StudyFile& study,

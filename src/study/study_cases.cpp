@@ -175,16 +175,13 @@ scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
   return error;
 }
 
-Fault set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
-               const std::string& study_key) {
+void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
+              const std::string& study_key) {
   std::vector<Change> changes;
   for (const auto& [key, value] : values)
     changes.push_back({key, value, scene::format_value(*scene::find_key(scene::scene_keys(), key), value),
                        study_key, place_of_key(study, study_key)});
-  auto changed = with_changes(study.scene, changes);
-  if (!changed) return changed.error();
-  study.scene = std::move(*changed);
-  return std::nullopt;
+  study.scene = with_changes(study.scene, changes).or_throw();
 }
 
 StudyCase case_of(std::string label, SceneFile scene) {
@@ -221,8 +218,8 @@ scene::Scene closing_scene(const StudyCase& input) {
   return scene;
 }
 
-Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
-                       const LabelOf& label_of) {
+void add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
+                      const LabelOf& label_of) {
   const auto start = std::make_shared<const Start>(start_of(study));
   std::vector<std::pair<std::string, std::vector<double>>> rows(count);  // label, coordinates
   std::atomic<std::size_t> first_fault = count;
@@ -239,15 +236,14 @@ Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf&
     rows[i] = {label_of(i, made), made.coordinates};
   });
   if (first_fault < count)
-    return with_changes(start->scene, changes_of(study, coordinates_of(first_fault))).error();
+    throw with_changes(start->scene, changes_of(study, coordinates_of(first_fault))).error();
   study.cases.reserve(count);
   for (auto& [label, coordinates] : rows) study.cases.add(std::move(label), std::move(coordinates));
   study.cases.make_with(
       [start](const std::vector<double>& coordinates) { return known_case(*start, coordinates); });
-  return std::nullopt;
 }
 
-Fault make_factorial(StudyFile& study, const std::function<std::string(const StudyCase&)>& label_of) {
+void make_factorial(StudyFile& study, const std::function<std::string(const StudyCase&)>& label_of) {
   const std::vector<Axis>& axes = study.study.axes;
   double count = 1.0;
   std::vector<std::string> sizes;
@@ -256,38 +252,38 @@ Fault make_factorial(StudyFile& study, const std::function<std::string(const Stu
     sizes.push_back(fmt::format("{} of {}", axis.values.size(), axis.name));
   }
   const std::string key = axes.empty() ? std::string{} : axes.front().study_key;
-  if (Fault fault = check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")))) return fault;
-  return add_varied_cases(
+  check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")));
+  add_varied_cases(
       study, static_cast<std::size_t>(count), [&](std::size_t place) { return values_at(axes, place); },
       [&](std::size_t, const StudyCase& made) {
         return label_of ? label_of(made) : case_label(study.study, made);
       });
 }
 
-Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {
-  if (count <= static_cast<double>(study.most_cases)) return std::nullopt;
-  return fault_at(study, key, fmt::format("{:.0f} mechanical runs, {}", count, what),
-                  fmt::format("at most {} mechanical runs", study.most_cases));
+void check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {
+  if (!(count <= static_cast<double>(study.most_cases)))
+    refuse_at(study, key, fmt::format("{:.0f} mechanical runs, {}", count, what),
+              fmt::format("at most {} mechanical runs", study.most_cases));
 }
 
-Fault settle_gaps(StudyFile& study) {
+void settle_gaps(StudyFile& study) {
   constexpr const char* key = "gap.opens_by_cooling";
   const KindTraits& kind = study.study.kind;
-  if (!kind.judges_gaps) return std::nullopt;
+  if (!kind.judges_gaps) return;
   const auto axis = [](const Axis& each) { return each.key.name == key; };
   study.study.gaps_by_cooling =
       study.scene.scene.surface.opens_by_cooling || std::ranges::any_of(study.study.axes, axis);
   if (study.study.gaps_by_cooling && kind.closing_gaps != ClosingGaps::beside)
-    return fault_at(study, "scene", fmt::format("{} in a study of kind {}", key, kind.name),
-                    "a study of kind critical-gap, or gap.thickness");
+    refuse_at(study, "scene", fmt::format("{} in a study of kind {}", key, kind.name),
+              "a study of kind critical-gap, or gap.thickness");
   if (study.study.gaps_by_cooling && !study.study.gaps.empty())
-    return fault_at(study, "gaps", fmt::format("gaps beside {}, from which that of a case follows", key),
-                    "one of the two");
-  if (!study.study.gaps.empty()) return std::nullopt;
+    refuse_at(study, "gaps", fmt::format("gaps beside {}, from which that of a case follows", key),
+              "one of the two");
+  if (!study.study.gaps.empty()) return;
   study.study.gaps = study.scene.scene.surface.gaps;
   if (study.study.gaps_by_cooling) study.study.gaps.resize(1);
-  if (!study.study.gaps.empty()) return std::nullopt;
-  return fault_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
+  if (study.study.gaps.empty())
+    refuse_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
 }
 
 }  // namespace launchsafe::study

@@ -58,9 +58,9 @@ scene::Expected<CalibrationRecord> parse_either_calibration(const std::string& t
 
 /// Reads the record that a study names, if it names one, gives its load and constants to the scene, and notes
 /// them among the overrides. A fit uncertainty that the study does not state becomes the record's.
-Fault use_calibration(StudyFile& study, const std::filesystem::path& folder);
+void use_calibration(StudyFile& study, const std::filesystem::path& folder);
 
 /// Reads the record of other models that a study names, if it names one.
-Fault read_model_form(StudyFile& study, const std::filesystem::path& folder);
+void read_model_form(StudyFile& study, const std::filesystem::path& folder);
 
 }  // namespace launchsafe::study

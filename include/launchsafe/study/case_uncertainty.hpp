@@ -79,11 +79,11 @@ struct AcceptancesOfStudy {
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
 
-/// Those that a study names. Faults: none there, no record, or a stated uncertainty beside it.
-scene::Expected<AccuracyRecords> read_records(StudyFile& study, const std::filesystem::path& folder);
+/// Those that a study names. Refused are: none there, no record, or a stated uncertainty beside it.
+AccuracyRecords read_records(StudyFile& study, const std::filesystem::path& folder);
 
 /// Puts the cheapest recorded setting within the tolerance (K) into the study's scene. Needs the overrides.
-Fault choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance);
+void choose_setting(StudyFile& study, const AccuracyRecords& records, double tolerance);
 
 /// Numerical uncertainty of each case of the study, known once the case is made. Without a statement, or
 /// elsewhere than it holds, nothing is known, and a large one is assumed, so that no verdict is SAFE on the

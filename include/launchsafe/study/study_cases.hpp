@@ -31,63 +31,55 @@ inline constexpr const char* only_reservoir =
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
                                                const std::vector<Change>& changes, bool may_close = false);
 
-using Fault = std::optional<scene::InputError>;
-
 /// Where the user gave a key; the file as a whole if he did not.
 inline scene::Place place_of_key(const StudyFile& study, const std::string& key) {
   const auto found = study.places.find(key);
   return found == study.places.end() ? scene::Place{study.file} : found->second;
 }
 
-inline scene::InputError fault_at(const StudyFile& study, const std::string& key, std::string found,
-                                  std::string allowed, std::string suggestion = {}) {
-  return scene::error_at(place_of_key(study, key), key, std::move(found), std::move(allowed),
-                         std::move(suggestion));
+// What follows, and whatever reads study files, throws what is wrong, an InputError; `kinds::read_study`
+// gives it back as a value.
+[[noreturn]] inline void refuse_at(const StudyFile& study, const std::string& key, std::string found,
+                                   std::string allowed, std::string suggestion = {}) {
+  throw scene::error_at(place_of_key(study, key), key, std::move(found), std::move(allowed),
+                        std::move(suggestion));
 }
 
 /// The tables [[name]] of a study file; none where there are none. A kind that needs at least one says what
 /// stands in it: "with a name".
-scene::Expected<std::vector<const toml::table*>> tables_of(const toml::table& root, const std::string& name,
-                                                           const StudyFile& study,
-                                                           const std::string& needed = {});
+std::vector<const toml::table*> tables_of(const toml::table& root, const std::string& name,
+                                          const StudyFile& study, const std::string& needed = {});
 
 /// Adds a row for every [[name]] of a study file or of a file that it names. Where a key of one stands is
 /// known as that of "name.0.key".
 template <class Row>
-Fault read_rows(const toml::table& root, const std::string& name, const std::vector<scene::Key<Row>>& keys,
-                const std::string& file, StudyFile& study, std::vector<Row>& rows) {
-  auto tables = scene::read_tables(root, name, keys, file, "tables, each written [[" + name + "]]");
-  if (!tables) return tables.error();
-  for (auto& [row, places] : *tables) {
+void read_rows(const toml::table& root, const std::string& name, const std::vector<scene::Key<Row>>& keys,
+               const std::string& file, StudyFile& study, std::vector<Row>& rows) {
+  const std::string allowed = "tables, each written [[" + name + "]]";
+  for (auto& [row, places] : scene::read_tables(root, name, keys, file, allowed).or_throw()) {
     for (const auto& [key, place] : places)
       study.places[name + "." + std::to_string(rows.size()) + "." + key] = place;
     rows.push_back(std::move(row));
   }
-  return std::nullopt;
 }
 
 /// The text of the file that a key names by its path from the study file's folder; `wanted` says which file
 /// that should be.
-scene::Expected<std::string> read_named_file(const StudyFile& study, const std::filesystem::path& folder,
-                                             const std::string& key, const std::string& name,
-                                             const std::string& wanted);
+std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
+                            const std::string& key, const std::string& name, const std::string& wanted);
 
 /// The record in such a file, noted as one that the study rests on.
-template <class Record>
-scene::Expected<Record> read_named_record(StudyFile& study, const std::filesystem::path& folder,
-                                          const std::string& key, const std::string& name,
-                                          const std::string& wanted,
-                                          scene::Expected<Record> (*parse)(const std::string& text,
-                                                                           const std::string& file)) {
-  const auto text = read_named_file(study, folder, key, name, wanted);
-  if (!text) return text.error();
-  study.records.push_back(store::sha256(*text));
-  return parse(*text, (folder / name).string());
+template <class Parse>
+auto read_named_record(StudyFile& study, const std::filesystem::path& folder, const std::string& key,
+                       const std::string& name, const std::string& wanted, Parse parse) {
+  const std::string text = read_named_file(study, folder, key, name, wanted);
+  study.records.push_back(store::sha256(text));
+  return parse(text, (folder / name).string()).or_throw();
 }
 
 /// Gives scene keys of the study's scene other values, which `study_key` of the study asks for.
-Fault set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
-               const std::string& study_key);
+void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& values,
+              const std::string& study_key);
 
 using scene::Leaf;
 /// All keys of a table and of the tables in it, as people wrote them.
@@ -104,28 +96,28 @@ const std::vector<NamedAxis>& named_axes();
 std::string name_of_axis(const std::string& scene_key);
 
 /// The scene key behind a short or full name: one that takes one number. Faults name `faulty_key`.
-scene::Expected<scene::KeyDescription> varied_key(const StudyFile& study, const std::string& name,
-                                                  const std::string& faulty_key, const scene::Place& place);
+scene::KeyDescription varied_key(const StudyFile& study, const std::string& name,
+                                 const std::string& faulty_key, const scene::Place& place);
 
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
 
-/// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values. A
-/// fault where one stands twice.
-Fault add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
-               std::vector<double> values);
+/// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values.
+/// Refuses one that stands twice.
+void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
+              std::vector<double> values);
 
-/// A scene key that is to vary and is fixed elsewhere, or varies already; it was asked for at a place under a
-/// name.
-Fault check_free(const StudyFile& study, const std::string& scene_key, const scene::Place& place,
-                 const std::string& faulty_key);
+/// Refuses a scene key that is to vary and is fixed elsewhere, or varies already; it was asked for at a place
+/// under a name.
+void check_free(const StudyFile& study, const std::string& scene_key, const scene::Place& place,
+                const std::string& faulty_key);
 
-/// Axes that cannot have an effect: those of the analytic load under a measured curve.
-Fault check_load_axes(const StudyFile& study);
+/// Refuses axes that cannot have an effect: those of the analytic load under a measured curve.
+void check_load_axes(const StudyFile& study);
 
-/// A fault where a value (SI) stands twice, but for round-off.
-Fault check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
-                  std::vector<double> values);
+/// Refuses a value (SI) that stands twice, but for round-off.
+void check_twice(const StudyFile& study, const std::string& key, scene::Dimension dimension,
+                 std::vector<double> values);
 
 /// A case of a valid scene, of another launch than the study's until somebody says so.
 StudyCase case_of(std::string label, scene::SceneFile scene);
@@ -137,25 +129,24 @@ using CoordinatesOf = std::function<std::vector<double>(std::size_t index)>;
 
 /// Adds so many cases that have Study::axes otherwise than the study's scene. Every one is made once, to be
 /// checked: the fault is that of the first that cannot be. Both functions are called from several threads.
-Fault add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
-                       const LabelOf& label_of);
+void add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
+                      const LabelOf& label_of);
 
 /// The full factorial of Study::axes, the last one fastest. `label_of`: instead of `case_label`.
-Fault make_factorial(StudyFile& study,
-                     const std::function<std::string(const StudyCase& made)>& label_of = {});
+void make_factorial(StudyFile& study, const std::function<std::string(const StudyCase& made)>& label_of = {});
 
-/// A fault at `key` where a study would have more cases than it may; `what` says how they come about.
-Fault check_count(const StudyFile& study, const std::string& key, double count, const std::string& what);
+/// Refuses, at `key`, more cases than a study may have; `what` says how they come about.
+void check_count(const StudyFile& study, const std::string& key, double count, const std::string& what);
 
 /// The gaps of a study that judges some, where it has none itself: those of its scene.
-Fault settle_gaps(StudyFile& study);
+void settle_gaps(StudyFile& study);
 
 // --- limits of the gap that others found, beside the critical gaps of a study ---
 
 const std::vector<scene::Key<CitedLimit>>& cited_limit_keys();
 
 /// Reads [[cited_limit]] into Study::cited_limits.
-Fault read_cited_limits(const toml::table& root, StudyFile& study);
+void read_cited_limits(const toml::table& root, StudyFile& study);
 
 /// A cited limit and the case of a study that stands nearest to it.
 struct LimitComparison {
