@@ -1,7 +1,5 @@
 #include "common_options.hpp"
 
-#include "launchsafe/scene/scene_keys.hpp"
-
 #include <boost/algorithm/string.hpp>
 
 #include <charconv>

@@ -3,12 +3,8 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/study/options.hpp"
 
 #include <CLI/CLI.hpp>
-
-#include <memory>
 
 namespace launchsafe::app {
 

@@ -4,13 +4,8 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/store/result.hpp"
 
 #include <nlohmann/json.hpp>
-
-#include <atomic>
-#include <chrono>
-#include <mutex>
 
 namespace launchsafe::app {
 

@@ -4,9 +4,6 @@
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
-#include "launchsafe/study/record_domain.hpp"
 
 namespace launchsafe::app {
 namespace {

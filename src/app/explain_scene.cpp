@@ -1,14 +1,10 @@
 #include "explain.hpp"
 #include "launchsafe/run/axial_modes.hpp"
-#include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/study/scheduler.hpp"
 
 #include <sstream>
 

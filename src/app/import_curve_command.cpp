@@ -3,7 +3,6 @@
 #include "explain.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 
 namespace launchsafe::app {

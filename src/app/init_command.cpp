@@ -3,7 +3,6 @@
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "output_folder.hpp"
 
 namespace launchsafe::app {

@@ -1,10 +1,7 @@
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 
 #include <regex>
-#include <set>
 
 namespace launchsafe::app {
 namespace {

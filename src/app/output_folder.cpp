@@ -1,7 +1,6 @@
 #include "output_folder.hpp"
 
 #include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 
 #include <unistd.h>
 

@@ -2,13 +2,10 @@
 #include "common_options.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "output_folder.hpp"
 
 #include <boost/algorithm/string.hpp>
-
-#include <set>
 
 namespace launchsafe::app {
 namespace {

@@ -4,17 +4,12 @@
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/run/cost.hpp"
-#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/study/scheduler.hpp"
-#include "launchsafe/study/verdict.hpp"
 #include "output_folder.hpp"
 
 namespace launchsafe::app {

@@ -4,7 +4,6 @@
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "output_folder.hpp"
 #include "study_watch.hpp"
 

@@ -1,21 +1,10 @@
 // launchsafe verify: numbers that an installed program must reproduce. The laws and the mechanics have their
 // full tests in the source.
 #include "common_options.hpp"
-#include "launchsafe/materials/ideal_gas.hpp"
-#include "launchsafe/materials/johnson_cook.hpp"
-#include "launchsafe/materials/jwl.hpp"
-#include "launchsafe/materials/mie_gruneisen.hpp"
-#include "launchsafe/materials/visco_scram.hpp"
-#include "launchsafe/materials/vlw.hpp"
-#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/mpm/conduction.hpp"
-#include "launchsafe/mpm/simulation.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/surface/skin.hpp"
 
 #include <boost/algorithm/string.hpp>
-
-#include <set>
 
 namespace launchsafe::app {
 namespace {

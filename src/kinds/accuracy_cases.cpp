@@ -1,10 +1,7 @@
 // A study of kind accuracy as a file: reference meshes, settings, variants, and the cases that follow.
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "study_keys.hpp"
-
-#include <set>
 
 namespace launchsafe::kinds {
 

@@ -2,17 +2,11 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/report/table.hpp"
 #include "launchsafe/report/verdict_text.hpp"
 #include "launchsafe/study/case_answer.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
 
 namespace launchsafe::kinds {
 

@@ -1,8 +1,6 @@
 #include "launchsafe/kinds/calibration.hpp"
 
 #include "calibration_parts.hpp"
-#include "launchsafe/store/sha256.hpp"
-#include "launchsafe/study/run_cases.hpp"
 
 #include <cassert>
 

@@ -1,7 +1,5 @@
 // What a critical-gap study tells of gaps that close, beside the reservoir.
 #include "critical_gap_tables.hpp"
-#include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
 namespace launchsafe::kinds {

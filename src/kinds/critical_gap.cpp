@@ -3,7 +3,6 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "study_keys.hpp"
 

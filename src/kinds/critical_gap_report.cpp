@@ -2,12 +2,7 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
-
-#include <array>
-#include <cctype>
-#include <set>
 
 namespace launchsafe::kinds {
 

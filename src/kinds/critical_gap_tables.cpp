@@ -2,7 +2,6 @@
 #include "critical_gap_tables.hpp"
 
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 
 namespace launchsafe::kinds {
 

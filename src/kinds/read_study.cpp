@@ -1,15 +1,9 @@
 #include "launchsafe/kinds/read_study.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-#include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "study_keys.hpp"
 
 #include <regex>
-#include <set>
-#include <unordered_map>
 
 namespace launchsafe::kinds {
 

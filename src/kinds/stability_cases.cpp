@@ -2,8 +2,6 @@
 #include "launchsafe/kinds/stability.hpp"
 #include "study_keys.hpp"
 
-#include <array>
-
 namespace launchsafe::kinds {
 
 using keys::words_key;

@@ -1,11 +1,7 @@
 // What every stress case that completed must fulfil.
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/materials/vlw.hpp"
-#include "launchsafe/run/case_result.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <numeric>
 
 namespace launchsafe::kinds {

@@ -1,7 +1,5 @@
 #include "study_keys.hpp"
 
-#include "launchsafe/store/sha256.hpp"
-
 namespace launchsafe::kinds {
 
 namespace {

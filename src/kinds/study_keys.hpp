@@ -4,7 +4,6 @@
 
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/comparison.hpp"
-#include "launchsafe/study/accuracy_record.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,7 +1,6 @@
 // [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, with a range
 // and a count, or with a distribution; or a calibration whose constants vary together; or named variants.
 #include "launchsafe/kinds/sensitivity.hpp"
-#include "launchsafe/study/calibration_record.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {

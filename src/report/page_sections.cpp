@@ -3,8 +3,6 @@
 #include <kainjow/mustache.hpp>
 #include <openssl/evp.h>
 
-#include <set>
-
 namespace launchsafe::report {
 namespace {
 

@@ -7,10 +7,7 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/study/verdict.hpp"
-
-#include <set>
 
 namespace launchsafe::report {
 namespace safety {

@@ -2,7 +2,6 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/quantity.hpp"
 
 namespace launchsafe::report {
 namespace {

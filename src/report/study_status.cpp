@@ -5,8 +5,6 @@
 #include <fmt/chrono.h>
 #include <kainjow/mustache.hpp>
 
-#include <set>
-
 namespace launchsafe::report {
 namespace {
 

@@ -7,8 +7,6 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/verdict.hpp"
 
 namespace launchsafe::report {
 namespace {

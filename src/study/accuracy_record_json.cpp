@@ -1,12 +1,9 @@
 // Accuracy records as JSON, written and read with distrust.
-#include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace launchsafe::study {

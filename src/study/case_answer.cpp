@@ -1,14 +1,10 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/version.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
-
-#include <algorithm>
 
 namespace launchsafe::study {
 namespace {

@@ -4,14 +4,11 @@
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/run_cases.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <numeric>
 #include <queue>
 #include <regex>
-#include <unordered_map>
 
 namespace launchsafe::study {
 namespace {

@@ -5,11 +5,7 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <ranges>
-#include <set>
 
 namespace launchsafe::study {
 namespace {

@@ -3,9 +3,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/tools/roots.hpp>
 
-#include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numeric>
 
 namespace launchsafe::study {

@@ -3,11 +3,8 @@
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <array>
 #include <numeric>
 #include <sstream>
 

@@ -4,11 +4,6 @@
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <numbers>
-
 namespace launchsafe::study {
 namespace {
 

@@ -1,8 +1,4 @@
 #include "launchsafe/study/verdict.hpp"
-#include "launchsafe/surface/skin.hpp"
-
-#include <algorithm>
-#include <array>
 
 namespace launchsafe::study {
 namespace {

@@ -3,8 +3,6 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
-#include <algorithm>
-
 namespace launchsafe::study {
 namespace {
 

@@ -1,16 +1,10 @@
 #include "launchsafe/study/record_domain.hpp"
 
 #include "launchsafe/scene/interfaces.hpp"
-#include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/quantity.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
 #include <set>
 

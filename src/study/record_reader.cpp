@@ -1,13 +1,10 @@
 #include "launchsafe/study/record_reader.hpp"
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/sha256.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace launchsafe::study {

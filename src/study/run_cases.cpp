@@ -3,12 +3,6 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <unordered_map>
-
 namespace launchsafe::study {
 namespace {
 

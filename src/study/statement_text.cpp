@@ -1,10 +1,4 @@
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/study/verdict.hpp"
-
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
 
 namespace launchsafe::study {
 namespace {

@@ -1,10 +1,6 @@
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <utility>
 
 namespace launchsafe::study {
 namespace {

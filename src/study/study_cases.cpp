@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
-#include <cmath>
 
 namespace launchsafe::study {
 namespace {

@@ -4,13 +4,6 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/study_file.hpp"
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace launchsafe::study {
 namespace {

@@ -3,11 +3,8 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/math/sensitivity.hpp"
-#include "launchsafe/math/statistics.hpp"
-#include "launchsafe/store/result.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/surface/ignition_boundary.hpp"
 
 namespace launchsafe::kinds {
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_cases.hpp"
 

@@ -3,9 +3,6 @@
 
 #include "launchsafe/study/study_file.hpp"
 
-#include <filesystem>
-#include <string_view>
-
 namespace launchsafe::kinds {
 
 /// What the command line adds to a study file.

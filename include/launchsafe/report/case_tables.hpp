@@ -2,11 +2,8 @@
 // of the air; and decomposition kinetics in words.
 #pragma once
 
-#include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/scene/scene.hpp"
-#include "launchsafe/surface/air_energy.hpp"
 
 namespace launchsafe::report {
 

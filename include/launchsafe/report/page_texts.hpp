@@ -3,13 +3,9 @@
 // such texts, tables and figures, a page as files: for a browser, in Markdown, and in JSON for programs.
 #pragma once
 
-#include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/store/result.hpp"
 
 #include <nlohmann/json.hpp>
-
-#include <map>
 
 namespace launchsafe::report {
 

@@ -4,12 +4,8 @@
 
 #include "launchsafe/report/gap_criterion.hpp"
 #include "launchsafe/report/page_texts.hpp"
-#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/store/study_record.hpp"
 #include "launchsafe/study/record_domain.hpp"
-
-#include <map>
 
 namespace launchsafe::report {
 

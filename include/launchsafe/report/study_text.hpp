@@ -3,9 +3,6 @@
 #pragma once
 
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/report/table.hpp"
-#include "launchsafe/run/case_result.hpp"
-#include "launchsafe/store/result.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
 

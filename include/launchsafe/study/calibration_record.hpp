@@ -4,8 +4,6 @@
 #include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
-#include <array>
-
 namespace launchsafe::study {
 
 /// Largest change of the end temperature of any station without a gap, with the constants of one mesh, to a

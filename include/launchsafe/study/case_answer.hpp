@@ -7,7 +7,6 @@
 
 #include "launchsafe/study/case_uncertainty.hpp"
 #include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/surface/skin.hpp"
 
 namespace launchsafe::study {
 

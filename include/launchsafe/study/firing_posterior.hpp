@@ -2,8 +2,6 @@
 // rounds that ignited and rounds that did not (Bayes), and how much more heat a launch has to bear for that.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
-#include "launchsafe/scene/scene.hpp"
 #include "launchsafe/surface/ignition_boundary.hpp"
 
 namespace launchsafe::study {

@@ -5,8 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-
 namespace launchsafe::study {
 
 /// A text for a message, shortened.

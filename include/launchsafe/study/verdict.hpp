@@ -3,10 +3,8 @@
 // never stored: a verdict that is read rests on what it says now.
 #pragma once
 
-#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/study/options.hpp"
 #include "launchsafe/study/study_file.hpp"
-#include "launchsafe/trace/bottom_trace.hpp"
 
 namespace launchsafe::study {
 
