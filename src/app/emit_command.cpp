@@ -128,12 +128,11 @@ std::optional<std::string> fault_of(const SlurmStudy& study) {
   for (const path& each : {study.program, study.asked.study, study.asked.output})
     if (has_control_character(each.string()))
       return "a path has a control character, such as a line's end; allowed for Slurm: paths without";
-  if (study.asked.output.string().find('\\') != std::string::npos) {
+  if (study.asked.output.string().find('\\') != std::string::npos)
     return fmt::format(
         "--output: found {}; allowed for Slurm: a folder without a backslash in its path, as Slurm writes no "
         "log there",
         study.asked.output.string());
-  }
   for (const std::string& option : study.asked.sbatch)
     if (!option.starts_with('-') || has_control_character(option))
       return fmt::format("--sbatch: found \"{}\"; allowed: options of sbatch such as --partition=long",

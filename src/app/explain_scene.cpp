@@ -213,12 +213,11 @@ Json load_json(const scene::Scene& scene) {
 
 Json plausibility_json(const scene::Scene& scene) {
   Json list = Json::array();
-  for (const scene::Implausible& each : scene::implausible_values(scene)) {
+  for (const scene::Implausible& each : scene::implausible_values(scene))
     list.push_back({{"key", each.key},
                     {"value", each.value},
                     {"plausible", each.range},
                     {"accepted_because", each.accepted() ? Json(each.because) : nullptr}});
-  }
   return list;
 }
 

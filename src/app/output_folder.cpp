@@ -35,13 +35,11 @@ std::vector<std::string> names_in(const path& folder) {
 std::optional<std::string> prepare_output_folder(const path& folder) {
   std::error_code error, unknown;  // a name that is too long, say
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, unknown)) {
+  if (!std::filesystem::is_directory(folder, unknown))
     return fmt::format("{} is no folder and cannot be made one{}; allowed: a folder", folder.string(),
                        error ? " (" + error.message() + ")" : "");
-  }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) {
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return fmt::format("{} may not be written to; allowed: a folder of yours", folder.string());
-  }
   return std::nullopt;
 }
 
@@ -95,13 +93,12 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
     return !kinds::may_write(kind, name) ||
            store::state_of(folder, *record, name) != store::FileState::foreign;
   });
-  if (!foreign.empty()) {
+  if (!foreign.empty())
     return fmt::format(
         "{} holds files that launchsafe did not write ({}{}), and nothing is overwritten; move them away or "
         "name another folder",
         folder.string(), foreign.front(),
         foreign.size() > 1 ? fmt::format(" and {} more", foreign.size() - 1) : "");
-  }
   if (update || record->manifest.input_sha256.empty() || same_study(record->manifest, manifest))
     return std::nullopt;
   return fmt::format(

@@ -168,9 +168,8 @@ class StudySession {
     const std::string digest = store::sha256(failures);
     const auto present = store::read_study_record(asked_.output);
     if (result.timing.runs == 0 && present &&
-        report_stands(asked_.output, *present, record_.manifest, digest)) {
+        report_stands(asked_.output, *present, record_.manifest, digest))
       return console_.remark(fmt::format("the report in {} stands as it is", asked_.output.string()));
-    }
     store_->replace_tables(report::plain_tables(result.report));
     keep();
     const report::RenderedReport rendered = report::render_report(result.report, {.stop = &stop_requested()});

@@ -59,10 +59,9 @@ store::Result<std::string> to_svg(const Drawing& drawing, const DrawingLimits& l
   // --default-settings: the user's own start-up file must not change a report.
   auto run = store::run_program(program, {"--default-settings", "-"}, commands, limits);
   if (!run) return run.error();
-  if (!run->succeeded || run->output.find("</svg>") == std::string::npos) {
+  if (!run->succeeded || run->output.find("</svg>") == std::string::npos)
     return store::Error{store::Error::Kind::failed,
                         fmt::format("{} could not draw '{}': {}", program, title, run->errors)};
-  }
   return run->output;
 }
 

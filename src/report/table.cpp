@@ -190,9 +190,8 @@ std::vector<std::string> keys_of(const Table& table) {
   for (const Column& column : table.columns) {
     const std::string wanted = column.key();
     std::string key = wanted;
-    for (int number = 2; std::ranges::find(keys, key) != keys.end(); ++number) {
+    for (int number = 2; std::ranges::find(keys, key) != keys.end(); ++number)
       key = wanted + "_" + std::to_string(number);
-    }
     keys.push_back(key);
   }
   return keys;
