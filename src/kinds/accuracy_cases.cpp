@@ -4,7 +4,6 @@
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
-
 namespace {
 
 constexpr std::size_t least_reference_meshes = 3;

@@ -5,7 +5,6 @@
 #include <cassert>
 
 namespace launchsafe::kinds {
-
 namespace {
 
 using materials::KineticsParameters, scene::FrictionClosure;

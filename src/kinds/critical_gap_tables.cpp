@@ -4,7 +4,6 @@
 #include "launchsafe/report/case_tables.hpp"
 
 namespace launchsafe::kinds {
-
 namespace {
 
 /// A case with its answer, and what a study in detail knows besides; null in others.

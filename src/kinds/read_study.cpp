@@ -6,7 +6,6 @@
 #include <regex>
 
 namespace launchsafe::kinds {
-
 namespace {
 
 using scene::InputError;

@@ -5,7 +5,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 
 namespace launchsafe::kinds {
-
 namespace {
 
 /// What a run says by itself: all that judging needs, and no histories.

@@ -1,7 +1,6 @@
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
-
 namespace {
 
 template <class Number>

@@ -4,7 +4,6 @@
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
-
 namespace {
 
 using math::Distribution;
