@@ -101,7 +101,6 @@ CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amoun
 /// A script for bash that completes commands, options and what these take.
 std::string bash_completion(const CLI::App& app);
 
-/// --jobs.
 void add_jobs(CLI::App& command, int& jobs);
 
 }  // namespace launchsafe::app

@@ -60,7 +60,6 @@ class Console {
   [[noreturn]] void fail(const std::string& message, ExitCode code = ExitCode::failed);
   /// What kept a result from being stored: a folder that is wrong, or a machine that fails.
   [[noreturn]] void end_with(const store::Error& error);
-  /// Refuses a fault, if there is one.
   template <class Fault>
   void refuse_any(const std::optional<Fault>& fault) {
     if (fault) refuse(*fault);

@@ -8,7 +8,7 @@ namespace launchsafe::kinds {
 namespace {
 
 using materials::ProductGas;
-using run::CombustionHistory, run::MechanicsResult, run::MonitorSample;
+using run::CombustionHistory, run::MonitorSample;
 
 /// Of the sum over the particles, which round-off alone separates from the bodies' mass.
 constexpr double mass_share = 1e-12;

@@ -69,7 +69,6 @@ StudyTable study_table_of(const std::string& name, const std::vector<Key<Owner>>
   return table;
 }
 
-/// [[reference]], [[cited_limit]] and [[vary]].
 StudyTable reference_table(), cited_limit_table(), vary_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.

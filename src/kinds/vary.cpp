@@ -248,7 +248,6 @@ void check_place_of_record(const VaryReader& reader) {
                   "a scene with load.shape = \"bell\"");
 }
 
-/// The record, with a covariance.
 CalibrationRecord read_covariance(VaryReader& reader, const std::filesystem::path& folder) {
   const std::string wanted = "the calibration.json of a calibration with load_fitted = true";
   auto record = read_named_record(reader.study, folder, reader.study_key("calibration"), reader.text.name,

@@ -30,7 +30,6 @@ Column drawn_time();
 
 /// A row for every sample of a history.
 Table sample_table(const Quantities<std::size_t>& quantities, std::size_t samples);
-/// Values by sample.
 inline auto at_sample(const std::vector<double>& values) {
   return [&values](std::size_t sample) { return values[sample]; };
 }

@@ -9,7 +9,7 @@
 namespace launchsafe::report {
 namespace {
 
-using keys::fixed, keys::scientific, keys::text;
+using keys::fixed, keys::text;
 
 // --- faces that slide ---
 

@@ -29,7 +29,6 @@ std::time_t time_in(const std::string& text) {
 /// A number of a snapshot, 0 where there is none.
 double amount_in(const Row& row, const std::string& key) { return known(number_of(row, key)).value_or(0.0); }
 
-/// One writer.
 struct Writer {
   Row row;  ///< of its snapshot, and what follows from it
   State state = State::running;

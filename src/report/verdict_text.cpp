@@ -11,9 +11,8 @@
 namespace launchsafe::report {
 namespace {
 
-using keys::fixed, keys::scientific, keys::text;
+using keys::fixed, keys::text;
 
-/// A share of the uncertainty.
 Column share_of_uncertainty(std::string name, std::string heading, std::string meaning) {
   return always({"uncertainty_of_" + std::move(name), std::move(heading), keys::significant(2, kelvin),
                  std::move(meaning)});

@@ -48,7 +48,6 @@ Done done_in(const store::CaseStore* store) {
   return done;
 }
 
-/// Why a run has to run, from what is recorded.
 std::string why_run(const CaseRun& needed, store::CaseStore* store, const Done& done) {
   if (store == nullptr) return "nothing is stored";
   if (const auto entry = store->record_of(needed.hash)) {

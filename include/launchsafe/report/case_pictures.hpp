@@ -35,7 +35,6 @@ struct CaseTable {
   Table table;
 };
 
-/// A kind of pictures.
 struct PictureKind {
   const char* word;   ///< by which it is asked for
   const char* shows;  ///< for people
