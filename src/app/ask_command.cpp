@@ -37,6 +37,7 @@ SurrogateRecord read_record(const path& place, Console& console) {
 /// An input of the launches that are asked for.
 struct AskedInput {
   scene::KeyDescription key;
+  math::Interval range;        ///< SI, where launches were computed
   std::vector<double> values;  ///< SI
   bool is_set = false;         ///< on the command line; else as in the study's scene
 };
@@ -52,10 +53,12 @@ std::vector<AskedInput> inputs_in_scene(const SurrogateRecord& record, Console& 
     file.scene = record.scene;
   else
     file = console.value_of(scene::parse_scene(scene::to_toml(record.scene), "scene of the record"));
+  const std::vector<math::Interval> ranges = study::ranges_of(record);
   std::vector<AskedInput> inputs;
   for (const std::string& name : record.keys)
-    inputs.push_back(
-        {console.value_of(scene::describe_key(file, name, {file.file})), {study::number_in(file, name)}});
+    inputs.push_back({console.value_of(scene::describe_key(file, name, {file.file})),
+                      ranges[inputs.size()],
+                      {study::number_in(file, name)}});
   return inputs;
 }
 
@@ -86,32 +89,41 @@ std::optional<InputError> set_input(const std::string& given, const SurrogateRec
   return std::nullopt;
 }
 
-/// A value beyond what was computed, round-off apart; more launches than a table should have.
-std::optional<InputError> fault_in(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
-  const std::vector<math::Interval> ranges = study::ranges_of(record);
+/// More launches than a table should have, or than a gap is told of.
+std::optional<InputError> fault_of_count(const AskArguments& arguments,
+                                         const std::vector<AskedInput>& inputs) {
   constexpr double most_launches = 1e6;
   double count = 1;
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    count *= static_cast<double>(inputs[i].values.size());
-    const math::Interval range = ranges[i];
-    const double slack = 1e-9 * (range.upper - range.lower);
-    const scene::Dimension dimension = inputs[i].key.dimension;
-    for (const double value : inputs[i].values)
-      if (!(value >= range.lower - slack && value <= range.upper + slack))
-        return scene::error_at({}, inputs[i].key.name, scene::format_quantity(value, dimension),
-                               fmt::format("{} to {}, where launches were computed",
-                                           scene::format_quantity(range.lower, dimension),
-                                           scene::format_quantity(range.upper, dimension)));
-  }
+  for (const AskedInput& input : inputs) count *= static_cast<double>(input.values.size());
+  if (arguments.gap && count > 1)
+    return scene::error_at({}, "--gap", fmt::format("{:.0f} launches", count), "one launch");
   if (!(count > most_launches)) return std::nullopt;
   return fault_of_set("...", fmt::format("{:.0f} combinations", count), "up to a million");
 }
 
-/// A launch that is asked for, with a prediction of every output; none where it is farther out than any
-/// launch by which the error of the fit is known.
+/// A value (SI) of an input beyond what was computed, round-off apart.
+std::optional<InputError> fault_in(const std::vector<AskedInput>& inputs, const std::vector<double>& values) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto& [lower, upper] = inputs[i].range;
+    const double slack = 1e-9 * (upper - lower);
+    if (values[i] >= lower - slack && values[i] <= upper + slack) continue;
+    const scene::Dimension dimension = inputs[i].key.dimension;
+    return scene::error_at(
+        {}, inputs[i].key.name, scene::format_quantity(values[i], dimension),
+        fmt::format("{} to {}, where launches were computed", scene::format_quantity(lower, dimension),
+                    scene::format_quantity(upper, dimension)));
+  }
+  return std::nullopt;
+}
+
+constexpr const char* farther_out = "farther out than any launch by which the error of the fit is known";
+
+/// A launch that is asked for, with a prediction of every output; none where it lies beyond what was computed
+/// or `farther_out`.
 struct AskedLaunch {
   std::vector<double> values = {};  ///< SI, of the inputs
   std::vector<std::optional<study::Prediction>> predictions = {};
+  std::string reason = {};  ///< why a prediction is missing; empty where none is
 };
 
 /// All combinations of the values, the last input the fastest.
@@ -135,6 +147,17 @@ std::vector<const SurrogateOutput*> predicted_outputs(const SurrogateRecord& rec
   for (const SurrogateOutput& output : record.outputs)
     if (output.reason.empty()) outputs.push_back(&output);
   return outputs;
+}
+
+/// A fit that predicts nothing, or no critical gap where a gap is asked about.
+std::optional<InputError> fault_of_fit(const AskArguments& arguments, const SurrogateRecord& record) {
+  const bool predicts_gap = record.predicted(report::quantity::critical_gap.name) != nullptr;
+  if (arguments.gap ? predicts_gap : !predicted_outputs(record).empty()) return std::nullopt;
+  std::string found = "a fit without an answer";
+  for (const SurrogateOutput& output : record.outputs)
+    if (!output.reason.empty()) found += fmt::format("; {}: {}", kinds::shown(output).heading, output.reason);
+  return scene::error_at({arguments.study.string()}, arguments.gap ? "--gap" : "", found,
+                         "a study whose launches have numbers there");
 }
 
 /// Columns of what is set, and of every output with its error.
@@ -161,14 +184,23 @@ report::Quantities<AskedLaunch> launch_quantities(const SurrogateRecord& record,
   return quantities;
 }
 
-void predict(const SurrogateRecord& record, std::vector<AskedLaunch>& launches) {
+bool is_told(const std::optional<study::Prediction>& prediction) { return prediction.has_value(); }
+
+void predict(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+             std::vector<AskedLaunch>& launches) {
+  for (AskedLaunch& launch : launches)
+    if (const auto fault = fault_in(inputs, launch.values)) launch.reason = fault->message();
   for (const SurrogateOutput* output : predicted_outputs(record)) {
     const Surrogate surrogate(record, *output);
     for (AskedLaunch& launch : launches) {
-      const study::Prediction prediction = surrogate.at(record.inputs.point_of(launch.values));
+      const study::Prediction prediction =
+          launch.reason.empty() ? surrogate.at(record.inputs.point_of(launch.values)) : study::Prediction{};
       launch.predictions.push_back(prediction.covered ? std::optional(prediction) : std::nullopt);
     }
   }
+  for (AskedLaunch& launch : launches)
+    if (launch.reason.empty() && !std::ranges::all_of(launch.predictions, is_told))
+      launch.reason = farther_out;
 }
 
 /// What stands under the table.
@@ -203,16 +235,16 @@ std::vector<std::optional<double>> fixed_coordinates(const SurrogateRecord& reco
 /// How often a gap (m) would ignite over what the inputs that are not set may be.
 Json print_ignitions(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
                      const AskedLaunch& launch, double gap, Console& console) {
-  const study::PredictedIgnitions of = study::predicted_ignitions(
-      record, gap, fixed_coordinates(record, inputs, record.inputs.point_of(launch.values)));
+  const auto fixed = fixed_coordinates(record, inputs, record.inputs.point_of(launch.values));
+  const study::PredictedIgnitions of = ignitions_of(study::drawn_critical_gaps(record, fixed), gap);
   const auto share = [&of](std::size_t count) {
     return report::in_words(static_cast<double>(count) / static_cast<double>(of.draws),
                             keys::significant(3, keys::percent));
   };
   if (!std::ranges::all_of(inputs, &AskedInput::is_set))
     console.print_text(fmt::format(
-        "Over what the other inputs may be: of {} draws {} ignite, {} to {} within the error of the fit; {} "
-        "are farther out than any launch by which it is known.\n",
+        "Over what the other inputs may be: of {} draws {} ignite by the fit, {} to {} within its error and "
+        "whatever those do that are farther out than any launch by which it is known, {}.\n",
         of.draws, share(of.predicted), share(of.at_least), share(of.at_most), share(of.uncovered)));
   return {{"ignitions",
            {{"draws", of.draws},
@@ -243,16 +275,22 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   const SurrogateRecord record = read_record(arguments.study, console);
   std::vector<AskedInput> inputs = inputs_in_scene(record, console);
   for (const std::string& given : arguments.settings) console.refuse_any(set_input(given, record, inputs));
-  console.refuse_any(fault_in(record, inputs));
+  console.refuse_any(fault_of_count(arguments, inputs));
+  console.refuse_any(fault_of_fit(arguments, record));
   std::vector<AskedLaunch> launches = launches_of(inputs);
-  predict(record, launches);
+  predict(record, inputs, launches);
   const bool is_one = launches.size() == 1;
-  const auto is_told = [](const auto& prediction) { return prediction.has_value(); };
-  if (is_one && !std::ranges::all_of(launches.front().predictions, is_told))
-    console.refuse(
-        fault_of_set("...", "a launch that is farther out than any by which the error of the fit is known",
-                     "values nearer to the middle of their ranges, or a study of the launch itself"));
-  const report::Table table = report::table_of("Predicted", launch_quantities(record, inputs), launches);
+  if (std::ranges::none_of(launches, [=](const AskedLaunch& launch) {
+        return is_one ? launch.reason.empty() : std::ranges::any_of(launch.predictions, is_told);
+      }))
+    console.refuse(fault_in(inputs, launches.front().values)
+                       .value_or(fault_of_set(
+                           "...", fmt::format("a launch that is {}", farther_out),
+                           "values nearer to the middle of their ranges, or a study of the launch itself")));
+  auto quantities = launch_quantities(record, inputs);
+  if (!is_one)
+    quantities.emplace_back(report::headed("not answered", report::quantity::reason), &AskedLaunch::reason);
+  const report::Table table = report::table_of("Predicted", quantities, launches);
   console.print_text(arguments.csv ? report::to_csv(table)
                                    : report::to_text(table, width_of_output()) + notes_on(record, inputs));
   if (console.json()) console.print_json({{"launches", report::json_rows(table)}});

@@ -34,7 +34,7 @@ const std::vector<Key<SensitivitySettings>> sensitivity_keys{
     number_key("samples", Dimension::count, between(2, 1e6), assumed,
                "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
                &SensitivitySettings::samples),
-    number_key("held_out", Dimension::count, between(10, 1e6), assumed,
+    number_key("held_out", Dimension::count, between(study::fewest_held_out, 1e6), assumed,
                "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
                &SensitivitySettings::held_out),
     number_key("error_of_temperature", Dimension::temperature_difference, above(0), assumed,
@@ -101,11 +101,12 @@ void make_saltelli(StudyFile& study) {
 
 /// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
 void check_fit_of_draws(const StudyFile& study) {
-  constexpr int fewest_held_out = 30, most_fitted = 2000;
+  constexpr std::size_t most_fitted = 2000;
   const auto& own = settings_of<SensitivitySettings>(study);
-  const int fewest =
-      std::max(fewest_held_out, static_cast<int>(math::fewest_chaos_points(study.study.axes.size())));
-  if (own.surrogate && (own.samples < fewest || own.samples > most_fitted))
+  const auto samples = static_cast<std::size_t>(own.samples);
+  const std::size_t fewest =
+      std::max(study::fewest_held_out, math::fewest_chaos_points(study.study.axes.size()));
+  if (own.surrogate && (samples < fewest || samples > most_fitted))
     refuse_at(study, "surrogate", fmt::format("{} samples to be fitted, and as many held out", own.samples),
               fmt::format("{} to {} samples", fewest, most_fitted));
 }
@@ -197,7 +198,7 @@ OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOut
   OutputSensitivity output = values_of(result, which);
   summarise(result.study.study, output);
   if (output.bounds > 0)
-    output.reason = bounds_reason(output.bounds, output.values.size());
+    output.reason = gap_reason(result.answers);
   else
     estimate(result, output);
   return output;

@@ -1,3 +1,4 @@
+#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 
 #include <numeric>
@@ -157,6 +158,7 @@ std::vector<double> design_points(const Study& study) {
 SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output) {
   SurrogateOutput fit = unfitted(result, output);
   fit_output(launches_of(result), fit);
+  if (output.output == SensitivityOutput::critical_gap) fit.reason = gap_reason(result.answers, fit.reason);
   return fit;
 }
 

@@ -249,8 +249,7 @@ std::string samples_text(const SensitivityResult& result) {
     const OutputSample sample = sample_of(result, *gap);
     if (gap->fit && gap->fit->reason.empty() && gap->reason.empty()) {
       const study::SurrogateRecord record = surrogate_record(result);
-      const study::PredictedIgnitions of =
-          predicted_ignitions(record, record.gap, std::vector<std::optional<double>>(record.keys.size()));
+      const study::PredictedIgnitions of = ignitions_of(study::drawn_critical_gaps(record), record.gap);
       facts["fit"] = {{"draws", of.draws},
                       {"predicted", of.predicted},
                       {"at_most", of.at_most},

@@ -65,6 +65,10 @@ std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
   if (const auto& together = record.inputs.correlated)
     fit["correlated"] = {
         {"first", together->first}, {"count", together->count}, {"factor", together->factor}};
+  if (record.drawn && record.predicted(quantity::critical_gap.name) != nullptr)
+    for (const study::Prediction& each : drawn_critical_gaps(record))
+      fit["draws"].push_back(
+          {study::nanometres(each.value), each.covered ? study::nanometres(each.error) : -1});
   Row facts{{"fitted", record.fitted()}, {"held_out", record.held_out.size()}};
   for (const SurrogateOutput& output : record.outputs) {
     if (output.reason.empty())
@@ -78,7 +82,7 @@ std::string ask_page(const SurrogateRecord& record, const StudyFile& study) {
   return report::filled(ask_template(), {&facts});
 }
 
-constexpr std::size_t fewest_held_out = 30, most_launches = 2000, fewest_values = 4;
+constexpr std::size_t most_launches = 2000, fewest_values = 4;
 
 /// Values of an axis whose cases are held out.
 std::vector<double> held_out_values(const Axis& axis) {
@@ -127,11 +131,9 @@ SurrogateOutput temperature_output(const CriticalGapResult& result, std::size_t 
 }
 
 SurrogateOutput critical_gap_output(const CriticalGapResult& result) {
-  SurrogateOutput output{.name = quantity::critical_gap.name,
-                         .values = of_each(result.answers, critical_gap_number)};
-  if (const auto bounds = std::ranges::count_if(result.answers, is_bound))
-    output.reason = bounds_reason(static_cast<std::size_t>(bounds), result.answers.size());
-  return output;
+  return {.name = quantity::critical_gap.name,
+          .values = of_each(result.answers, critical_gap_number),
+          .reason = gap_reason(result.answers)};
 }
 
 const Quantities<SurrogateOutput> surrogate_quantities = joined<SurrogateOutput>(
@@ -182,8 +184,14 @@ Quantities<SurrogateOutput> fit_quantities() {
            error_of([](const SurrogateOutput& output) { return output.error.largest; })}};
 }
 
-std::string bounds_reason(std::size_t bounds, std::size_t all) {
-  return fmt::format("{} of {} critical gaps are bounds, not numbers", bounds, all);
+std::string gap_reason(const std::vector<CaseAnswer>& answers, std::string otherwise) {
+  if (const auto bounds = std::ranges::count_if(answers, is_bound))
+    otherwise = fmt::format("{} of {} critical gaps are bounds, not numbers", bounds, answers.size());
+  const auto first = std::ranges::find_if(
+      answers, [](const CaseAnswer& answer) { return std::isnan(critical_gap_number(answer)); });
+  if (otherwise.empty() || first == answers.end()) return otherwise;
+  return fmt::format("{} (the first without a number: {})", otherwise,
+                     first->completed() ? text_of(first->critical.reason) : first->failure);
 }
 
 std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, const StudyFile& study) {
@@ -207,12 +215,12 @@ void check_sweep_surrogate(const StudyFile& study) {
     fitted *= axis.values.size() - held_out_values(axis).size();
   }
   const std::size_t fewest = math::fewest_chaos_points(axes.size());
-  if (all - fitted < fewest_held_out || fitted < fewest || all > most_launches)
+  if (all - fitted < study::fewest_held_out || fitted < fewest || all > most_launches)
     refuse_at(study, "surrogate",
               fmt::format("{} cases, {} to be fitted and {} between these to be held out", all, fitted,
                           all - fitted),
               fmt::format("up to {} cases, at least {} of them fitted and {} held out", most_launches, fewest,
-                          fewest_held_out));
+                          study::fewest_held_out));
 }
 
 SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
@@ -235,10 +243,11 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
     if (is_held_out) record.held_out.push_back(row);
   }
   for (std::size_t gap = 0; gap < study.study.gaps.size(); ++gap)
-    record.outputs.push_back(temperature_output(result, gap));
-  record.outputs.push_back(critical_gap_output(result));
-  for (SurrogateOutput& output : record.outputs)
-    if (output.reason.empty()) fit_output(record, output, fewest_held_out);
+    fit_output(record, record.outputs.emplace_back(temperature_output(result, gap)));
+  SurrogateOutput& critical = record.outputs.emplace_back(critical_gap_output(result));
+  if (!critical.reason.empty()) return record;
+  fit_output(record, critical);
+  critical.reason = gap_reason(result.answers, critical.reason);
   return record;
 }
 

@@ -126,8 +126,9 @@ void describe_output(RecordObject& object, SurrogateOutput& output, const Surrog
   const std::size_t known = math::finite_rows(inputs, rows.points, rows.values).values.size();
   const bool enough =
       output.fit.by_process() ? known > inputs + 1 : known > chaos.terms.size() && !chaos.terms.empty();
-  if (!enough || std::ranges::none_of(record.held_out,
-                                      [&](std::size_t row) { return std::isfinite(output.values[row]); }))
+  const auto tell =
+      std::ranges::count_if(record.held_out, [&](auto row) { return std::isfinite(output.values[row]); });
+  if (!enough || static_cast<std::size_t>(tell) < fewest_held_out)
     object.refuse("values", "too few numbers for its fit and the error of that", "those of the study");
 }
 
@@ -244,7 +245,7 @@ const SurrogateOutput* SurrogateRecord::predicted(const std::string& name) const
   return found == outputs.end() || !found->reason.empty() ? nullptr : &*found;
 }
 
-void fit_output(const SurrogateRecord& record, SurrogateOutput& output, std::size_t fewest_held_out) {
+void fit_output(const SurrogateRecord& record, SurrogateOutput& output) {
   constexpr double most_unexplained = 0.1;
   const math::FiniteRows rows = record.fitted_rows(output.values);
   output.fit = {math::fit_chaos(record.inputs.bases(), rows.points, rows.values),
@@ -349,24 +350,32 @@ std::vector<math::Interval> ranges_of(const SurrogateRecord& record) {
   return ranges;
 }
 
-PredictedIgnitions predicted_ignitions(const SurrogateRecord& record, double gap,
-                                       const std::vector<std::optional<double>>& fixed) {
-  constexpr std::uint64_t seed = 1;
-  PredictedIgnitions ignitions{.draws = 4096};
-  const Surrogate critical_gap(record, *record.predicted("critical_gap"));
-  const std::size_t inputs = record.keys.size();
-  const std::vector<double> points =
-      math::unit_points(math::Design::scrambled_sobol, ignitions.draws, inputs, seed);
-  for (std::size_t row = 0; row < ignitions.draws; ++row) {
-    std::vector<double> point = math::point_of_row(points, row, inputs);
-    for (std::size_t i = 0; i < inputs; ++i) point[i] = fixed[i].value_or(point[i]);
-    const Prediction predicted = critical_gap.at(point);
-    ignitions.at_least += predicted.value + predicted.error <= gap;
-    ignitions.predicted += predicted.value <= gap;
-    ignitions.at_most += predicted.value - predicted.error <= gap;
-    ignitions.uncovered += !predicted.covered;
+PredictedIgnitions ignitions_of(const std::vector<Prediction>& critical_gaps, double gap) {
+  PredictedIgnitions ignitions{.draws = critical_gaps.size()};
+  for (const Prediction& each : critical_gaps) {
+    const long long above = nanometres(gap) - nanometres(each.value), error = nanometres(each.error);
+    ignitions.at_least += each.covered && above >= error;
+    ignitions.predicted += above >= 0;
+    ignitions.at_most += !each.covered || above >= -error;
+    ignitions.uncovered += !each.covered;
   }
   return ignitions;
+}
+
+std::vector<Prediction> drawn_critical_gaps(const SurrogateRecord& record,
+                                            const std::vector<std::optional<double>>& fixed) {
+  constexpr std::size_t draws = 4096;
+  constexpr std::uint64_t seed = 1;
+  const Surrogate critical_gap(record, *record.predicted("critical_gap"));
+  const std::size_t inputs = record.keys.size();
+  const std::vector<double> points = math::unit_points(math::Design::scrambled_sobol, draws, inputs, seed);
+  std::vector<Prediction> critical_gaps;
+  for (std::size_t row = 0; row < draws; ++row) {
+    std::vector<double> point = math::point_of_row(points, row, inputs);
+    for (std::size_t i = 0; i < fixed.size(); ++i) point[i] = fixed[i].value_or(point[i]);
+    critical_gaps.push_back(critical_gap.at(point));
+  }
+  return critical_gaps;
 }
 
 }  // namespace launchsafe::study

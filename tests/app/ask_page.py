@@ -18,7 +18,7 @@ SENSITIVITY = """kind = "sensitivity"
 scene = "SCENE"
 method = "polynomial-chaos"
 samples = 20
-held_out = 12
+held_out = 30
 gaps = "0.02 cm"
 largest_gap = "0.4 cm"
 vary = [
@@ -71,6 +71,7 @@ for (const [values, gap] of POINTS) {
     box.dispatchEvent(new Event('input'));
   }
   results.push({rows: [...document.querySelectorAll('#outputs tr')].map(row => ({...row.dataset})),
+                share: {...document.getElementById('share').dataset},
                 word: document.getElementById('word').textContent, fault: document.getElementById('fault').textContent});
   for (const [name, value] of Object.entries(before)) document.getElementById(name).value = value;
 }
@@ -122,7 +123,11 @@ def faults_of(program, study, name, page, folder):
                     faults.append(f"{what}: {key} is {row[which]}, not {numbers[key]}")
         if not page_says["rows"] or not page_says["word"].endswith(program_says.get("gap", "nothing")):
             faults.append(f"{what}: the page says {page_says['word']}, the program {program_says['gap']}")
-        print(f"{what}: {page_says['word']}")
+        # The page draws all inputs, as `ask` does where none is set; of the ranges of a sweep neither draws.
+        page_counts = {key: int(count) for key, count in page_says["share"].items()}
+        if not values and page_counts != program_says.get("ignitions", {}):
+            faults.append(f"{what}: of the draws the page says {page_counts}, the program {program_says.get('ignitions')}")
+        print(f"{what}: {page_says['word']} {page_counts}")
     return faults, refused
 
 

@@ -4,7 +4,7 @@
 namespace launchsafe::app {
 namespace {
 
-/// 18 launches of milliseconds.
+/// 46 launches of milliseconds.
 const std::string fitted_study = R"(kind = "sensitivity"
 scene = "shell.toml"
 early_time = "0.03 ms"
@@ -12,7 +12,7 @@ gaps = "0.01 cm"
 method = "polynomial-chaos"
 design = "scrambled-sobol"
 samples = 16
-held_out = 10
+held_out = 30
 resamples = 100
 
 [[vary]]
@@ -55,14 +55,13 @@ TEST_F(Ask, PredictsTheLaunchThatAStudyComputes) {
 }
 
 TEST_F(Ask, NeverSaysSafeAndSaysThatNothingWasComputed) {
-  const Outcome outcome = run({"ask", "fit", "--gap", "0"});
-  const Outcome with_unit = run({"ask", "fit", "--gap", "0 mm"});
-  EXPECT_EQ(outcome.code, 2);
-  ASSERT_EQ(with_unit.code, 0) << with_unit.err;
-  EXPECT_EQ(with_unit.out.find("SAFE\n"), std::string::npos);
-  EXPECT_EQ(with_unit.out.find(": SAFE"), std::string::npos);
-  EXPECT_NE(with_unit.out.find("only a launch that was computed can be SAFE"), std::string::npos)
-      << with_unit.out;
+  EXPECT_EQ(run({"ask", "fit", "--gap", "0"}).code, 2);
+  const Outcome outcome = run({"ask", "fit"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("SAFE\n"), std::string::npos);
+  EXPECT_EQ(outcome.out.find(": SAFE"), std::string::npos);
+  EXPECT_NE(outcome.out.find("only a launch that was computed can be SAFE"), std::string::npos)
+      << outcome.out;
 }
 
 TEST_F(Ask, ListsMakeARowOfEveryCombinationThatSaysWhatTheLaunchAloneSays) {
@@ -86,6 +85,73 @@ TEST_F(Ask, ListsMakeARowOfEveryCombinationThatSaysWhatTheLaunchAloneSays) {
   EXPECT_TRUE(csv.out.starts_with("peak_pressure_MPa,initial_temperature_K,temperature_max_K,")) << csv.out;
   EXPECT_NE(run(command).out.find("only a launch that was computed can be SAFE"), std::string::npos);
   EXPECT_EQ(run({"ask", "fit", "--csv", "--gap", "0.1 mm"}).code, 2);
+  EXPECT_NE(run({"ask", "fit", "--set", "peak_pressure=255, 262 MPa", "--gap", "0.1 mm"})
+                .err.find("--gap: found 2 launches; allowed: one launch"),
+            std::string::npos);
+}
+
+// What lies within is answered as it is alone; nothing but that it is refused is said of what lies outside.
+TEST_F(Ask, AListIsAnsweredWhereItMayBeAndSaysWhereNot) {
+  const std::string set = "peak_pressure=262, 281 MPa";
+  const Outcome outcome = run({"ask", "fit", "--set", set, "--json", "-q"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto rows = nlohmann::json::parse(outcome.out)["launches"];
+  ASSERT_EQ(rows.size(), 2u);
+  const Outcome alone = run({"ask", "fit", "--set", "peak_pressure=262 MPa", "--json", "-q"});
+  EXPECT_EQ(rows[0]["temperature_max_K"],
+            nlohmann::json::parse(alone.out)["launches"][0]["temperature_max_K"]);
+  EXPECT_EQ(rows[0]["reason"], "");
+  EXPECT_TRUE(rows[1]["temperature_max_K"].is_null());
+  const std::string refused =
+      "load.peak: found 281 MPa; allowed: 250 MPa to 280 MPa, where launches were computed";
+  EXPECT_EQ(rows[1]["reason"], refused);
+  for (const char* form : {"--csv", "-q"})
+    EXPECT_NE(run({"ask", "fit", "--set", set, form}).out.find(refused), std::string::npos) << form;
+  const Outcome none = run({"ask", "fit", "--set", "peak_pressure=281, 290 MPa"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.out, "");
+  EXPECT_NE(none.err.find(refused), std::string::npos) << none.err;
+}
+
+// All critical gaps of the fit are bounds, and what is asked of a gap has no answer.
+TEST_F(Ask, AGapIsRefusedWithTheReasonWhereNoCriticalGapIsPredicted) {
+  const std::string reason =
+      "46 of 46 critical gaps are bounds, not numbers (the first without a number: no ignition up to 0.1 cm";
+  const Outcome of_gap = run({"ask", "fit", "--gap", "0.05 mm"});
+  EXPECT_EQ(of_gap.code, 2);
+  EXPECT_EQ(of_gap.out, "");
+  EXPECT_NE(of_gap.err.find(reason), std::string::npos) << of_gap.err;
+  const Outcome of_temperature = run({"ask", "fit"});
+  EXPECT_EQ(of_temperature.code, 0) << of_temperature.err;
+  EXPECT_NE(of_temperature.out.find("critical gap: not predicted, " + reason), std::string::npos)
+      << of_temperature.out;
+}
+
+// Below and above all critical gaps; draws that are not covered may do either, and so may the interval.
+TEST_F(Ask, TellsOfAGapAndOfTheDrawsOverWhatIsNotSet) {
+  write("igniting.toml", with(fitted_study, "[[vary]]", R"(accept = [
+  { key = "kinetics.ignition_temperature", value = "350 K", because = "the charge ignites in so brief a launch" },
+  { key = "gap.exchange_time", value = "20 us", because = "the launch is as much faster" },
+]
+set = { kinetics.ignition_temperature = "350 K", gap.exchange_time = "20 us" }
+
+[[vary]])"));
+  ASSERT_NE(run({"study", "igniting.toml", "-o", "igniting", "-q"}).code, 2);
+  const auto told = [&](const char* gap, const char* word) {
+    const Outcome outcome = run({"ask", "igniting", "--gap", gap, "--json", "-q"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const auto facts = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(facts["gap"], word);
+    return facts["ignitions"];
+  };
+  const auto small = told("0.001 mm", "predicted: no ignition");
+  EXPECT_GT(small["uncovered"], 0);
+  EXPECT_EQ(small["at_least"], 0);
+  EXPECT_EQ(small["at_most"], small["uncovered"]);
+  const auto large = told("0.9 mm", "predicted: ignition");
+  EXPECT_EQ(large["at_least"].get<int>(), large["draws"].get<int>() - large["uncovered"].get<int>());
+  EXPECT_EQ(large["at_most"], large["draws"]);
+  EXPECT_EQ(run({"ask", "igniting", "--gap", "0.9 mm"}).out.find(": SAFE"), std::string::npos);
 }
 
 TEST_F(Ask, RefusesWhatWasNotComputed) {

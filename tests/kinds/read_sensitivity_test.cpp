@@ -346,4 +346,10 @@ TEST(ReadSensitivity, AFitNeedsEightSamplesOrTwoAnInput) {
                   {5, "samples", "7 samples for a fit", "at least 8: two an input, and 8"});
 }
 
+TEST(ReadSensitivity, AFitIsHeldAgainstThirtyLaunchesAtLeast) {
+  const std::string fit = "method = \"polynomial-chaos\"\nsamples = 8\n";
+  expect_error_in(sensitivity_start + fit + "held_out = 29\n" + crack, {6, "held_out", "29", "30 to 1"});
+  EXPECT_EQ(study_of(sensitivity_start + fit + "held_out = 30\n" + crack).cases.size(), 38u);
+}
+
 }  // namespace

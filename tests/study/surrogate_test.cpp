@@ -174,12 +174,37 @@ TEST(Surrogate, CountsTheDrawsWhoseCriticalGapIsBelowAGap) {
     output.values[row] = 4e-4 * std::exp(-2.0 * (values[0] / 496e6 - 1.0));
   }
   fit_output(record, output);
-  const PredictedIgnitions free = predicted_ignitions(record, 3e-4, {{}, {}, {}});
+  const PredictedIgnitions free = ignitions_of(drawn_critical_gaps(record), 3e-4);
   EXPECT_NEAR(static_cast<double>(free.predicted) / static_cast<double>(free.draws), 0.1633, 0.002);
   EXPECT_LE(free.at_least, free.predicted);
   EXPECT_GE(free.at_most, free.predicted);
-  const PredictedIgnitions held = predicted_ignitions(record, 3e-4, {0.5, {}, {}});
+  const PredictedIgnitions held = ignitions_of(drawn_critical_gaps(record, {0.5, {}, {}}), 3e-4);
   EXPECT_EQ(held.predicted, 0u);
+}
+
+// Nothing is known of a draw that is farther out than every launch by which the error is known.
+TEST(Surrogate, DrawsThatAreNotCoveredMayIgniteOrNot) {
+  const std::vector<Prediction> draws{{4e-4, 1e-5, true},   // does not
+                                      {2e-4, 1e-5, true},   // does
+                                      {3e-4, 1e-5, true},   // nearer than the error
+                                      {9e-4, 1e-5, false},  // not judged, whatever the value
+                                      {1e-4, 1e-5, false}};
+  const PredictedIgnitions of = ignitions_of(draws, 3.05e-4);
+  EXPECT_EQ(of.draws, 5u);
+  EXPECT_EQ(of.at_least, 1u);
+  EXPECT_EQ(of.predicted, 3u);
+  EXPECT_EQ(of.at_most, 4u);
+  EXPECT_EQ(of.uncovered, 2u);
+  // Far below every critical gap no draw ignites by the fit; those that are not covered still may.
+  const std::vector<Prediction> all = drawn_critical_gaps(some_record());
+  const PredictedIgnitions none = ignitions_of(all, 1e-5);
+  EXPECT_EQ(none.predicted, 0u);
+  EXPECT_GT(none.uncovered, 0u);
+  EXPECT_EQ(none.at_least, 0u);
+  EXPECT_EQ(none.at_most, none.uncovered);
+  const PredictedIgnitions every = ignitions_of(all, 1e-2);
+  EXPECT_EQ(every.at_least, every.draws - every.uncovered);
+  EXPECT_EQ(every.at_most, every.draws);
 }
 
 TEST(SurrogateRecord, ReadsBackAsWritten) {
@@ -209,7 +234,7 @@ TEST(SurrogateRecord, OfAnotherVersionEditedOrWithoutWhatItsErrorNeedsIsRefused)
   other.replace(other.find(version) + version.size(), 1, "1");
   EXPECT_NE(fault_of(other).find("the version of this program"), std::string::npos);
   SurrogateRecord without_error = some_record();
-  for (std::size_t row = 64; row < 96; ++row)
+  for (std::size_t row = 64; row < 67; ++row)  // 29 of 32 are left
     without_error.outputs.front().values[row] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(fault_of(to_json_text(without_error)).find("too few numbers"), std::string::npos);
   SurrogateRecord no_correlation = some_record();

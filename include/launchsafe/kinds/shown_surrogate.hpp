@@ -3,6 +3,7 @@
 
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/table.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
 namespace launchsafe::kinds {
@@ -13,8 +14,9 @@ report::Column shown(const study::SurrogateOutput& output);
 /// How good the fit of an output is; nothing where it has none.
 report::Quantities<study::SurrogateOutput> fit_quantities();
 
-/// Why nothing is fitted to critical gaps of which so many are bounds.
-std::string bounds_reason(std::size_t bounds, std::size_t all);
+/// Why nothing is predicted of critical gaps: some are bounds, or else what is given. With why the first of
+/// them that is no number is none; empty where there is no such reason.
+std::string gap_reason(const std::vector<study::CaseAnswer>& answers, std::string otherwise = {});
 
 /// surrogate.json, and ask.html, which answers from the same fit. `study` has its inputs as axes.
 std::vector<report::TextFile> surrogate_files(const study::SurrogateRecord& record,

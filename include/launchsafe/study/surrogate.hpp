@@ -7,6 +7,8 @@
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
+#include <cmath>
+
 namespace launchsafe::study {
 
 /// Inputs that vary together, as the calibration that fitted them found: their logarithms are normal.
@@ -75,9 +77,13 @@ struct SurrogateRecord {
   const SurrogateOutput* predicted(const std::string& name) const;
 };
 
+/// The error of a fit is known from no fewer launches that were not fitted.
+inline constexpr std::size_t fewest_held_out = 30;
+
 /// Fits an output that has its values, and finds its error. Nothing is predicted of one without a fit, or
-/// where the fit misses more than a tenth of the variance, or where fewer launches tell.
-void fit_output(const SurrogateRecord& record, SurrogateOutput& output, std::size_t fewest_held_out = 10);
+/// where the fit misses more than a tenth of the variance, or where fewer than `fewest_held_out` launches
+/// tell.
+void fit_output(const SurrogateRecord& record, SurrogateOutput& output);
 
 std::string to_json_text(const SurrogateRecord& record);
 /// Refuses an edited record and one of another model version. `file` is named in errors.
@@ -131,11 +137,17 @@ std::vector<math::Interval> ranges_of(const SurrogateRecord& record);
 /// Launches drawn from the inputs, by whether their critical gap is no larger than a gap.
 struct PredictedIgnitions {
   std::size_t draws = 0;
-  std::size_t at_least = 0, predicted = 0, at_most = 0;  ///< value + error, value, and value - error are not
+  std::size_t predicted = 0;  ///< the value of the fit is not
+  /// Value + error, and value - error, are not. Of the draws that are not covered none, and all: they may do
+  /// either.
+  std::size_t at_least = 0, at_most = 0;
   std::size_t uncovered = 0;  ///< draws farther out than any launch that tells the error
 };
-/// `fixed`: coordinates that every draw has; the others are drawn. Of a record that predicts critical gaps.
-PredictedIgnitions predicted_ignitions(const SurrogateRecord& record, double gap,
-                                       const std::vector<std::optional<double>>& fixed);
+PredictedIgnitions ignitions_of(const std::vector<Prediction>& critical_gaps, double gap);
+/// What they are compared in: whole ones of a length (m), so that a page can have all draws and say the same.
+inline long long nanometres(double length) { return std::llround(1e9 * length); }
+/// Critical gaps of such draws. `fixed`: coordinates that every draw has. Of a record that predicts them.
+std::vector<Prediction> drawn_critical_gaps(const SurrogateRecord& record,
+                                            const std::vector<std::optional<double>>& fixed = {});
 
 }  // namespace launchsafe::study
