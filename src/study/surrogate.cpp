@@ -15,7 +15,7 @@ using Kind = math::Distribution::Kind;
 // --- The record as JSON, read with distrust. ---
 
 constexpr RecordFormat surrogate_format{
-    "launchsafe surrogate 2", "surrogate.json",
+    "launchsafe surrogate 3", "surrogate.json",
     "a study of kind sensitivity with method = \"polynomial-chaos\", or a sweep with surrogate = true"};
 constexpr std::size_t most_inputs = 100, most_launches = 10000, most_terms = 5000;
 const scene::Limits any_number = scene::between(-1e30, 1e30);
@@ -81,6 +81,18 @@ void describe_correlated(RecordObject& object, SurrogateRecord& record) {
         record.inputs.distributions[together.first + i].kind != math::Distribution::Kind::log_normal)
       object.refuse("covariance_factor", "no factor of log-normal inputs", "that of the study");
   record.inputs.correlated = std::move(together);
+}
+
+/// Of all coordinates, or none.
+void describe_correlation(RecordObject& object, SurrogateRecord& record) {
+  std::vector<double>& correlation = record.inputs.correlation;
+  const std::size_t inputs = record.keys.size();
+  object.value("correlation", correlation, scene::between(-1, 1), 0, inputs * inputs);
+  if (!object.reading() || correlation.empty()) return;
+  bool possible =
+      correlation.size() == inputs * inputs && math::covariance_factor(correlation, inputs).has_value();
+  for (std::size_t i = 0; possible && i < inputs; ++i) possible = correlation[i * inputs + i] == 1.0;
+  if (!possible) object.refuse("correlation", "no matrix of correlations", "that of the study");
 }
 
 void describe_term(RecordObject& object, math::ChaosTerm& term, std::size_t inputs, int degree) {
@@ -162,6 +174,7 @@ void describe_surrogate(RecordObject& object, SurrogateRecord& record) {
   object.value("gap_m", record.gap, scene::between(0, 0.01));
   describe_inputs(object, record);
   object.part("correlated", record, describe_correlated);
+  describe_correlation(object, record);
   object.value("drawn", record.drawn);
   const std::size_t inputs = record.keys.size();
   object.value("points", record.points, scene::between(0.0, 1.0), inputs, inputs * most_launches);
@@ -315,13 +328,14 @@ std::vector<double> least_sure_points(SurrogateRecord record, SurrogateOutput ou
   constexpr std::size_t draws = 512;
   const std::size_t inputs = record.keys.size();
   const std::vector<double> candidates = math::unit_points(math::Design::monte_carlo, draws, inputs, seed);
+  const math::CopulaDraws drawn = record.inputs.draws();
   std::vector<double> chosen;
   for (std::size_t i = 0; i < count; ++i) {
     const Surrogate surrogate(record, output);
     std::vector<double> worst;
     Prediction there{0.0, -1.0};
     for (std::size_t row = 0; row < draws; ++row) {
-      const auto point = math::point_of_row(candidates, row, inputs);
+      const auto point = drawn.at(math::point_of_row(candidates, row, inputs));
       const Prediction prediction = surrogate.at(point);
       if (prediction.error <= there.error) continue;
       there = prediction;
@@ -369,12 +383,10 @@ std::vector<Prediction> drawn_critical_gaps(const SurrogateRecord& record,
   const Surrogate critical_gap(record, *record.predicted("critical_gap"));
   const std::size_t inputs = record.keys.size();
   const std::vector<double> points = math::unit_points(math::Design::scrambled_sobol, draws, inputs, seed);
+  const math::CopulaDraws drawn = fixed.empty() ? record.inputs.draws() : record.inputs.draws(fixed);
   std::vector<Prediction> critical_gaps;
-  for (std::size_t row = 0; row < draws; ++row) {
-    std::vector<double> point = math::point_of_row(points, row, inputs);
-    for (std::size_t i = 0; i < fixed.size(); ++i) point[i] = fixed[i].value_or(point[i]);
-    critical_gaps.push_back(critical_gap.at(point));
-  }
+  for (std::size_t row = 0; row < draws; ++row)
+    critical_gaps.push_back(critical_gap.at(drawn.at(math::point_of_row(points, row, inputs))));
   return critical_gaps;
 }
 

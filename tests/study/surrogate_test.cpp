@@ -207,6 +207,74 @@ TEST(Surrogate, DrawsThatAreNotCoveredMayIgniteOrNot) {
   EXPECT_EQ(every.at_most, every.draws);
 }
 
+/// A critical gap of 0.4 mm less 0.05 mm a deviation of the pressure and 0.03 mm one of the temperature,
+/// which heat both; their scores have this correlation.
+SurrogateRecord linear_record(double correlation) {
+  SurrogateRecord record{
+      .scene = shipped_scene(),
+      .gap = 2e-4,
+      .keys = {"load.peak", "initial_temperature"},
+      .inputs = {.distributions = {Distribution::normal(496e6, 10e6), Distribution::normal(293.0, 5.0)},
+                 .correlation = {1.0, correlation, correlation, 1.0}}};
+  const std::vector<double> points = math::unit_points(Design::monte_carlo, 96, 2, 5);
+  SurrogateOutput output{.name = "critical_gap"};
+  for (std::size_t row = 0; row < 96; ++row) {
+    const std::vector<double> point = record.inputs.draws().at(math::point_of_row(points, row, 2));
+    record.points.insert(record.points.end(), point.begin(), point.end());
+    if (row >= 64) record.held_out.push_back(row);
+    const std::vector<double> values = record.inputs.values_at(point);
+    output.values.push_back(4e-4 - 5e-5 * (values[0] - 496e6) / 10e6 - 3e-5 * (values[1] - 293.0) / 5.0);
+  }
+  fit_output(record, output);
+  record.outputs = {output};
+  return record;
+}
+
+double share_ignited(const SurrogateRecord& record, double gap,
+                     const std::vector<std::optional<double>>& fixed) {
+  const PredictedIgnitions of = ignitions_of(drawn_critical_gaps(record, fixed), gap);
+  return static_cast<double>(of.predicted) / static_cast<double>(of.draws);
+}
+
+// The critical gap is normal, and a'Ca its variance: 0.03^2 + 0.05^2 + 2 rho 0.03 0.05 mm^2.
+TEST(Surrogate, IgnitionIsAsProbableAsTheCorrelationOfTheInputsMakesIt) {
+  double before = 0.0;
+  for (const double correlation : {-0.6, 0.0, 0.3, 0.6, 0.9}) {
+    const SurrogateRecord record = linear_record(correlation);
+    ASSERT_EQ(record.outputs.front().reason, "") << correlation;
+    const double deviation = std::sqrt(3e-5 * 3e-5 + 5e-5 * 5e-5 + 2.0 * correlation * 3e-5 * 5e-5);
+    const double found = share_ignited(record, 3e-4, {{}, {}});
+    EXPECT_NEAR(found, math::cumulative(Distribution::normal(4e-4, deviation), 3e-4), 0.002) << correlation;
+    EXPECT_GT(found, before) << "two that heat go together, " << correlation;
+    before = found;
+  }
+}
+
+// Under a pressure one deviation above its mean the temperature is normal about rho deviations above its own.
+TEST(Surrogate, AnInputThatIsSetMovesThoseThatGoWithIt) {
+  const double one_above = math::cumulative(Distribution::normal(0.0, 1.0), 1.0);
+  const Distribution critical_gap = Distribution::normal(4e-4 - 5e-5 - 0.6 * 3e-5, 0.8 * 3e-5);
+  EXPECT_NEAR(share_ignited(linear_record(0.6), 3.2e-4, {one_above, {}}),
+              math::cumulative(critical_gap, 3.2e-4), 0.002);
+}
+
+TEST(SurrogateRecord, HasTheStatedCorrelation) {
+  const SurrogateRecord record = linear_record(0.6);
+  const auto read = parse_surrogate(to_json_text(record), "surrogate.json");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->inputs.correlation, record.inputs.correlation);
+  EXPECT_EQ(share_ignited(*read, 3e-4, {{}, {}}), share_ignited(record, 3e-4, {{}, {}}));
+  for (const std::vector<double>& none :
+       {std::vector{1.0, 0.6, 0.5, 1.0}, {1.0, 1.0, 1.0, 1.0}, {0.9, 0.1, 0.1, 1.0}, {1.0}}) {
+    SurrogateRecord edited = record;
+    edited.inputs.correlation = none;
+    const auto refused = parse_surrogate(to_json_text(edited), "surrogate.json");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message().find("no matrix of correlations"), std::string::npos)
+        << refused.error().message();
+  }
+}
+
 TEST(SurrogateRecord, ReadsBackAsWritten) {
   const SurrogateRecord record = some_record();
   const std::string text = to_json_text(record);

@@ -2,7 +2,7 @@
 // computed.
 #pragma once
 
-#include "launchsafe/math/sampling.hpp"
+#include "launchsafe/math/copula.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
@@ -24,12 +24,20 @@ struct CorrelatedInputs {
 struct UncertainInputs {
   std::vector<math::Distribution> distributions = {};  ///< SI
   std::optional<CorrelatedInputs> correlated = {};
+  /// As a study states it: of the normal scores of all coordinates, row by row, positive definite. Empty
+  /// where it states none.
+  std::vector<double> correlation = {};
 
   /// SI, in the order of the inputs.
   std::vector<double> values_at(const std::vector<double>& point) const;
   /// The inverse; 0 and 1 for values beyond their distributions.
   std::vector<double> point_of(const std::vector<double>& values) const;
   std::vector<math::ChaosBasis> bases() const;
+  /// Points as the inputs are drawn, with the coordinates that every draw has.
+  math::CopulaDraws draws(std::vector<std::optional<double>> fixed) const {
+    return {correlation, std::move(fixed)};
+  }
+  math::CopulaDraws draws() const { return draws(std::vector<std::optional<double>>(distributions.size())); }
 };
 
 /// What stands for a number of launches: the polynomial, or the process where that misses less of what is
