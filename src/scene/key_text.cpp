@@ -96,7 +96,7 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::words:
       return fmt::format("\"{}\"", key.words.front());
     case KeyKind::text:
-      return fmt::format("\"{}\"", key.example);
+      return key.list_length > 0 ? fmt::format("[{}]", key.example) : fmt::format("\"{}\"", key.example);
     case KeyKind::list:
       return example_of_numbers(key, {0, 1.5, 2}, ", ");
     case KeyKind::range:
@@ -119,6 +119,8 @@ std::string allowed_text(const KeyDescription& key) {
     case KeyKind::words:
       return "any of " + quoted_list(key.words) + ", with commas between";
     case KeyKind::text:
+      if (key.list_length > 0)
+        return fmt::format("an array of {} texts, such as {}", key.list_length, example_of(key));
       return key.example.empty() ? "a text in quotation marks"
                                  : "a text in quotation marks, such as " + example_of(key);
     case KeyKind::number: {

@@ -139,6 +139,15 @@ std::string checked_text(const std::string& text, const KeyDescription& key, con
   throw error_for(place, key, '"' + text + "\", with a NUL character");
 }
 
+std::string checked_texts(const toml::node& node, const KeyDescription& key, const Place& place) {
+  std::vector<std::string> texts;
+  if (const toml::array* array = node.as_array(); array && array->size() == key.list_length)
+    for (const toml::node& each : *array)
+      if (const auto* text = each.as_string()) texts.push_back(checked_text(text->get(), key, place));
+  if (texts.size() != key.list_length) throw error_for(place, key, found_text(node));
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
 /// More tables of one name than anybody writes; each is compared with all the others.
 void check_counts(const toml::table& table, const std::string& file) {
   constexpr std::size_t most_tables = 10'000;
@@ -156,6 +165,7 @@ Value value_at(const toml::node& node, const KeyDescription& key, const Place& p
   if (key.kind == KeyKind::flag && node.is_boolean()) return node.as_boolean()->get();
   if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
   if (key.kind == KeyKind::words && text) return checked_words(text->get(), key, place);
+  if (key.kind == KeyKind::text && key.list_length > 0) return checked_texts(node, key, place);
   if (key.kind == KeyKind::text && text) return checked_text(text->get(), key, place);
   if (key.kind == KeyKind::number)
     return within_limits({read_number(node, key, place)}, found_text(node), key, place).front();
