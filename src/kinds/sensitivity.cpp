@@ -80,6 +80,13 @@ void add_evaluations(StudyFile& study, const std::function<std::string(std::size
                    [&](std::size_t evaluation, const StudyCase&) { return label(evaluation); });
 }
 
+std::string short_name(const Study& study, const SensitivityInput& input) {
+  if (is_calibration(study, input)) return "calibration";
+  std::string name = study.axes[input.first].name;
+  for (std::size_t i = 1; i < input.count; ++i) name += " + " + study.axes[input.first + i].name;
+  return name;
+}
+
 void make_saltelli(StudyFile& study) {
   const Study& s = study.study;
   const std::vector<SensitivityInput> each_input = inputs_of(s);
@@ -92,8 +99,7 @@ void make_saltelli(StudyFile& study) {
     const bool mixed = block != math::SaltelliDesign::block_a && block != math::SaltelliDesign::block_b;
     const SensitivityInput input = mixed ? each_input[block - 2] : SensitivityInput{};
     return fmt::format("sample {} of {}", evaluation / blocks + 1,
-                       mixed
-                           ? fmt::format("AB({})", input.count > 1 ? "calibration" : s.axes[input.first].name)
+                       mixed                                    ? fmt::format("AB({})", short_name(s, input))
                        : block == math::SaltelliDesign::block_a ? "A"
                                                                 : "B");
   });
@@ -215,7 +221,7 @@ Kind sensitivity_kind() {
                  .closing_gaps = study::ClosingGaps::compared},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
                       own_keys(sensitivity_keys)}),
-      .tables = {vary_table()},
+      .tables = {vary_table(), correlation_table()},
       .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
@@ -230,16 +236,28 @@ bool SensitivityResult::any_indeterminate() const {
 }
 
 std::vector<SensitivityInput> inputs_of(const Study& study) {
-  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
+  const auto& own = settings_of<SensitivitySettings>(study);
+  const std::size_t axes = study.axes.size();
   std::vector<SensitivityInput> inputs;
-  for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
-    inputs.push_back({axis, correlated && correlated->first == axis ? correlated->count : 1});
+  for (std::size_t axis = 0; axis < axes; axis += inputs.back().count) {
+    std::size_t end = axis + 1;
+    for (std::size_t i = axis; i < end; ++i)
+      for (std::size_t j = end; j < axes; ++j)
+        if (own.vary_together(i, j, axes)) end = j + 1;
+    inputs.push_back({axis, end - axis});
+  }
   return inputs;
 }
 
+bool is_calibration(const Study& study, const SensitivityInput& input) {
+  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
+  return correlated && correlated->first == input.first && correlated->count == input.count;
+}
+
 study::UncertainInputs uncertain_inputs(const Study& study) {
-  return {of_each(study.axes, [](const Axis& axis) { return *axis.distribution; }),
-          settings_of<SensitivitySettings>(study).correlated};
+  const auto& own = settings_of<SensitivitySettings>(study);
+  return {of_each(study.axes, [](const Axis& axis) { return *axis.distribution; }), own.correlated,
+          own.correlation};
 }
 
 bool samples_inputs(const Study& study, std::size_t evaluation) {

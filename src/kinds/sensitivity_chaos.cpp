@@ -51,15 +51,16 @@ std::vector<std::size_t> columns_of(const Study& study) {
 }
 
 /// By differences, as of launches, of as many predictions as it takes.
-math::SobolIndices process_indices(const Study& study, const Surrogate& surrogate,
-                                   const math::SobolOptions& options) {
+math::SobolIndices indices_of_predictions(const Study& study, const Surrogate& surrogate,
+                                          const math::SobolOptions& options) {
   constexpr std::size_t rows = 1024;
   const std::vector<std::size_t> columns = columns_of(study);
+  const math::CopulaDraws drawn = uncertain_inputs(study).draws();
   const math::SaltelliDesign design =
       math::saltelli_design(math::Design::scrambled_sobol, rows, columns, options.seed);
   std::vector<double> values;
   for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
-    values.push_back(surrogate.at(design.point(evaluation)).value);
+    values.push_back(surrogate.at(drawn.at(design.point(evaluation))).value);
   return math::sobol_indices(columns.size(), values, options);
 }
 
@@ -132,9 +133,8 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points, con
   return true;
 }
 
-}  // namespace
-
-std::vector<double> design_points(const Study& study) {
+/// Points of the unit cube as the design has them.
+std::vector<double> independent_points(const Study& study) {
   const auto& own = settings_of<SensitivitySettings>(study);
   if (!is_by_fit(study)) {
     const auto rows = static_cast<std::size_t>(own.samples);
@@ -155,6 +155,18 @@ std::vector<double> design_points(const Study& study) {
   return points;
 }
 
+}  // namespace
+
+std::vector<double> design_points(const Study& study) {
+  const math::CopulaDraws drawn = uncertain_inputs(study).draws();
+  const std::vector<double> independent = independent_points(study);
+  const std::size_t axes = study.axes.size();
+  std::vector<double> points;
+  for (std::size_t row = 0; row < independent.size() / axes; ++row)
+    std::ranges::copy(drawn.at(math::point_of_row(independent, row, axes)), std::back_inserter(points));
+  return points;
+}
+
 SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output) {
   SurrogateOutput fit = unfitted(result, output);
   fit_output(launches_of(result), fit);
@@ -172,8 +184,9 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
   std::vector<std::size_t> begins = of_each(inputs_of(study), &SensitivityInput::first);
   begins.push_back(study.axes.size());
   const math::FiniteRows rows = record.fitted_rows(fit.values);
-  output.sobol = fit.fit.by_process()
-                     ? process_indices(study, Surrogate(record, fit), own.bootstrap())
+  // The terms of a polynomial are independent of each other where the inputs are.
+  output.sobol = fit.fit.by_process() || !own.correlation.empty()
+                     ? indices_of_predictions(study, Surrogate(record, fit), own.bootstrap())
                      : math::chaos_indices(fit.fit.chaos, rows.points, rows.values, begins, own.bootstrap());
   output.reason = output.sobol.reason;
   for (math::InputIndices& each : output.sobol.inputs)

@@ -26,10 +26,16 @@ std::vector<ShownInput> shown_inputs(const Study& study) {
     };
     ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
     if (input.count == 1) continue;
-    shown = {"constants of the calibration", "together"};
-    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis)
-      shown.distribution +=
-          fmt::format("{}{} {}", axis == input.first ? ": " : "; ", keys[axis].heading, text(axis));
+    shown = {"", "together"};
+    for (std::size_t axis = input.first; axis < input.first + input.count; ++axis) {
+      const bool first = axis == input.first;
+      shown.name += (first ? "" : " + ") + keys[axis].heading;
+      shown.distribution += fmt::format("{}{} {}", first ? ": " : "; ", keys[axis].heading, text(axis));
+      for (const StatedCorrelation& each : settings_of<SensitivitySettings>(study).stated)
+        if (each.one == study.axes[axis].key.name)
+          shown.distribution += fmt::format(", correlation {:g} with {}", each.coefficient, each.other);
+    }
+    if (is_calibration(study, input)) shown.name = "constants of the calibration";
   }
   return inputs;
 }
@@ -72,7 +78,8 @@ std::string method_text(const SensitivityResult& result) {
                 {"design", text_of(own.design)},
                 {"confidence_percent", shown_value(own.confidence, significant(6, percent))},
                 {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
-                {"correlated", own.correlated.has_value()}});
+                {"correlated", own.correlated.has_value()},
+                {"stated", !own.stated.empty()}});
   return said("sensitivity.method", facts).front();
 }
 
@@ -337,13 +344,15 @@ Report report_of(const SensitivityResult& result) {
     report.files = surrogate_files(surrogate_record(result), result.study);
   Row method = method_facts(result);
   method["text"] = method_text(result);
-  report.json = study_json(result.study, report,
-                           {{"method", method},
-                            {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
-                            {"inputs", report::axes_json(result.study.study)},
-                            {"ignition", ignition_json(result)},
-                            {"failed", count_failed(result.answers)},
-                            {"notes", report::mesh_notes(result.study)}});
+  Row facts{{"method", method},
+            {"gap_cm", report::number(shown_gap(result.study.study.gaps.front()))},
+            {"inputs", report::axes_json(result.study.study)},
+            {"ignition", ignition_json(result)},
+            {"failed", count_failed(result.answers)},
+            {"notes", report::mesh_notes(result.study)}};
+  for (const auto& [one, other, coefficient] : settings_of<SensitivitySettings>(result.study).stated)
+    facts["correlations"].push_back({{"between", {one, other}}, {"coefficient", coefficient}});
+  report.json = study_json(result.study, report, facts);
   return report;
 }
 

@@ -244,6 +244,7 @@ Row ignition_json(const SensitivityResult& result) {
 std::string samples_text(const SensitivityResult& result) {
   Row facts = ignition_json(result);
   if (facts["completed"] == 0 && facts["failed"] == 0) return {};
+  facts["together"] = !settings_of<SensitivitySettings>(result.study).stated.empty();
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);

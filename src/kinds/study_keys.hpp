@@ -69,7 +69,7 @@ StudyTable study_table_of(const std::string& name, const std::vector<Key<Owner>>
   return table;
 }
 
-StudyTable reference_table(), cited_limit_table(), vary_table();
+StudyTable reference_table(), cited_limit_table(), vary_table(), correlation_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
 void read_references(const StudySource& source, StudyFile& study);
@@ -102,6 +102,9 @@ void settle_acceptances(const toml::table& table, const StudyKeys& keys, StudyFi
 /// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
 /// kind does not admit is refused.
 void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study);
+
+/// Reads which of these axes vary together, and brings those next to each other.
+void read_correlations(const StudySource& source, StudyFile& study);
 
 /// Of one of the variants of an entry, besides its tables.
 std::vector<Key<Variant>> variant_keys();

@@ -26,6 +26,10 @@ vary = [
   { key = "initial_temperature", distribution = "uniform", range = "288 to 312 K" },
   { calibration = "SOURCE/reports/calibrate_table8/calibration.json" },
 ]
+correlation = [
+  { between = ["peak_pressure", "initial_temperature"], coefficient = 0.5 },
+  { between = ["peak_pressure", "load.width"], coefficient = -0.3 },
+]
 [set]
 numerics.cell_size = "2.5 mm"
 """

@@ -352,4 +352,123 @@ TEST(ReadSensitivity, AFitIsHeldAgainstThirtyLaunchesAtLeast) {
   EXPECT_EQ(study_of(sensitivity_start + fit + "held_out = 30\n" + crack).cases.size(), 38u);
 }
 
+// --- correlations that the study states ---
+
+std::string correlation(const std::string& between, const std::string& coefficient) {
+  return "[[correlation]]\nbetween = [" + between + "]\ncoefficient = " + coefficient + "\n";
+}
+
+const std::string peak =
+    input("key = \"peak_pressure\"\ndistribution = \"normal\"\nmean = \"496 MPa\"\ndeviation = \"10 MPa\"");
+const std::string initial =
+    input("key = \"initial_temperature\"\ndistribution = \"uniform\"\nrange = \"288 to 312 K\"");
+
+/// Normal scores of the draws of an input; of a record's constants likewise, since they are log-normal.
+std::vector<double> scores_of(const StudyFile& file, const std::string& key) {
+  std::vector<double> scores;
+  for (std::size_t axis = 0; axis < file.study.axes.size(); ++axis)
+    for (std::size_t i = 0; i < file.cases.size() && file.study.axes[axis].key.name == key; ++i)
+      if (samples_inputs(file.study, i))
+        scores.push_back(math::quantile(
+            Distribution::normal(0, 1),
+            math::cumulative(*file.study.axes[axis].distribution, file.cases.coordinates(i)[axis])));
+  return scores;
+}
+
+double mean_product(const std::vector<double>& one, const std::vector<double>& other) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i) sum += one[i] * other[i];
+  return sum / static_cast<double>(one.size());
+}
+
+// Inputs that vary together stand next to each other, and are one input of the design.
+TEST(ReadSensitivity, StatedInputsVaryTogetherAndAreOneInput) {
+  const std::string design = "samples = 512\ndesign = \"scrambled-sobol\"\n";
+  const StudyFile file = study_of(sensitivity_start + design + peak + crack + initial +
+                                  correlation("\"load.peak\", \"initial_temperature\"", "0.6"));
+  ASSERT_EQ(file.study.axes.size(), 3u);
+  EXPECT_EQ(file.study.axes[1].key.name, "initial_temperature");
+  ASSERT_EQ(inputs_of(file.study).size(), 2u);
+  EXPECT_EQ(inputs_of(file.study)[0].count, 2u);
+  EXPECT_EQ(file.cases.label(2), "sample 1 of AB(peak_pressure + initial_temperature)");
+  EXPECT_EQ(file.cases.coordinates(2)[0], file.cases.coordinates(1)[0]);
+  EXPECT_EQ(file.cases.coordinates(2)[1], file.cases.coordinates(1)[1]);
+  EXPECT_EQ(file.cases.coordinates(2)[2], file.cases.coordinates(0)[2]);
+  const auto pressure = scores_of(file, "load.peak"), temperature = scores_of(file, "initial_temperature"),
+             radius = scores_of(file, "charge.crack_radius");
+  ASSERT_EQ(pressure.size(), 1024u);
+  EXPECT_NEAR(mean_product(pressure, temperature), 0.6, 0.03);
+  EXPECT_NEAR(mean_product(temperature, temperature), 1.0, 0.03);
+  EXPECT_NEAR(mean_product(pressure, radius), 0.0, 0.03);
+}
+
+// One matrix: the record's block stays what it is, and the coefficient is that of the constant itself.
+TEST(ReadSensitivity, AConstantOfACalibrationMayVaryTogetherWithAnotherInput) {
+  const std::string design = "samples = 1024\ndesign = \"scrambled-sobol\"\n";
+  const StudyFile with = study_of(sensitivity_start + design + peak + crack + calibrated +
+                                  correlation("\"peak_pressure\", \"gap.exchange_time\"", "-0.4"));
+  const StudyFile without = study_of(sensitivity_start + design + peak + crack + calibrated);
+  ASSERT_EQ(inputs_of(with.study).size(), 2u);
+  EXPECT_EQ(inputs_of(with.study)[0].count, 6u);
+  EXPECT_NEAR(mean_product(scores_of(with, "load.peak"), scores_of(with, "gap.exchange_time")), -0.4, 0.03);
+  EXPECT_NEAR(mean_product(scores_of(with, "load.peak"), scores_of(with, "load.width")), 0.0, 0.03);
+  for (const char* one : fitted_keys)
+    for (const char* other : fitted_keys)
+      EXPECT_NEAR(mean_product(scores_of(with, one), scores_of(with, other)),
+                  mean_product(scores_of(without, one), scores_of(without, other)), 0.05)
+          << one << ", " << other;
+}
+
+TEST(ReadSensitivity, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
+  const auto expect_fault = [](const std::string& rest, const ExpectedError& expected) {
+    expect_error_in(sensitivity_start + peak + initial + crack + rest, expected);  // rest from line 18 on
+  };
+  const std::string pair = "\"load.peak\", \"initial_temperature\"";
+  expect_fault(correlation("\"load.peak\", \"initial_temperatur\"", "0.6"),
+               {19, "correlation.between", "\"initial_temperatur\", which the study does not sample",
+                "\"load.peak\", \"initial_temperature\" or \"charge.crack_radius\"", "initial_temperature"});
+  expect_fault(correlation("\"load.peak\", \"load.width\"", "0.6"),
+               {19, "correlation.between", "\"load.width\", which the study does not sample"});
+  expect_fault(correlation("\"load.peak\", \"variants\"", "0.6"),
+               {19, "correlation.between", "\"variants\", which the study does not sample"});
+  expect_fault(correlation("\"load.peak\", \"peak_pressure\"", "0.6"),
+               {19, "correlation.between", "load.peak twice", "two inputs"});
+  expect_fault(
+      correlation(pair, "0.6") + correlation("\"initial_temperature\", \"peak_pressure\"", "0.5"),
+      {22, "correlation.between", "initial_temperature and load.peak a second time", "each pair once"});
+  for (const char* beyond : {"1", "-1", "1.5", "nan"})
+    expect_fault(correlation(pair, beyond), {20, "correlation.coefficient", beyond, "more than -1"});
+  expect_fault(correlation("\"load.peak\"", "0.6"), {19, "correlation.between", "[ \"load.peak\" ]",
+                                                     "an array of 2 texts, such as [\"load.peak\""});
+  expect_fault("[[correlation]]\nbetween = \"load.peak, initial_temperature\"\ncoefficient = 0.6\n",
+               {19, "correlation.between", "\"load.peak, initial_temperature\"", "an array of 2 texts"});
+  expect_fault("[[correlation]]\nbetween = [" + pair + "]\n",
+               {18, "correlation.coefficient", "missing", "a number"});
+  expect_fault("[[correlation]]\ncoefficient = 0.6\n", {18, "correlation.between", "missing"});
+  expect_fault("[[correlation]]\nbetwen = [" + pair + "]\n",
+               {19, "correlation.betwen", "unknown", "", "between"});
+  expect_fault("correlation = 0.6\n", {13, "vary.correlation", "unknown"});
+  expect_error_in(sensitivity_start + "correlation = 0.6\n" + peak,
+                  {4, "correlation", "0.6", "[[correlation]]"});
+  // 0.9 and 0.9 leave the third 0.62 at least.
+  const std::string chain = correlation(pair, "0.9") + correlation("\"load.peak\", \"crack_radius\"", "0.9");
+  expect_fault(chain + correlation("\"initial_temperature\", \"crack_radius\"", "0.6"),
+               {26, "correlation.coefficient",
+                "load.peak, initial_temperature, charge.crack_radius that no inputs have", "nearer to 0"});
+  EXPECT_TRUE(parse_here(sensitivity_start + peak + initial + crack + chain +
+                         correlation("\"initial_temperature\", \"crack_radius\"", "0.7")));
+}
+
+TEST(ReadSensitivity, ACorrelationThatARecordHasIsNotStated) {
+  expect_error_in(
+      sensitivity_start + calibrated + correlation("\"load.width\", \"gap.exchange_time\"", "0.1"),
+      {8, "correlation.between", "whose correlation the record of the calibration has", "one at the most"});
+}
+
+TEST(ReadSensitivity, OtherKindsOfStudyHaveNoCorrelations) {
+  expect_error_in("kind = \"critical-gap\"\nscene = \"scene_155mm.toml\"\ngaps = \"0.02 cm\"\n" +
+                      correlation("\"load.peak\", \"initial_temperature\"", "0.6"),
+                  {4, "correlation", "kind \"sensitivity\"", "critical-gap"});
+}
+
 }  // namespace

@@ -14,6 +14,12 @@ enum class SensitivityMethod {
   polynomial_chaos  ///< a fit to the samples, whose error is that at as many more as held out
 };
 
+/// Two inputs that vary together, as the study file states it, by their scene keys.
+struct StatedCorrelation {
+  std::string one, other;
+  double coefficient = 0;  ///< of their normal scores
+};
+
 /// What a study file of this kind says besides; its inputs are Study::axes, with distributions.
 struct SensitivitySettings {
   SensitivityMethod method = SensitivityMethod::sobol;
@@ -29,7 +35,14 @@ struct SensitivitySettings {
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
-  std::optional<study::CorrelatedInputs> correlated = {};  ///< of Study::axes
+  std::optional<study::CorrelatedInputs> correlated = {};  ///< of Study::axes, by the record of a calibration
+  std::vector<StatedCorrelation> stated = {};
+  std::vector<double> correlation = {};  ///< that this makes: UncertainInputs::correlation
+  /// Whether two of so many axes vary together, by the record of a calibration or as stated.
+  bool vary_together(std::size_t one, std::size_t other, std::size_t axes) const {
+    return (correlated && correlated->has(one) && correlated->has(other)) ||
+           (!correlation.empty() && correlation[one * axes + other] != 0.0);
+  }
   math::SobolOptions bootstrap() const { return {confidence, static_cast<std::size_t>(resamples), seed}; }
 };
 
@@ -38,6 +51,8 @@ struct SensitivityInput {
   std::size_t first = 0, count = 1;  ///< among Study::axes
 };
 std::vector<SensitivityInput> inputs_of(const study::Study& study);
+/// Whether an input is all the constants of a calibration and nothing else.
+bool is_calibration(const study::Study& study, const SensitivityInput& input);
 
 /// Whether the indices are those of a fit.
 inline bool is_by_fit(const study::Study& study) {
