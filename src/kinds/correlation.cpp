@@ -127,7 +127,7 @@ void check_matrix(StudyFile& study) {
     refuse_at(study, study_key(entry, "coefficient"),
               fmt::format("correlations of {} that no inputs have: their matrix is not positive definite",
                           fmt::join(names, ", ")),
-              "coefficients that are possible together; those nearer to 0 are");
+              "coefficients that are possible together, 0 for what is not stated; those nearer to 0 are");
   }
 }
 

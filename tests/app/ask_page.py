@@ -28,7 +28,7 @@ vary = [
 ]
 correlation = [
   { between = ["peak_pressure", "initial_temperature"], coefficient = 0.5 },
-  { between = ["peak_pressure", "load.width"], coefficient = -0.3 },
+  { between = ["peak_pressure", "friction.localisation"], coefficient = -0.3 },
 ]
 [set]
 numerics.cell_size = "2.5 mm"

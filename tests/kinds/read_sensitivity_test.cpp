@@ -406,11 +406,12 @@ TEST(ReadSensitivity, StatedInputsVaryTogetherAndAreOneInput) {
 TEST(ReadSensitivity, AConstantOfACalibrationMayVaryTogetherWithAnotherInput) {
   const std::string design = "samples = 1024\ndesign = \"scrambled-sobol\"\n";
   const StudyFile with = study_of(sensitivity_start + design + peak + crack + calibrated +
-                                  correlation("\"peak_pressure\", \"gap.exchange_time\"", "-0.4"));
+                                  correlation("\"peak_pressure\", \"friction.localisation\"", "-0.4"));
   const StudyFile without = study_of(sensitivity_start + design + peak + crack + calibrated);
   ASSERT_EQ(inputs_of(with.study).size(), 2u);
   EXPECT_EQ(inputs_of(with.study)[0].count, 6u);
-  EXPECT_NEAR(mean_product(scores_of(with, "load.peak"), scores_of(with, "gap.exchange_time")), -0.4, 0.03);
+  EXPECT_NEAR(mean_product(scores_of(with, "load.peak"), scores_of(with, "friction.localisation")), -0.4,
+              0.03);
   EXPECT_NEAR(mean_product(scores_of(with, "load.peak"), scores_of(with, "load.width")), 0.0, 0.03);
   for (const char* one : fitted_keys)
     for (const char* other : fitted_keys)
@@ -421,39 +422,39 @@ TEST(ReadSensitivity, AConstantOfACalibrationMayVaryTogetherWithAnotherInput) {
 
 TEST(ReadSensitivity, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
   const auto expect_fault = [](const std::string& rest, const ExpectedError& expected) {
-    expect_error_in(sensitivity_start + peak + initial + crack + rest, expected);  // rest from line 18 on
+    expect_error_in(sensitivity_start + peak + initial + crack + rest, expected);  // rest from line 17 on
   };
   const std::string pair = "\"load.peak\", \"initial_temperature\"";
   expect_fault(correlation("\"load.peak\", \"initial_temperatur\"", "0.6"),
-               {19, "correlation.between", "\"initial_temperatur\", which the study does not sample",
+               {18, "correlation.between", "\"initial_temperatur\", which the study does not sample",
                 "\"load.peak\", \"initial_temperature\" or \"charge.crack_radius\"", "initial_temperature"});
   expect_fault(correlation("\"load.peak\", \"load.width\"", "0.6"),
-               {19, "correlation.between", "\"load.width\", which the study does not sample"});
+               {18, "correlation.between", "\"load.width\", which the study does not sample"});
   expect_fault(correlation("\"load.peak\", \"variants\"", "0.6"),
-               {19, "correlation.between", "\"variants\", which the study does not sample"});
+               {18, "correlation.between", "\"variants\", which the study does not sample"});
   expect_fault(correlation("\"load.peak\", \"peak_pressure\"", "0.6"),
-               {19, "correlation.between", "load.peak twice", "two inputs"});
+               {18, "correlation.between", "load.peak twice", "two inputs"});
   expect_fault(
       correlation(pair, "0.6") + correlation("\"initial_temperature\", \"peak_pressure\"", "0.5"),
-      {22, "correlation.between", "initial_temperature and load.peak a second time", "each pair once"});
+      {21, "correlation.between", "initial_temperature and load.peak a second time", "each pair once"});
   for (const char* beyond : {"1", "-1", "1.5", "nan"})
-    expect_fault(correlation(pair, beyond), {20, "correlation.coefficient", beyond, "more than -1"});
-  expect_fault(correlation("\"load.peak\"", "0.6"), {19, "correlation.between", "[ \"load.peak\" ]",
+    expect_fault(correlation(pair, beyond), {19, "correlation.coefficient", beyond, "more than -1"});
+  expect_fault(correlation("\"load.peak\"", "0.6"), {18, "correlation.between", "[ \"load.peak\" ]",
                                                      "an array of 2 texts, such as [\"load.peak\""});
   expect_fault("[[correlation]]\nbetween = \"load.peak, initial_temperature\"\ncoefficient = 0.6\n",
-               {19, "correlation.between", "\"load.peak, initial_temperature\"", "an array of 2 texts"});
+               {18, "correlation.between", "\"load.peak, initial_temperature\"", "an array of 2 texts"});
   expect_fault("[[correlation]]\nbetween = [" + pair + "]\n",
-               {18, "correlation.coefficient", "missing", "a number"});
-  expect_fault("[[correlation]]\ncoefficient = 0.6\n", {18, "correlation.between", "missing"});
+               {17, "correlation.coefficient", "missing", "a number"});
+  expect_fault("[[correlation]]\ncoefficient = 0.6\n", {17, "correlation.between", "missing"});
   expect_fault("[[correlation]]\nbetwen = [" + pair + "]\n",
-               {19, "correlation.betwen", "unknown", "", "between"});
-  expect_fault("correlation = 0.6\n", {13, "vary.correlation", "unknown"});
+               {18, "correlation.betwen", "unknown", "", "between"});
+  expect_fault("correlation = 0.6\n", {17, "vary.correlation", "unknown"});
   expect_error_in(sensitivity_start + "correlation = 0.6\n" + peak,
                   {4, "correlation", "0.6", "[[correlation]]"});
   // 0.9 and 0.9 leave the third 0.62 at least.
   const std::string chain = correlation(pair, "0.9") + correlation("\"load.peak\", \"crack_radius\"", "0.9");
   expect_fault(chain + correlation("\"initial_temperature\", \"crack_radius\"", "0.6"),
-               {26, "correlation.coefficient",
+               {25, "correlation.coefficient",
                 "load.peak, initial_temperature, charge.crack_radius that no inputs have", "nearer to 0"});
   EXPECT_TRUE(parse_here(sensitivity_start + peak + initial + crack + chain +
                          correlation("\"initial_temperature\", \"crack_radius\"", "0.7")));
@@ -462,7 +463,7 @@ TEST(ReadSensitivity, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
 TEST(ReadSensitivity, ACorrelationThatARecordHasIsNotStated) {
   expect_error_in(
       sensitivity_start + calibrated + correlation("\"load.width\", \"gap.exchange_time\"", "0.1"),
-      {8, "correlation.between", "whose correlation the record of the calibration has", "one at the most"});
+      {7, "correlation.between", "whose correlation the record of the calibration has", "one at the most"});
 }
 
 TEST(ReadSensitivity, OtherKindsOfStudyHaveNoCorrelations) {

@@ -154,7 +154,8 @@ TEST(Sensitivity, OfALinearMarginTheVarianceIsThatOfItsCorrelatedInputs) {
       ASSERT_EQ(margin.reason, "");
       EXPECT_NEAR(margin.deviation * margin.deviation / variance, 1.0, 0.15) << coefficient << method;
       ASSERT_EQ(margin.sobol.inputs.size(), 2u);
-      expect_holds(margin.sobol.inputs[0].total, 1.0, "both together");
+      EXPECT_LE(margin.sobol.inputs[0].total.lower, 1.0) << coefficient << method;
+      EXPECT_GE(margin.sobol.inputs[0].total.upper, 1.0) << coefficient << method;
       EXPECT_NEAR(margin.sobol.inputs[0].first.value, 1.0, 0.1) << coefficient << method;
       EXPECT_NEAR(margin.sobol.inputs[1].total.value, 0.0, 1e-3) << "the pressure";
       if (margin.fit)
