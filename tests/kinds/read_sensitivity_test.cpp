@@ -438,7 +438,8 @@ TEST(ReadSensitivity, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
       correlation(pair, "0.6") + correlation("\"initial_temperature\", \"peak_pressure\"", "0.5"),
       {21, "correlation.between", "initial_temperature and load.peak a second time", "each pair once"});
   for (const char* beyond : {"1", "-1", "1.5", "nan"})
-    expect_fault(correlation(pair, beyond), {19, "correlation.coefficient", beyond, "more than -1"});
+    expect_fault(correlation(pair, beyond),
+                 {19, "correlation.coefficient", beyond, "-1 (excluded) to 1 (excluded)"});
   expect_fault(correlation("\"load.peak\"", "0.6"), {18, "correlation.between", "[ \"load.peak\" ]",
                                                      "an array of 2 texts, such as [\"load.peak\""});
   expect_fault("[[correlation]]\nbetween = \"load.peak, initial_temperature\"\ncoefficient = 0.6\n",
@@ -449,8 +450,7 @@ TEST(ReadSensitivity, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
   expect_fault("[[correlation]]\nbetwen = [" + pair + "]\n",
                {18, "correlation.betwen", "unknown", "", "between"});
   expect_fault("correlation = 0.6\n", {17, "vary.correlation", "unknown"});
-  expect_error_in(sensitivity_start + "correlation = 0.6\n" + peak,
-                  {4, "correlation", "0.6", "[[correlation]]"});
+  expect_error_in(sensitivity_start + "correlation = 3\n" + peak, {4, "correlation", "3", "[[correlation]]"});
   // 0.9 and 0.9 leave the third 0.62 at least.
   const std::string chain = correlation(pair, "0.9") + correlation("\"load.peak\", \"crack_radius\"", "0.9");
   expect_fault(chain + correlation("\"initial_temperature\", \"crack_radius\"", "0.6"),
