@@ -136,7 +136,7 @@ void check_matrix(StudyFile& study) {
 StudyTable correlation_table() { return study_table_of(table_name, correlation_keys); }
 
 void read_correlations(const StudySource& source, StudyFile& study) {
-  const auto tables = taken(study::tables_of(source.root, table_name, study, {}));
+  const auto tables = study::tables_of(source.root, table_name, study, {});
   if (tables.empty()) return;
   const std::size_t axes = study.study.axes.size();
   settings_of<SensitivitySettings>(study.study).correlation.assign(axes * axes, 0.0);
