@@ -7,7 +7,7 @@ namespace launchsafe::kinds {
 
 namespace {
 
-constexpr const char* table_name = "correlation";
+constexpr const char* correlation_table_name = "correlation";
 
 struct CorrelationText {
   std::string between;  ///< "load.peak, initial_temperature"
@@ -27,7 +27,7 @@ const std::vector<Key<CorrelationText>> correlation_keys{
 
 /// The key of the study file by which places and faults of an entry are kept.
 std::string study_key(std::size_t entry, const std::string& key) {
-  return fmt::format("{}.{}.{}", table_name, entry, key);
+  return fmt::format("{}.{}.{}", correlation_table_name, entry, key);
 }
 
 /// What is stated of two axes.
@@ -48,7 +48,7 @@ std::size_t axis_named(const StudyFile& study, const std::string& name, std::siz
 void read_entry(StudyFile& study, const toml::table& table, std::size_t entry) {
   CorrelationText text;
   for (const auto& [key, place] :
-       taken(scene::read_table(table, correlation_keys, {}, study.file, text), table_name))
+       taken(scene::read_table(table, correlation_keys, {}, study.file, text), correlation_table_name))
     study.places[study_key(entry, key)] = place;
   const std::size_t comma = text.between.find(", ");
   const std::size_t one = axis_named(study, text.between.substr(0, comma), entry),
@@ -133,10 +133,10 @@ void check_matrix(StudyFile& study) {
 
 }  // namespace
 
-StudyTable correlation_table() { return study_table_of(table_name, correlation_keys); }
+StudyTable correlation_table() { return study_table_of(correlation_table_name, correlation_keys); }
 
 void read_correlations(const StudySource& source, StudyFile& study) {
-  const auto tables = study::tables_of(source.root, table_name, study, {});
+  const auto tables = study::tables_of(source.root, correlation_table_name, study, {});
   if (tables.empty()) return;
   const std::size_t axes = study.study.axes.size();
   settings_of<SensitivitySettings>(study.study).correlation.assign(axes * axes, 0.0);

@@ -87,9 +87,9 @@ vary = [
   for (int i = 0; i < 200; ++i) chosen.push_back(combination(draw() % combinations));
   StudyFile others = study;
   others.cases = {};
-  ASSERT_FALSE(add_varied_cases(
+  add_varied_cases(
       others, chosen.size(), [&](std::size_t row) { return chosen[row]; },
-      [](std::size_t row, const StudyCase&) { return fmt::format("other {}", row + 1); }));
+      [](std::size_t row, const StudyCase&) { return fmt::format("other {}", row + 1); });
   Timing timing;
   const std::vector<CaseAnswer> answers = answer_cases(others, two_jobs(), timing);
   ASSERT_TRUE(std::ranges::all_of(answers, &CaseAnswer::completed));
