@@ -3,13 +3,14 @@
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "launchsafe/scene/named_material.hpp"
 
 #include <numeric>
 
 namespace launchsafe::report {
 namespace {
 
-using keys::fixed, keys::text;
+using keys::fixed, keys::scientific, keys::text;
 
 // --- faces that slide ---
 
@@ -97,34 +98,19 @@ Quantities<FaceRow> face_quantities() {
            }}};
 }
 
-/// A gap that burnt, or closed, on the trace of its launch.
-struct OneGap {
-  const run::GapResult* result;
-  const trace::BottomTrace* trace;
-
-  double pressure_at_contact() const {
-    return trace::interpolate(trace->time, trace->bottom_pressure, result->closing->contact_time);
-  }
-  /// Pa/s, between two samples.
-  double steepest_rise() const {
-    double steepest = 0.0;
-    for (std::size_t i = 1; i < trace->samples(); ++i)
-      steepest = std::max(steepest, (trace->bottom_pressure[i] - trace->bottom_pressure[i - 1]) /
-                                        (trace->time[i] - trace->time[i - 1]));
-    return steepest;
-  }
-};
+/// A gap that burnt, or closed.
+using OneGap = const run::GapResult*;
 template <class Part>
 std::vector<OneGap> gaps_with(const run::CaseResult& result, Part run::GapResult::*part) {
   std::vector<OneGap> gaps;
   for (const run::GapResult& gap : result.gaps)
-    if (gap.*part) gaps.push_back({&gap, &result.mechanics.trace});
+    if (gap.*part) gaps.push_back(&gap);
   return gaps;
 }
 
 using run::CombustionHistory;
 const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
-    {{{quantity::gap, &OneGap::result, &run::GapResult::gap}},
+    {{{quantity::gap, &run::GapResult::gap}},
      of_part<OneGap>(
          Quantities<CombustionHistory>{
              {"skin_flame_speed", "flame in the skin", keys::significant(3, metre_per_second),
@@ -148,11 +134,11 @@ const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
              {quantity::energy_drift, &CombustionHistory::energy_drift},
              {"combustion_end", "ended by", text(), "What ended the run.", end_of},
              {quantity::wall_time, &CombustionHistory::wall_time}},
-         &OneGap::result, &run::GapResult::combustion)});
+         &run::GapResult::combustion)});
 
 using run::ClosingHistory, surface::FilmEnergy;
 const Quantities<OneGap> closing_quantities = keys::joined<OneGap>(
-    {{{quantity::gap, &OneGap::result, &run::GapResult::gap}},
+    {{{quantity::gap, &run::GapResult::gap}},
      of_part<OneGap>(
          Quantities<ClosingHistory>{
              {"contact_time", "contact", keys::significant(4, millisecond), "When the faces first met.",
@@ -181,13 +167,7 @@ const Quantities<OneGap> closing_quantities = keys::joined<OneGap>(
              {"heat_to_charge", "in charge", keys::significant(4, kilojoule_per_area),
               "Heat that the charge gained, with that of friction.", &ClosingHistory::energy,
               &FilmEnergy::charge}},
-         &OneGap::result, &run::GapResult::closing),
-     {{"bottom_pressure_at_contact", "p at contact", keys::significant(4, megapascal),
-       "Mean pressure of the charge's bottom when the faces first met.", &OneGap::pressure_at_contact},
-      {quantity::bottom_pressure_max,
-       [](const OneGap& gap) { return largest_in(gap.trace->bottom_pressure); }},
-      {"bottom_pressure_rise_max", "steepest rise", keys::significant(3, keys::megapascal_per_millisecond),
-       "Steepest rise of that pressure between two samples of the trace.", &OneGap::steepest_rise}}});
+         &run::GapResult::closing)});
 
 const Quantities<BurningRow> burning_quantities{
     {quantity::time(3), at_sample(&CombustionHistory::time)},

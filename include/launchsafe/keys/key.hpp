@@ -41,7 +41,6 @@ enum class Dimension {
   volume,
   energy,
   energy_per_area,
-  pressure_rate,
   memory
 };
 
