@@ -118,8 +118,8 @@ std::optional<InputError> fault_in(const std::vector<AskedInput>& inputs, const 
 
 constexpr const char* farther_out = "farther out than any launch by which the error of the fit is known";
 
-/// A launch that is asked for, with a prediction of every output; none where it lies beyond what was computed
-/// or `farther_out`.
+/// A launch that is asked for, with a prediction of every output; none at all where it lies beyond what was
+/// computed or, for any of them, `farther_out`.
 struct AskedLaunch {
   std::vector<double> values = {};  ///< SI, of the inputs
   std::vector<std::optional<study::Prediction>> predictions = {};
@@ -184,8 +184,6 @@ report::Quantities<AskedLaunch> launch_quantities(const SurrogateRecord& record,
   return quantities;
 }
 
-bool is_told(const std::optional<study::Prediction>& prediction) { return prediction.has_value(); }
-
 void predict(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
              std::vector<AskedLaunch>& launches) {
   for (AskedLaunch& launch : launches)
@@ -198,9 +196,12 @@ void predict(const SurrogateRecord& record, const std::vector<AskedInput>& input
       launch.predictions.push_back(prediction.covered ? std::optional(prediction) : std::nullopt);
     }
   }
-  for (AskedLaunch& launch : launches)
-    if (launch.reason.empty() && !std::ranges::all_of(launch.predictions, is_told))
-      launch.reason = farther_out;
+  const auto is_told = [](const auto& prediction) { return prediction.has_value(); };
+  for (AskedLaunch& launch : launches) {
+    if (!launch.reason.empty() || std::ranges::all_of(launch.predictions, is_told)) continue;
+    launch.reason = farther_out;
+    launch.predictions.assign(launch.predictions.size(), std::nullopt);
+  }
 }
 
 /// What stands under the table.
@@ -280,9 +281,7 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   std::vector<AskedLaunch> launches = launches_of(inputs);
   predict(record, inputs, launches);
   const bool is_one = launches.size() == 1;
-  if (std::ranges::none_of(launches, [=](const AskedLaunch& launch) {
-        return is_one ? launch.reason.empty() : std::ranges::any_of(launch.predictions, is_told);
-      }))
+  if (std::ranges::none_of(launches, &std::string::empty, &AskedLaunch::reason))
     console.refuse(fault_in(inputs, launches.front().values)
                        .value_or(fault_of_set(
                            "...", fmt::format("a launch that is {}", farther_out),

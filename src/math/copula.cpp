@@ -1,10 +1,18 @@
 #include "launchsafe/math/copula.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cassert>
 #include <numeric>
 
 namespace launchsafe::math {
+
+double smallest_eigenvalue(const std::vector<double>& matrix, std::size_t rows) {
+  const auto size = static_cast<Eigen::Index>(rows);
+  const Eigen::Map<const Eigen::MatrixXd> symmetric(matrix.data(), size, size);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
 
 CopulaDraws::CopulaDraws(const std::vector<double>& correlation, std::vector<std::optional<double>> fixed)
     : fixed_(std::move(fixed)) {

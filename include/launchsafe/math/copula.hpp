@@ -5,6 +5,9 @@
 
 namespace launchsafe::math {
 
+/// The smallest eigenvalue of a symmetric matrix of so many rows, row by row.
+double smallest_eigenvalue(const std::vector<double>& matrix, std::size_t rows);
+
 /// Draws of shares, points of the open unit cube, whose normal scores are correlated: a Gaussian copula,
 /// under which every share stays uniform. Some may be fixed; the others are then drawn as they are beside
 /// those.
