@@ -7,6 +7,8 @@
 #include "launchsafe/study/study_cases.hpp"
 #include "launchsafe/study/surrogate.hpp"
 
+#include <boost/algorithm/string/trim.hpp>
+
 namespace launchsafe::app {
 namespace {
 
@@ -73,7 +75,7 @@ std::optional<InputError> set_input(const std::string& given, const SurrogateRec
   const std::size_t equals = given.find('=');
   if (equals == std::string::npos)
     return fault_of_set(given, "no =", "KEY=VALUE, such as load.peak=\"510 MPa\"");
-  const std::string name = given.substr(0, equals);
+  const std::string name = boost::algorithm::trim_copy(given.substr(0, equals));
   const auto found = std::ranges::find_if(inputs, [&](const AskedInput& each) {
     return each.key.name == name || study::name_of_axis(each.key.name) == name;
   });
@@ -204,6 +206,19 @@ void predict(const SurrogateRecord& record, const std::vector<AskedInput>& input
   }
 }
 
+/// The key whose value takes a launch farthest out: in the middle of its range it would err least.
+std::string farthest_input(const SurrogateRecord& record, const std::vector<AskedInput>& inputs,
+                           const AskedLaunch& launch) {
+  const Surrogate surrogate(record, *predicted_outputs(record).front());
+  const auto error_in_middle = [&](const AskedInput& input) {
+    std::vector<double> values = launch.values;
+    values[static_cast<std::size_t>(&input - inputs.data())] =
+        std::midpoint(input.range.lower, input.range.upper);
+    return surrogate.at(record.inputs.point_of(values)).error;
+  };
+  return std::ranges::min_element(inputs, {}, error_in_middle)->key.name;
+}
+
 /// What stands under the table.
 std::string notes_on(const SurrogateRecord& record, const std::vector<AskedInput>& inputs) {
   Json facts{{"fitted", record.fitted()}, {"held_out", record.held_out.size()}};
@@ -284,7 +299,9 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   if (std::ranges::none_of(launches, &std::string::empty, &AskedLaunch::reason))
     console.refuse(fault_in(inputs, launches.front().values)
                        .value_or(fault_of_set(
-                           "...", fmt::format("a launch that is {}", farther_out),
+                           "...",
+                           fmt::format("a launch that is {}, most of all by {}", farther_out,
+                                       farthest_input(record, inputs, launches.front())),
                            "values nearer to the middle of their ranges, or a study of the launch itself")));
   auto quantities = launch_quantities(record, inputs);
   if (!is_one)
@@ -306,7 +323,8 @@ void add_ask(CLI::App& app, CommandLine& line) {
   add(command, "--set", ask.settings)->allow_extra_args(false);
   const auto read_gap = [](std::string_view text) {
     const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
-    return gap && *gap >= 0.0 ? gap : std::nullopt;
+    return gap && scene::find_key(scene::scene_keys(), "gap.thickness")->limits.contain(*gap) ? gap
+                                                                                              : std::nullopt;
   };
   CLI::Option* gap = add_amount(command, "--gap", ask.gap, read_gap);
   add(command, "--csv", ask.csv)->excludes(gap);

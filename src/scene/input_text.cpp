@@ -295,6 +295,8 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& ca
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest_word) continue;
+    // A key without its table.
+    if (lower_case(candidate).ends_with("." + wanted)) return candidate;
     const std::size_t apart = letters_apart(wanted, lower_case(candidate));
     if (apart >= fewest || apart >= candidate.size()) continue;
     fewest = apart;

@@ -164,6 +164,7 @@ TEST_F(Ask, RefusesWhatWasNotComputed) {
   EXPECT_NE(fault_of("load.peak=281 MPa").find("250 MPa to 280 MPa, where launches were computed"),
             std::string::npos);
   EXPECT_NE(fault_of("load.peek=260 MPa").find("did you mean load.peak?"), std::string::npos);
+  EXPECT_NE(fault_of("peak=260 MPa").find("did you mean load.peak?"), std::string::npos);
   EXPECT_NE(fault_of("crack_radius=30 um").find("which the study does not vary"), std::string::npos);
   EXPECT_NE(fault_of("load.peak=260").find("without a unit"), std::string::npos);
   EXPECT_NE(fault_of("load.peak").find("no ="), std::string::npos);
@@ -171,6 +172,13 @@ TEST_F(Ask, RefusesWhatWasNotComputed) {
                 .err.find("a second time"),
             std::string::npos);
   EXPECT_NE(run({"ask", "."}).err.find("no such file"), std::string::npos);
+  EXPECT_EQ(run({"ask", "fit", "--set", " load.peak = 260 MPa"}).code, 0);
+  EXPECT_EQ(run({"ask", "fit", "--gap", "10 m"}).code, 2);
+  // A corner of the ranges, at 10 and 8 tenths of them.
+  const Outcome corner =
+      run({"ask", "fit", "--set", "load.peak=280 MPa", "--set", "initial_temperature=308 K"});
+  EXPECT_EQ(corner.code, 2);
+  EXPECT_NE(corner.err.find("most of all by load.peak;"), std::string::npos) << corner.err;
 }
 
 TEST_F(Ask, RefusesAnEditedFit) {
