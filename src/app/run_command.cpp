@@ -116,6 +116,10 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   table.notes.push_back(
       "T max is that of the hottest station; stations tile the charge's bottom, S1 at the wall, and verdicts "
       "use them. At a point beside the wall the stress is singular, and does not settle as cells shrink.");
+  const auto does_not_close = [](const run::GapResult& gap) { return !gap.closing; };
+  if (scene.surface.model == scene::GapModel::closing && std::ranges::any_of(result.gaps, does_not_close))
+    table.notes.push_back(
+        "A gap no wider than the faces are rough does not close: its launch is that without a gap.");
   return table;
 }
 
@@ -152,15 +156,14 @@ std::vector<report::Table> tables_of(const scene::Scene& scene, const run::CaseR
   std::vector<report::Table> tables;
   if (!result.gaps.empty()) {
     const bool closes = scene.surface.model == scene::GapModel::closing;
-    tables = {gap_table(scene, result), closes ? report::closing_table(result) : air_table(scene, result)};
-    if (report::Table burnt = report::combustion_table(scene, result); !burnt.rows.empty())
-      tables.push_back(std::move(burnt));
+    tables = {gap_table(scene, result), closes ? report::closing_table(result) : air_table(scene, result),
+              report::combustion_table(scene, result)};
     for (const run::GapResult& gap : result.gaps)
       if (gap.combustion)
         tables.push_back(report::combustion_history_table(*gap.combustion, gap.gap, history_rows));
   }
-  if (report::Table faces = report::interface_table(result.mechanics); !faces.rows.empty())
-    tables.push_back(std::move(faces));
+  tables.push_back(report::interface_table(result.mechanics));
+  std::erase_if(tables, [](const report::Table& table) { return table.rows.empty(); });
   return tables;
 }
 

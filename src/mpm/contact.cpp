@@ -400,6 +400,16 @@ double Contact::mean_opening() const {
   return volume / area;
 }
 
+double Contact::mean_pressure() const {
+  double impulse = 0.0, area = 0.0;
+  for (const Row& row : rows_) {
+    if (!(row.floor > 0.0)) continue;
+    impulse += row.normal;
+    area += row.area;
+  }
+  return last_kick_ > 0.0 ? impulse / (area * last_kick_ * damping_factor_) : 0.0;
+}
+
 double Contact::gas_work(std::size_t face, std::size_t node) const {
   const Row& row = rows_[faces_[face].first_row + node];
   return row.area > 0.0 ? row.gas_work / row.area : 0.0;

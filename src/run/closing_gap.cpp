@@ -10,6 +10,8 @@ constexpr double pressure_change = 0.05, volume_change = 0.02;
 constexpr double part_moved = 0.02;
 /// Largest part of an opening by which faces approach in a step.
 constexpr double most_closed = 0.1;
+/// Of the time that sound takes through the charge: the pressure of its bottom is a mean over it.
+constexpr double smoothed_part = 0.05;
 
 mpm::Contact& contact_of(mpm::Simulation& simulation) { return simulation.total_lagrangian()->contact(); }
 
@@ -49,7 +51,8 @@ ClosingGap::ClosingGap(mpm::Simulation& simulation, const TraceRecorder& recorde
       floor_(simulation.scene().surface.roughness),
       often_(simulation.scene().surface.turns),
       columns_(model_, nodes_.size(), gap, scene::end_time(simulation.scene().load),
-               surface::GapColumns::numerics_of(model_.surface)) {
+               surface::GapColumns::numerics_of(model_.surface)),
+      smoothing_time_(smoothed_part * scene::transit_time(simulation.scene())) {
   simulation.centre_kicks();
   mpm::Contact& contact = contact_of(simulation);
   for (std::size_t face = 0; face < contact.faces(); ++face)
@@ -163,6 +166,7 @@ void ClosingGap::advance(mpm::Simulation& simulation, const TraceRecorder& recor
     share_air(contact, time);
   }
   note_motion(touches, time);
+  note_pressure(contact, dt);
 }
 
 bool ClosingGap::is_due(const Node& node, const mpm::GapGas& gas) const {
@@ -241,10 +245,26 @@ void ClosingGap::note_motion(bool touches, double time) {
       history_.approach_speed = std::max(history_.approach_speed, node.closing_speed);
   }
   if (touches && !touched_) {
-    if (history_.contacts == 0) history_.contact_time = time;
+    if (history_.contacts == 0) {
+      history_.contact_time = time;
+      bottom_.length = bottom_.integral = 0.0;
+    }
     ++history_.contacts;
   }
   touched_ = touches;
+}
+
+/// When the faces first meet an interval begins, whose rise is from the whole one before.
+void ClosingGap::note_pressure(const mpm::Contact& contact, double dt) {
+  bottom_.length += dt;
+  bottom_.integral += dt * contact.mean_pressure();
+  if (bottom_.length < smoothing_time_) return;
+  const double mean = bottom_.integral / bottom_.length;
+  // Of nothing and a number the larger is the number.
+  history_.largest_pressure = std::fmax(history_.largest_pressure, mean);
+  history_.steepest_rise = std::fmax(history_.steepest_rise, (mean - bottom_.last) / bottom_.length);
+  if (history_.contacts > 0 && std::isnan(history_.pressure_at_contact)) history_.pressure_at_contact = mean;
+  bottom_ = {.last = mean};
 }
 
 void ClosingGap::record(const TraceRecorder& recorder) {

@@ -83,6 +83,7 @@ class ClosingGap {
   void share_air(mpm::Contact& contact, double time);
   mpm::GapGas gas_of(const surface::EnclosedAir& air, double covolume) const;
   void note_motion(bool touches, double time);
+  void note_pressure(const mpm::Contact& contact, double dt);
 
   surface::SkinModel model_;
   bool shares_air_;
@@ -95,6 +96,13 @@ class ClosingGap {
   ClosingHistory history_;
   double longest_step_ = math::infinity;
   bool touched_ = false, failed_ = false;
+  /// Of the pressure of the charge's bottom, over an interval: what nodes that meet bear in a single step is
+  /// a matter of the step.
+  struct MeanPressure {
+    double length = 0, integral = 0;   ///< s, Pa s, so far
+    double last = math::not_a_number;  ///< Pa, of the interval before
+  } bottom_;
+  double smoothing_time_;  ///< s, length of such intervals
 };
 
 }  // namespace launchsafe::run

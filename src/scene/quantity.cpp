@@ -104,6 +104,7 @@ const DimensionInfo& info_of(Dimension dimension) {
       {"volume", "\"1 cm3\"", "m3", {{"cm3", -6}, {"m3", 0}}, {}},
       {"heat", "\"1 kJ\"", "J", {{"kJ", 3}, {"J", 0}}, {}},
       {"heat per area", "\"1 kJ/m2\"", "J/m2", {{"kJ/m2", 3}, {"J/m2", 0}}, {}},
+      {"rate of pressure", "\"1 MPa/ms\"", "Pa/s", {{"MPa/ms", 9}, {"Pa/s", 0}}, {}},
       {"size of memory", "\"1 MB\"", "B", {{"MB", 6}, {"B", 0}}, {}},
   }};
   return table[static_cast<std::size_t>(dimension)];

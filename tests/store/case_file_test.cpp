@@ -232,6 +232,9 @@ run::CaseResult sample_with_cells() {
   closing.gas_pressure = {101325.0, 5e6};
   closing.smallest_opening = 1e-5;
   closing.contacts = 3;
+  closing.pressure_at_contact = 70e6;
+  closing.largest_pressure = 90e6;
+  closing.steepest_rise = 5e12;
   closing.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
   return result;
 }

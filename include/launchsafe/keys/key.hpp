@@ -41,6 +41,7 @@ enum class Dimension {
   volume,
   energy,
   energy_per_area,
+  pressure_rate,
   memory
 };
 

@@ -271,13 +271,16 @@ inline constexpr std::tuple stored_combustion{
            "heat above the initial temperature that the burnt part had before"},
 };
 
-/// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom.
+/// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom; its
+/// pressure is one of them, and none in files that are older than it.
 struct ClosingHistory {
   std::vector<double> time, opening, gas_pressure;
   double smallest_opening = 0, approach_speed = 0;
   double contact_time = math::not_a_number;
   int contacts = 0;
   double largest_gas_pressure = 0, largest_gas_temperature = 0;
+  double pressure_at_contact = math::not_a_number, largest_pressure = math::not_a_number,
+         steepest_rise = math::not_a_number;
   double work_on_gas = 0;
   surface::FilmEnergy energy;  ///< J/m2
 };
@@ -290,6 +293,12 @@ inline constexpr std::tuple stored_closing{
     Stored{"largest_gas_pressure", &ClosingHistory::largest_gas_pressure, "Pa", "anywhere"},
     Stored{"largest_gas_temperature", &ClosingHistory::largest_gas_temperature, "K",
            "mean over the air at a place"},
+    Stored{"pressure_at_contact", &ClosingHistory::pressure_at_contact, "Pa",
+           "of the charge's bottom, air's and faces' above the surroundings, from contact_time on over a "
+           "twentieth of the time that sound takes through the charge; largest and rise over such times",
+           true},
+    Stored{"largest_pressure", &ClosingHistory::largest_pressure, "Pa", "of the charge's bottom", true},
+    Stored{"steepest_rise", &ClosingHistory::steepest_rise, "Pa/s", "of that pressure", true},
     Stored{"work_on_gas", &ClosingHistory::work_on_gas, "J/m2",
            "of the faces, beyond the surrounding pressure; mean over the bottom, as below"},
 };
