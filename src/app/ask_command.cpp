@@ -296,13 +296,14 @@ ExitCode perform(const AskArguments& arguments, Console& console) {
   std::vector<AskedLaunch> launches = launches_of(inputs);
   predict(record, inputs, launches);
   const bool is_one = launches.size() == 1;
-  if (std::ranges::none_of(launches, &std::string::empty, &AskedLaunch::reason))
-    console.refuse(fault_in(inputs, launches.front().values)
-                       .value_or(fault_of_set(
-                           "...",
-                           fmt::format("a launch that is {}, most of all by {}", farther_out,
-                                       farthest_input(record, inputs, launches.front())),
-                           "values nearer to the middle of their ranges, or a study of the launch itself")));
+  if (std::ranges::none_of(launches, &std::string::empty, &AskedLaunch::reason)) {
+    console.refuse_any(fault_in(inputs, launches.front().values));
+    console.refuse(
+        fault_of_set("...",
+                     fmt::format("a launch that is {}, most of all by {}", farther_out,
+                                 farthest_input(record, inputs, launches.front())),
+                     "values nearer to the middle of their ranges, or a study of the launch itself"));
+  }
   auto quantities = launch_quantities(record, inputs);
   if (!is_one)
     quantities.emplace_back(report::headed("not answered", report::quantity::reason), &AskedLaunch::reason);

@@ -225,8 +225,10 @@ Row ignition_json(const SensitivityResult& result) {
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
-    ++(answer.completed() ? completed : failed);
-    igniting += answer.completed() && answer.verdicts.front().ignition;
+    // A launch with a validity warning may ignite too, whatever it computed.
+    const bool is_sound = answer.completed() && answer.validity_warnings.empty();
+    ++(is_sound ? completed : failed);
+    igniting += is_sound && answer.verdicts.front().ignition;
   }
   const std::size_t all = completed + failed;
   const auto interval = [&](std::size_t count) {

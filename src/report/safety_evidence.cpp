@@ -263,10 +263,14 @@ void check_agreement(const SafetyEvidence& evidence) {
 }
 
 /// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
-/// and all thinner ones SAFE too.
+/// and all thinner ones SAFE too; beside a sweep of closing gaps alone, which looks for no worst corner,
+/// none.
 void hold_against_closing_gaps(SafetyEvidence& evidence) {
+  const StudyEvidence* launch = evidence.find(tells::launch);
   const StudyEvidence* closing = evidence.find(tells::closing);
-  if (closing == nullptr) return;
+  for (const StudyEvidence& study : evidence.studies)
+    if (closing == nullptr && study.tells == tells::sweep && closes(study)) closing = &study;
+  if (closing == nullptr || launch == nullptr || closes(*launch)) return;
   const Row& judged = closing->rows("verdicts");
   const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
   Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;

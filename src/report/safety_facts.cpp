@@ -223,11 +223,26 @@ bool is_confirmed(const CaseEvidence& judged) {
   return expected.size() == 2;
 }
 
+/// Whether a sensitivity study draws its inputs about the launch of a case: that has values in the middle
+/// half of what was drawn of each. Peaks about another one say nothing of it.
+bool is_drawn_about(const CaseEvidence& judged, const StudyEvidence& drawn) {
+  return std::ranges::all_of(drawn.rows("inputs"), [&](const Row& input) {
+    const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
+    if (!key) return false;
+    const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
+    std::vector<double> values;
+    for (const Row& row : drawn.rows("evaluations")) values.push_back(number_of(row, text_of(input, "key")));
+    std::ranges::sort(values);
+    const double own = judged.value(key->name) * shown_value(1.0, form);
+    return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
+  });
+}
+
 /// Upper end of the probability that a gap (cm) ignites, by the launches that the sensitivity study drew at
 /// one at least as wide; nothing of another launch, where one of them failed, or where the spread of the main
 /// study's inputs is assumed.
 double most_probable(double gap, const CaseEvidence& judged, const StudyEvidence* drawn) {
-  if (drawn == nullptr || !is_of_same_launch(*drawn) || !judged.is_own() ||
+  if (drawn == nullptr || !is_of_same_launch(*drawn) || !is_drawn_about(judged, *drawn) || !judged.is_own() ||
       found_in(judged.study->study, "assumed").contains("input_uncertainty") ||
       number_of(drawn->study, "failed") != 0.0 ||  // which may be those that ignite
       !(gap <= number_of(drawn->study, "gap_cm")))

@@ -19,12 +19,13 @@ constexpr double negligible = 0.01;
 /// no noise.
 constexpr double highest_start = 0.05, highest_analytic_start = 0.01;
 
-// Of a measured curve, shares of its length or of its own rise.
-/// A gauge that saturates or is cut shows one pressure for so long; the pulse of a gun is within 0.2 % of its
-/// peak for 2 % of the launch.
-constexpr double longest_plateau = 0.05, plateau = 0.998;
+// Of a measured curve, shares of the time that it is above half of its peak, which the length of the record
+// does not change, or of its own rise.
+/// A gauge that saturates or is cut shows one pressure for so long; a smooth pulse is within 0.2 % of its
+/// peak for a twentieth of that time.
+constexpr double longest_plateau = 0.15, plateau = 0.998;
 /// Points further apart beside the largest one may have missed the peak between them.
-constexpr double widest_gap_at_peak = 0.2;
+constexpr double widest_gap_at_peak = 0.5;
 /// Time from the peak down to half of it over that from half of it up: propellant burns out no faster than
 /// this, and a cable that breaks does.
 constexpr double fastest_fall = 0.5;
@@ -91,6 +92,20 @@ std::string is_whole(const Load& load, const PressureHistory& history) {
   return {};
 }
 
+/// s, from the last point of a measured curve before it passes a tenth of its largest one to the first after.
+std::pair<double, double> pulse_of(const Load& load, double end) {
+  const auto& pressure = load.curve_pressure;
+  const auto is_of_pulse = [least = 0.1 * std::ranges::max(pressure)](double p) { return p >= least; };
+  auto first = std::ranges::find_if(pressure, is_of_pulse);
+  auto behind = std::find_if(pressure.rbegin(), pressure.rend(), is_of_pulse).base();
+  if (first != pressure.begin()) --first;
+  if (behind == pressure.end()) --behind;
+  const auto time_of = [&](auto point) {
+    return std::clamp(load.curve_time[static_cast<std::size_t>(point - pressure.begin())], 0.0, end);
+  };
+  return {time_of(first), time_of(behind)};
+}
+
 /// Whether the largest point of a measured curve can be the peak of the launch. Judged is what the gauge
 /// showed: after a muzzle exit the pressure falls as fast as it may.
 std::string shows_its_peak(const Load& whole) {
@@ -99,30 +114,32 @@ std::string shows_its_peak(const Load& whole) {
   const double end = scene::end_time(load);
   const auto& pressure = load.curve_pressure;
   if (pressure.size() < 2) return {};
-  const auto top = std::ranges::max_element(pressure);
-  const auto at = static_cast<std::size_t>(top - pressure.begin());
+  const auto at = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
   const double before = at > 0 ? load.curve_time[at] - load.curve_time[at - 1] : 0.0;
   const double after = at + 1 < pressure.size() ? load.curve_time[at + 1] - load.curve_time[at] : 0.0;
-  if (std::max(before, after) > widest_gap_at_peak * end)
-    return fmt::format("the measured curve has no point for {} beside its largest: the peak may lie between",
-                       milliseconds(std::max(before, after)));
   constexpr int parts = 2000;
-  const double stated = history.peak();
-  double first_half = end, last_half = 0.0, flat = 0.0;
-  bool has_fallen = false;
+  const auto [from, to] = pulse_of(load, end);
+  const double part_length = (to - from) / parts, stated = history.peak();
+  double first_half = to, last_half = from, flat = 0.0;
+  bool has_risen = false, has_fallen = false;
   for (int part = 0; part < parts; ++part) {
-    const double time = end * (part + 0.5) / parts, here = history.at(time);
-    if (here >= plateau * stated) flat += end / parts;
-    has_fallen = has_fallen || (here < 0.1 * stated && last_half > 0.0);
+    const double time = from + part_length * (part + 0.5), here = history.at(time);
+    if (here >= plateau * stated) flat += part_length;
+    has_fallen = has_fallen || (here < 0.1 * stated && has_risen);
     if (here < 0.5 * stated) continue;
     if (has_fallen)
       return fmt::format(
           "the measured curve falls below a tenth of its peak and rises again by {}, as misread numbers do",
           milliseconds(time));
+    has_risen = true;
     first_half = std::min(first_half, time);
     last_half = std::max(last_half, time);
   }
-  if (flat > longest_plateau * end)
+  const double above_half = last_half - first_half;
+  if (std::max(before, after) > widest_gap_at_peak * above_half)
+    return fmt::format("the measured curve has no point for {} beside its largest: the peak may lie between",
+                       milliseconds(std::max(before, after)));
+  if (flat > longest_plateau * above_half)
     return fmt::format(
         "the measured curve stays at its largest pressure for {}, as a gauge does that saturates",
         milliseconds(flat));

@@ -220,6 +220,17 @@ TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirG
   // None of 96 launches ignites at 0.02 cm: 0 to 3.77 %.
   EXPECT_EQ(recommended("probability <= 0.05"), 0.02);
   EXPECT_TRUE(recommended("probability <= 0.01").is_null());
+  change(drawn, [](auto& results) {
+    for (auto& each : results["evaluations"])
+      each["peak_pressure_MPa"] = each["peak_pressure_MPa"].template get<double>() - 190.0;
+  });
+  EXPECT_TRUE(recommended("probability <= 0.05").is_null())
+      << "drawn about 306 MPa, where this launch has 496";
+  change(drawn, [](auto& results) {
+    for (auto& each : results["evaluations"])
+      each["peak_pressure_MPa"] = each["peak_pressure_MPa"].template get<double>() + 190.0;
+  });
+  EXPECT_EQ(recommended("probability <= 0.05"), 0.02);
   change(drawn, [](auto& results) { results["failed"] = 1; });
   EXPECT_TRUE(recommended("probability <= 0.05").is_null()) << "one that failed may be one that ignites";
 }
@@ -259,6 +270,14 @@ TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
   // An earlier program looked at fewer instants of release.
   change(closing, [](auto& results) { results["closing"][1]["corner_launches"] = corner_launches - 1; });
   EXPECT_TRUE(has(fault_of({reservoir, closing}), "SAFE against its worst corner, for which fewer launches"));
+}
+
+// A sweep of closing gaps looks for no worst corner: nothing is SAFE beside it alone.
+TEST_F(SafetyReport, NoGapIsSafeBesideASweepOfGapsThatCloseAlone) {
+  const path reservoir = shipped("critical_gap_155mm"), sweep = shipped("closing_sweep_155mm");
+  const std::string page = file_of({reservoir, sweep}, "report.md");
+  EXPECT_TRUE(has(page, "where the gap closes it is not SAFE: B"));
+  EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE"));
 }
 
 /// Sentences are taken from lists, whatever parentheses and words a reason has.
