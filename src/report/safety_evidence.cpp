@@ -3,6 +3,7 @@
 #include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/run_case.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 #include "safety_facts.hpp"
@@ -101,6 +102,12 @@ std::string contradiction_of(const CaseEvidence& judged, const Row& row) {
   // Of many cases whose gaps close the worst corner was not computed.
   if (closes(study) && (study.tells == tells::sweep || !corner_is_whole(judged, gap)))
     return "its worst corner, for which fewer launches looked than this program takes";
+  // An earlier program looked less closely at measured curves.
+  if (!study.scene.scene.load.curve_time.empty()) {
+    const auto scene = judged.scene();
+    const auto uncovered = scene ? run::uncovered_load(scene->scene.load) : std::vector<std::string>{"none"};
+    if (!uncovered.empty()) return "its load: " + uncovered.front();
+  }
   for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
     if (!text_of(row, fault).empty()) return std::string("its ") + fault;
   // Another ignition temperature than the scene's may be what a sweep is over.
@@ -263,14 +270,10 @@ void check_agreement(const SafetyEvidence& evidence) {
 }
 
 /// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
-/// and all thinner ones SAFE too; beside a sweep of closing gaps alone, which looks for no worst corner,
-/// none.
+/// and all thinner ones SAFE too.
 void hold_against_closing_gaps(SafetyEvidence& evidence) {
-  const StudyEvidence* launch = evidence.find(tells::launch);
-  const StudyEvidence* closing = evidence.find(tells::closing);
-  for (const StudyEvidence& study : evidence.studies)
-    if (closing == nullptr && study.tells == tells::sweep && closes(study)) closing = &study;
-  if (closing == nullptr || launch == nullptr || closes(*launch)) return;
+  const StudyEvidence* closing = held_against(evidence);
+  if (closing == nullptr) return;
   const Row& judged = closing->rows("verdicts");
   const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
   Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
@@ -369,6 +372,16 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
     cases.push_back(std::move(each));
   }
   return cases;
+}
+
+const StudyEvidence* held_against(const SafetyEvidence& evidence) {
+  const StudyEvidence* launch = evidence.find(tells::launch);
+  if (launch == nullptr || closes(*launch)) return nullptr;
+  if (const StudyEvidence* closing = evidence.find(tells::closing)) return closing;
+  const auto sweep = std::ranges::find_if(evidence.studies, [](const StudyEvidence& study) {
+    return study.tells == tells::sweep && closes(study);
+  });
+  return sweep == evidence.studies.end() ? nullptr : &*sweep;
 }
 
 double own_value(const StudyEvidence& study, const std::string& key) {

@@ -401,7 +401,9 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
   if (const StudyEvidence* sensitivity = evidence.find(tells::sensitivity))
-    facts["same_launch"] = is_of_same_launch(*sensitivity);
+    facts["same_launch"] =
+        is_of_same_launch(*sensitivity) && !cases.empty() && is_drawn_about(own_case(cases), *sensitivity);
+  if (const StudyEvidence* closing = held_against(evidence)) facts["held_against"] = closing->label;
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
   std::set<std::string> models;  // under which ignition is not excluded
   for (const Row* row : rows("main.verdicts except verdict UNSAFE with model_form"))

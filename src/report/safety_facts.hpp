@@ -24,6 +24,9 @@ struct CaseEvidence {
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);
+/// The study of gaps that close by which SAFE of a reservoir stays SAFE or not; a sweep of them, which looks
+/// for no worst corner, leaves none. nullptr without any.
+const StudyEvidence* held_against(const SafetyEvidence& evidence);
 
 /// Whether it makes another launch, or computes it otherwise.
 bool is_of_launch(const study::Difference& difference);

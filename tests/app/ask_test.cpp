@@ -181,6 +181,16 @@ TEST_F(Ask, RefusesWhatWasNotComputed) {
   EXPECT_NE(corner.err.find("most of all by load.peak;"), std::string::npos) << corner.err;
 }
 
+// Beyond all that a normal input was drawn at its probability is 0 or 1, which has no score.
+TEST_F(Ask, RefusesWhatLiesBeyondANormalInput) {
+  const Outcome outcome =
+      run({"ask", LAUNCHSAFE_SOURCE_DIR "/reports/sensitivity", "--set", "load.peak=460 MPa"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("load.peak: found 460 MPa; allowed: 472.786 MPa to 525.504 MPa"),
+            std::string::npos)
+      << outcome.err;
+}
+
 TEST_F(Ask, RefusesAnEditedFit) {
   std::string text = read("fit/surrogate.json");
   const std::size_t place = text.find("\"coefficient\": ");

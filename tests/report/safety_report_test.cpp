@@ -117,6 +117,24 @@ TEST_F(SafetyReport, ASafeThatItsTemperatureOrCriticalGapContradictsIsRefused) {
   EXPECT_TRUE(has(fault_of({warned}), "0 cm is called SAFE")) << fault_of({warned});
 }
 
+// An earlier program called gaps SAFE under such a record where it went on for long.
+TEST_F(SafetyReport, ASafeUnderALoadThatSaturatesIsRefused) {
+  const path study = copy_of("critical_gap_155mm");
+  auto manifest = nlohmann::ordered_json::parse(read(study / "manifest.json"));
+  std::string input = manifest["input"];
+  for (const auto& [from, to] :
+       {std::pair{"load.curve_time = []",
+                  "load.curve_time = \"0, 0.005, 0.007, 0.009, 0.011, 0.013, 0.015, 0.018, 0.02, 0.15 s\""},
+        {"load.curve_pressure = []",
+         "load.curve_pressure = \"0, 60e6, 480e6, 496e6, 496e6, 496e6, 480e6, 2e6, 2e6, 0 Pa\""}})
+    input.replace(input.find(from), std::string(from).size(), to);
+  manifest["input"] = input;
+  manifest["input_sha256"] = store::sha256(input);
+  write(study / "manifest.json", manifest.dump(1));
+  EXPECT_TRUE(has(fault_of({study}), "0 cm is called SAFE against its load: the measured curve stays"))
+      << fault_of({study});
+}
+
 TEST_F(SafetyReport, ASafeOfASweepThatItsCriticalGapContradictsIsRefused) {
   const path sweep = copy_of("sweep_pressure_defect");
   change(sweep, [](auto& results) {
@@ -226,11 +244,13 @@ TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirG
   });
   EXPECT_TRUE(recommended("probability <= 0.05").is_null())
       << "drawn about 306 MPa, where this launch has 496";
+  EXPECT_FALSE(has(file_of({study, drawn}, "report.md"), "launches drawn from the inputs"));
   change(drawn, [](auto& results) {
     for (auto& each : results["evaluations"])
       each["peak_pressure_MPa"] = each["peak_pressure_MPa"].template get<double>() + 190.0;
   });
   EXPECT_EQ(recommended("probability <= 0.05"), 0.02);
+  EXPECT_TRUE(has(file_of({study, drawn}, "report.md"), "launches drawn from the inputs"));
   change(drawn, [](auto& results) { results["failed"] = 1; });
   EXPECT_TRUE(recommended("probability <= 0.05").is_null()) << "one that failed may be one that ignites";
 }
@@ -278,6 +298,7 @@ TEST_F(SafetyReport, NoGapIsSafeBesideASweepOfGapsThatCloseAlone) {
   const std::string page = file_of({reservoir, sweep}, "report.md");
   EXPECT_TRUE(has(page, "where the gap closes it is not SAFE: B"));
   EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE"));
+  EXPECT_TRUE(has(page, "what they call SAFE is so in this report only where its table says so too"));
 }
 
 /// Sentences are taken from lists, whatever parentheses and words a reason has.

@@ -174,7 +174,8 @@ class Contact {
   }
   /// m, over the area of all parted faces.
   double mean_opening() const;
-  /// Pa, compression that parted faces bore in the last step, above the surrounding pressure; over their area.
+  /// Pa, compression that parted faces bore in the last step, above the surrounding pressure; over their
+  /// area.
   double mean_pressure() const;
   /// m, between a node of a parted face and the other one.
   double opening(std::size_t face, std::size_t node) const;
