@@ -221,31 +221,31 @@ const Quantities<HistogramRow> histogram_quantities{
 }  // namespace
 
 Row ignition_json(const SensitivityResult& result) {
-  std::size_t igniting = 0, completed = 0, failed = 0;
+  std::size_t igniting = 0, sound = 0, unsound = 0;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const CaseAnswer& answer = result.answers[i];
     if (!samples_inputs(result.study.study, i)) continue;
-    // A launch with a validity warning may ignite too, whatever it computed.
+    // One with a validity warning may ignite, whatever it computed, as one that failed.
     const bool is_sound = answer.completed() && answer.validity_warnings.empty();
-    ++(is_sound ? completed : failed);
+    ++(is_sound ? sound : unsound);
     igniting += is_sound && answer.verdicts.front().ignition;
   }
-  const std::size_t all = completed + failed;
+  const std::size_t all = sound + unsound;
   const auto interval = [&](std::size_t count) {
     return all == 0 ? math::Interval{not_a_number, not_a_number}
                     : math::clopper_pearson(count, all, ignition_level);
   };
   return {{"igniting", igniting},
-          {"completed", completed},
-          {"failed", failed},
+          {"sound", sound},
+          {"unsound", unsound},
           {"confidence", ignition_level},
           {"probability_from", report::number(interval(igniting).lower)},
-          {"probability_to", report::number(interval(igniting + failed).upper)}};
+          {"probability_to", report::number(interval(igniting + unsound).upper)}};
 }
 
 std::string samples_text(const SensitivityResult& result) {
   Row facts = ignition_json(result);
-  if (facts["completed"] == 0 && facts["failed"] == 0) return {};
+  if (facts["sound"] == 0 && facts["unsound"] == 0) return {};
   facts["together"] = !settings_of<SensitivitySettings>(result.study).stated.empty();
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
@@ -304,7 +304,7 @@ Plot histogram_plot(const SensitivityResult& result) {
   Plot plot;
   const Row ignition = ignition_json(result);
   plot.title = fmt::format("At {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
-                           ignition["igniting"].get<std::size_t>(), ignition["completed"].get<std::size_t>());
+                           ignition["igniting"].get<std::size_t>(), ignition["sound"].get<std::size_t>());
   const auto add = [&plot](Plot panel) {
     if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
   };

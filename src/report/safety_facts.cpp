@@ -224,18 +224,21 @@ bool is_confirmed(const CaseEvidence& judged) {
 }
 
 /// Whether a sensitivity study draws its inputs about the launch of a case: that has values in the middle
-/// half of what was drawn of each. Peaks about another one say nothing of it.
+/// half of what was drawn of each. Peaks about another one say nothing of it, nor do launches of an earlier
+/// program, which counted those with validity warnings as sound.
 bool is_drawn_about(const CaseEvidence& judged, const StudyEvidence& drawn) {
-  return std::ranges::all_of(drawn.rows("inputs"), [&](const Row& input) {
-    const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
-    if (!key) return false;
-    const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
-    std::vector<double> values;
-    for (const Row& row : drawn.rows("evaluations")) values.push_back(number_of(row, text_of(input, "key")));
-    std::ranges::sort(values);
-    const double own = judged.value(key->name) * shown_value(1.0, form);
-    return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
-  });
+  return found_in(drawn.study, "ignition").contains("sound") &&
+         std::ranges::all_of(drawn.rows("inputs"), [&](const Row& input) {
+           const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
+           if (!key) return false;
+           const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
+           std::vector<double> values;
+           for (const Row& row : drawn.rows("evaluations"))
+             values.push_back(number_of(row, text_of(input, "key")));
+           std::ranges::sort(values);
+           const double own = judged.value(key->name) * shown_value(1.0, form);
+           return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
+         });
 }
 
 /// Upper end of the probability that a gap (cm) ignites, by the launches that the sensitivity study drew at
