@@ -3,9 +3,6 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-#include "launchsafe/study/study_cases.hpp"
-#include "launchsafe/study/surrogate.hpp"
 
 #include <boost/algorithm/string/trim.hpp>
 

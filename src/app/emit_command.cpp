@@ -48,7 +48,6 @@ struct SlurmStudy {
   path program;
   std::size_t cases = 0;
   ShardNeeds needs = {};
-  long minutes = 0, mebibytes = 0, merge_mebibytes = 0;  ///< that a shard asks Slurm for, and the merge
 };
 constexpr std::string_view submit_name = "submit.sh";
 
@@ -113,14 +112,20 @@ std::string user_options(const SlurmStudy& study, bool of_merge) {
   return lines;
 }
 
-/// What is asked for so that it suffices.
-void add_request(SlurmStudy& study) {
+/// What a shard asks Slurm for so that it suffices, and the merge, with the needs that this rests on.
+Json request_of(const SlurmStudy& study) {
+  const EmitArguments& asked = study.asked;
+  const ShardNeeds& needs = study.needs;
   const auto rounded_up = [](double number) { return static_cast<long>(std::ceil(number)); };
-  const double shard = study.asked.memory.value_or(memory_factor * study.needs.memory);
-  const double merge = memory_factor * study.needs.merge_memory;
-  study.minutes = std::max(least_minutes, rounded_up(time_factor * study.needs.time / 60.0));
-  study.mebibytes = rounded_up(shard / mebibyte);
-  study.merge_mebibytes = rounded_up(std::max(study.asked.memory.value_or(0.0), merge) / mebibyte);
+  const double shard = asked.memory.value_or(memory_factor * needs.memory),
+               merge = std::max(asked.memory.value_or(0.0), memory_factor * needs.merge_memory);
+  return {{"shards", asked.shards},
+          {"jobs", asked.jobs},
+          {"memory_MiB", rounded_up(shard / mebibyte)},
+          {"merge_memory_MiB", rounded_up(merge / mebibyte)},
+          {"time_s", 60 * std::max(least_minutes, rounded_up(time_factor * needs.time / 60.0))},
+          {"predicted_time_s", needs.time},
+          {"predicted_memory_bytes", needs.memory}};
 }
 
 /// Why no script can be written; nothing when one can.
@@ -141,31 +146,27 @@ std::optional<std::string> fault_of(const SlurmStudy& study) {
 }
 
 /// The text depends on what is given alone.
-NamedTexts slurm_scripts(const SlurmStudy& study) {
+NamedTexts slurm_scripts(const SlurmStudy& study, Json values) {
   const EmitArguments& asked = study.asked;
-  Json values{
-      {"folder", shell_quoted(slurm_folder(asked.output).string())},
-      {"job", job_name(study)},
-      {"status", asked.shards > 1 ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", asked.shards)
-                                  : std::string("status.json")},
-      {"jobs", asked.jobs},
-      {"least_minutes", least_minutes},
-      {"logs", log_folder(study)},
-      {"mebibytes", study.mebibytes},
-      {"predicted_mebibytes", fmt::format("{:.0f}", study.needs.memory / mebibyte)},
-      {"memory_factor", fmt::format("{}", memory_factor)},
-      {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
-      {"merge_mebibytes", study.merge_mebibytes},
-      {"merge_options", user_options(study, true)},
-      {"output", shell_quoted(asked.output.string())},
-      {"program", shell_quoted(study.program.string())},
-      {"rate", fmt::format("{:.3g}", run::cautious_update_rate / 1e6)},
-      {"shard_limit", slurm_time(study.minutes)},
-      {"shard_options", user_options(study, false)},
-      {"shards", asked.shards},
-      {"study", shell_quoted(asked.study.string())},
-      {"time", study.needs.time_text()},
-      {"time_factor", fmt::format("{:.3g}", time_factor)}};
+  values.update(
+      {{"folder", shell_quoted(slurm_folder(asked.output).string())},
+       {"job", job_name(study)},
+       {"status", asked.shards > 1 ? fmt::format("status.$SLURM_ARRAY_TASK_ID-of-{}.json", asked.shards)
+                                   : std::string("status.json")},
+       {"least_minutes", least_minutes},
+       {"logs", log_folder(study)},
+       {"predicted_mebibytes", fmt::format("{:.0f}", study.needs.memory / mebibyte)},
+       {"memory_factor", fmt::format("{}", memory_factor)},
+       {"merge_limit", slurm_time(least_minutes + static_cast<long>(study.cases) / cases_merged_a_minute)},
+       {"merge_options", user_options(study, true)},
+       {"output", shell_quoted(asked.output.string())},
+       {"program", shell_quoted(study.program.string())},
+       {"rate", fmt::format("{:.3g}", run::cautious_update_rate / 1e6)},
+       {"shard_limit", slurm_time(values["time_s"].get<long>() / 60)},
+       {"shard_options", user_options(study, false)},
+       {"study", shell_quoted(asked.study.string())},
+       {"time", study.needs.time_text()},
+       {"time_factor", fmt::format("{:.3g}", time_factor)}});
   if (asked.memory) {
     values["memory"] = size_text(*asked.memory);
     values["memory_for_cases"] = size_text(std::floor(share_for_cases * *asked.memory));
@@ -237,22 +238,6 @@ path absolute_path(const path& given) {
   return elsewhere ? absolute : tidy;
 }
 
-/// With the folder as the user named it.
-void print_scripts(const SlurmStudy& study, const path& folder, const NamedTexts& scripts, Console& console) {
-  Json facts{{"files", places_of(folder, scripts)},
-             {"submit", shell_command({"sh", (folder / submit_name).string()})},
-             {"shards", study.asked.shards},
-             {"jobs", study.asked.jobs},
-             {"memory_MiB", study.mebibytes},
-             {"merge_memory_MiB", study.merge_mebibytes},
-             {"time_s", 60 * study.minutes},
-             {"predicted_time_s", study.needs.time},
-             {"predicted_memory_bytes", study.needs.memory}};
-  console.print_json(facts);
-  facts.update({{"minutes", study.minutes}, {"time", study.needs.time_text()}});
-  console.print_text(told("emit.txt", facts));
-}
-
 ExitCode perform(const EmitArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study));
   console.refuse_any(study::all_out_of_reach(file, {}));
@@ -269,19 +254,24 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   // were.
   study.needs = needs_of(study::forecast_study(file, options, run::cautious_update_rate), study.asked.shards,
                          study.asked.jobs);
-  add_request(study);
-  const path folder = slurm_folder(arguments.output);
+  const Json request = request_of(study);
+  const path folder = slurm_folder(arguments.output);  // as the user named it
   if (std::filesystem::is_symlink(folder))
     console.refuse(
         fmt::format("{} is a link, and nothing is written through one; move it away", folder.string()));
-  const NamedTexts scripts = slurm_scripts(study);
+  const NamedTexts scripts = slurm_scripts(study, request);
   write_where_absent(folder, scripts, console);
   // Lets everybody start the script that submits the others; it can be given to a shell all the same.
   using std::filesystem::perms;
   std::filesystem::permissions(folder / submit_name,
                                perms::owner_exec | perms::group_exec | perms::others_exec,
                                std::filesystem::perm_options::add, failed);
-  print_scripts(study, folder, scripts, console);
+  Json facts{{"files", places_of(folder, scripts)},
+             {"submit", shell_command({"sh", (folder / submit_name).string()})}};
+  facts.update(request);
+  console.print_json(facts);
+  facts.update({{"minutes", facts["time_s"].get<long>() / 60}, {"time", study.needs.time_text()}});
+  console.print_text(told("emit.txt", facts));
   if (study.needs.idle > 0)
     console.remark(
         fmt::format("{} of the {} shards will have nothing to do", study.needs.idle, study.asked.shards));

@@ -3,7 +3,6 @@
 #include "explain.hpp"
 #include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 
 namespace launchsafe::app {
 namespace {

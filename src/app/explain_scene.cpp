@@ -1,7 +1,6 @@
 #include "explain.hpp"
 #include "launchsafe/run/axial_modes.hpp"
 #include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"

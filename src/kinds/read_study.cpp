@@ -1,6 +1,5 @@
 #include "launchsafe/kinds/read_study.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
 #include "study_keys.hpp"
 
 #include <regex>
@@ -185,7 +184,7 @@ study::AccuracyRecords settle_scene(const StudySource& source, const std::vector
   study.scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
   use_calibration(study, source.folder);
-  refuse_if(scene::check_expected_velocity(study.scene));
+  scene::check_expected_velocity(study.scene);
   read_model_form(study, source.folder);
   study::AccuracyRecords records = read_records(study, source.folder);
   const double wanted = source.tolerance.value_or(study.study.setting_tolerance);
@@ -213,7 +212,7 @@ Expected<StudyFile> read_study_table(const StudySource& source, const std::strin
   StudyFile study;
   study.file = file;
   study.most_cases = most_cases;
-  refuse_if(scene::check_content(source.root, file, scene::InputContent::study));
+  scene::check_content(source.root, file, scene::InputContent::study);
   check_former(source.root, file);
   const Kind& kind = read_kind(source.root, file);
   const StudyKeys keys = joined({common_keys(), kind.keys});

@@ -20,9 +20,7 @@ using StudyKeys = std::vector<Key<Study>>;
 
 // Readers of study files throw what is wrong; `read_study_table` and `read_references` give it back as a
 // value.
-inline void refuse_if(const std::optional<scene::InputError>& fault) {
-  if (fault) throw *fault;
-}
+
 /// What was read, or else refused; `table`: of the study file, in which it stands.
 template <class Read>
 Read taken(Expected<Read> read, const std::string& table = {}) {

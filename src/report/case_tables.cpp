@@ -3,7 +3,6 @@
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/scene/named_material.hpp"
 
 #include <numeric>
 

@@ -1,6 +1,5 @@
 // What a safety report rests on: the folders of studies, read and held against what they say of themselves,
 // and against each other.
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"

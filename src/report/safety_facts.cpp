@@ -3,7 +3,6 @@
 
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"

@@ -2,7 +2,6 @@
 
 #include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 
 namespace launchsafe::report {

@@ -1,8 +1,6 @@
 #include "input_text.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 
 namespace launchsafe::scene {
@@ -14,9 +12,8 @@ constexpr std::size_t fewest_letters = 8;
 bool has_invisible(const std::string& text) {
   for (const char* unseen : {"\xc2\xad", "\xe2\x80\x8b", "\xe2\x80\x8c", "\xe2\x80\x8d", "\xe2\x80\x8e",
                              "\xe2\x80\x8f", "\xe2\x80\xaa", "\xe2\x80\xab", "\xe2\x80\xac", "\xe2\x80\xad",
-                             "\xe2\x80\xae", "\xe2\x81", "\xe3\x85\xa4", "\xef\xbb\xbf"}) {
+                             "\xe2\x80\xae", "\xe2\x81", "\xe3\x85\xa4", "\xef\xbb\xbf"})
     if (text.find(unseen) != std::string::npos) return true;
-  }
   return false;
 }
 
@@ -99,8 +96,7 @@ void check(const Acceptance& acceptance, const std::map<std::string, Place>& pla
   if (std::ranges::any_of(earlier, [&](const auto& each) { return are_same(each, acceptance); }))
     throw fault_of_key(fmt::format("\"{}\" a second time", name), "each key once, or with several values");
   check_value(acceptance, *key, places);
-  if (const auto fault = check_reason(acceptance.because, places.at("because"), "accept.because"))
-    throw *fault;
+  check_reason(acceptance.because, places.at("because"), "accept.because");
 }
 
 }  // namespace
@@ -134,13 +130,10 @@ std::string value_text(const Implausible& value) {
 }
 
 std::string accepted_text(const std::vector<Implausible>& values) {
-  std::string text;
-  for (const Implausible& each : values) {
-    if (!each.accepted()) continue;
-    text +=
-        fmt::format("{}{}, because {}", text.empty() ? "accepted: " : "; ", value_text(each), each.because);
-  }
-  return text;
+  std::vector<std::string> texts;
+  for (const Implausible& each : values)
+    if (each.accepted()) texts.push_back(fmt::format("{}, because {}", value_text(each), each.because));
+  return texts.empty() ? "" : fmt::format("accepted: {}", fmt::join(texts, "; "));
 }
 
 std::string acceptances_to_write(const std::vector<Implausible>& values) {
@@ -150,11 +143,10 @@ std::string acceptances_to_write(const std::vector<Implausible>& values) {
   return text.empty() ? text : "accept = [\n" + text + "]";
 }
 
-Fault check_reason(const std::string& text, const Place& place, const std::string& key) {
+void check_reason(const std::string& text, const Place& place, const std::string& key) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (is_in_words(text) && !has_invisible(text) && std::ranges::none_of(text, is_control))
-    return std::nullopt;
-  return error_at(
+  if (is_in_words(text) && !has_invisible(text) && std::ranges::none_of(text, is_control)) return;
+  throw error_at(
       place, key, fmt::format("a reason of {} characters", text.size()),
       fmt::format(
           "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",

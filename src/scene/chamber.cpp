@@ -3,8 +3,6 @@
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
-#include <fmt/format.h>
-
 #include <tuple>
 
 namespace launchsafe::scene {

@@ -2,8 +2,6 @@
 #include "launchsafe/scene/scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <sstream>
 
 namespace launchsafe::scene {

@@ -6,7 +6,6 @@
 
 #include <boost/locale/utf.hpp>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -260,10 +259,10 @@ InputContent content_of(const toml::table& root) {
   return root.contains("kind") || root.contains("scene") ? InputContent::study : InputContent::unknown;
 }
 
-Fault check_content(const toml::table& root, const std::string& file, InputContent wanted) {
+void check_content(const toml::table& root, const std::string& file, InputContent wanted) {
   const InputContent content = content_of(root);
-  if (content == wanted || content == InputContent::unknown) return std::nullopt;
-  return error_at({file}, {}, words_of(content).first, words_of(wanted).second);
+  if (content != wanted && content != InputContent::unknown)
+    throw error_at({file}, {}, words_of(content).first, words_of(wanted).second);
 }
 
 std::string quotable(std::string_view text, std::size_t longest) {

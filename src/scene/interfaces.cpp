@@ -1,10 +1,7 @@
 // The tables [interface.NAME] and [contact.NAME] of a file: how bodies hold the charge.
-#include "launchsafe/scene/interfaces.hpp"
 
 #include "input_text.hpp"
 #include "scene_file.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::scene {
 namespace {

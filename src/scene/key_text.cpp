@@ -1,8 +1,6 @@
 // How keys and their values are written, for people and for programs.
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -160,12 +158,10 @@ std::string format_value(const KeyDescription& key, const Value& value) {
   }
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* text = std::get_if<std::string>(&value)) return *text;
-  std::string joined;
-  for (const double number : std::get<std::vector<double>>(value)) {
-    if (!joined.empty()) joined += key.kind == KeyKind::range ? " to " : ", ";
-    joined += format_quantity(number, key.dimension);
-  }
-  return joined;
+  std::vector<std::string> numbers;
+  for (const double number : std::get<std::vector<double>>(value))
+    numbers.push_back(format_quantity(number, key.dimension));
+  return fmt::format("{}", fmt::join(numbers, key.kind == KeyKind::range ? " to " : ", "));
 }
 
 std::string exact_toml(const KeyDescription& key, const Value& value) {

@@ -4,8 +4,6 @@
 #include "launchsafe/scene/load_roughness.hpp"
 #include "scene_file.hpp"
 
-#include <fmt/format.h>
-
 #include <iterator>
 
 namespace launchsafe::scene {
@@ -314,18 +312,18 @@ void check_load(const SceneFile& file) {
   return check_end(file);
 }
 
-Fault check_expected_velocity(const SceneFile& file) {
+void check_expected_velocity(const SceneFile& file) {
   const std::optional<double> expected = file.scene.load.expected_velocity;
-  if (!expected) return std::nullopt;
+  if (!expected) return;
   Scene whole = file.scene;
   whole.load.duration.reset();
   const double time = read_time(whole.load), velocity = rigid_motion(whole, time).velocity;
-  if (std::abs(*expected - velocity) <= largest_difference_of_velocity * velocity) return std::nullopt;
-  return fault_at(file, "load.expected_velocity",
-                  fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
-                              rigid_motion_text(whole, time), time_text(time)),
-                  fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",
-                              100.0 * largest_difference_of_velocity, unit_taken_for(velocity / *expected)));
+  if (std::abs(*expected - velocity) <= largest_difference_of_velocity * velocity) return;
+  throw fault_at(file, "load.expected_velocity",
+                 fmt::format("{:.4g} m/s, while the load drives the projectile to {}, at {}", *expected,
+                             rigid_motion_text(whole, time), time_text(time)),
+                 fmt::format("within {:g} % of that: this, the pressure, a time or the mass is mistyped{}",
+                             100.0 * largest_difference_of_velocity, unit_taken_for(velocity / *expected)));
 }
 
 }  // namespace launchsafe::scene

@@ -3,8 +3,6 @@
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
-#include <fmt/format.h>
-
 #include <complex>
 
 namespace launchsafe::scene {

@@ -2,8 +2,6 @@
 #include "input_text.hpp"
 #include "scene_file.hpp"
 
-#include <fmt/format.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <set>
@@ -122,7 +120,7 @@ Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
   return caught([&, name = file.string()]() -> NamedMaterials {
     const std::string text = read_text_file(file).or_throw();
     const toml::table table = parse_toml(text, name).or_throw();
-    if (const auto fault = check_content(table, name, InputContent::materials)) throw *fault;
+    check_content(table, name, InputContent::materials);
     const auto& shipped = built_in_materials();
     if (std::ranges::find(shipped, text, &BuiltInText::text) != shipped.end())
       return {named_in(table, "material", shipped_materials()),

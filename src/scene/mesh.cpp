@@ -332,16 +332,13 @@ Mesh fit_mesh(const Scene& scene) {
 std::string charge_edges_off_grid(const Scene& scene) {
   if (scene.numerics.formulation == Formulation::total_lagrangian) return {};
   const Mesh mesh = fit_mesh(scene);
-  std::string edges;
-  for (const Body& body : scene.bodies) {
-    if (!is_charge(scene, body)) continue;
-    for (const double r : {body.r_begin, body.r_end}) {
-      const double cells = r / mesh.dr;
-      if (std::abs(cells - std::round(cells)) < 1e-6) continue;
-      edges += fmt::format("{}r = {:.6g} cm at {:.2f} cells", edges.empty() ? "" : ", ", 100.0 * r, cells);
-    }
-  }
-  return edges;
+  std::vector<std::string> edges;
+  for (const Body& body : scene.bodies)
+    for (const double r : {body.r_begin, body.r_end})
+      if (const double cells = r / mesh.dr;
+          is_charge(scene, body) && !(std::abs(cells - std::round(cells)) < 1e-6))
+        edges.push_back(fmt::format("r = {:.6g} cm at {:.2f} cells", 100.0 * r, cells));
+  return fmt::format("{}", fmt::join(edges, ", "));
 }
 
 ParticleCount particles_of(const Scene& scene, const Body& body) {

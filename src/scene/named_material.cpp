@@ -2,8 +2,6 @@
 #include "input_text.hpp"
 #include "scene_file.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 
 namespace launchsafe::scene {

@@ -1,11 +1,8 @@
 // Which physics a scene needs, and what of the scene its mechanics depends on.
 #include "launchsafe/scene/plan.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
-
-#include <fmt/format.h>
+#include "launchsafe/scene/read_scene.hpp"
 
 #include <span>
 
@@ -84,8 +81,8 @@ Term plan_surface(const Scene& scene) {
 }
 
 Term plan_air(const Scene& scene) {
-  double largest = 0.0;
-  for (const double gap : scene.surface.gaps) largest = std::max(largest, gap);
+  const std::vector<double>& all = scene.surface.gaps;
+  const double largest = all.empty() ? 0.0 : std::ranges::max(all);
   if (!has_charge(scene)) return out(largest, "no charge");
   if (!(largest > 0.0)) return out(largest, "no gap above 0 cm");
   const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
@@ -293,8 +290,8 @@ double longitudinal_speed(const materials::Law& law) {
 
 double longitudinal_speed(const Scene& scene) {
   double largest = 0.0;
-  for (const Material& material : used_materials(scene))
-    largest = std::max(largest, longitudinal_speed(material.law));
+  for (const Material& each : used_materials(scene))
+    largest = std::max(largest, longitudinal_speed(each.law));
   return largest;
 }
 

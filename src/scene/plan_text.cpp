@@ -1,15 +1,18 @@
 // The plan as people read it.
 #include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/load_roughness.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
-
-#include <fmt/format.h>
+#include "launchsafe/scene/read_scene.hpp"
 
 namespace launchsafe::scene {
 namespace {
+
+/// A line of a list; none without a value.
+std::string labelled(std::string_view label, const std::string& value) {
+  return value.empty() ? value : fmt::format("  {:<22}{}\n", label, value);
+}
 
 /// A charge that shrank away from its base as it cooled, held at its nose.
 std::string cooling_text(const Scene& scene) {
@@ -34,11 +37,10 @@ std::string bodies_text(const Scene& scene) {
                                         100 * body.r_begin, 100 * body.r_end, count.nx, count.nr));
   }
   const char* unit = scene.symmetry == Symmetry::axisymmetric ? "kg" : "kg per metre, half model";
-  std::string parts;
+  std::vector<std::string> parts;
   for (const Material& material : used_materials(scene))
-    parts +=
-        fmt::format("{}{} {:.6g}", parts.empty() ? "" : ", ", material.name, mass_of(scene, material.name));
-  text += labelled("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, parts));
+    parts.push_back(fmt::format("{} {:.6g}", material.name, mass_of(scene, material.name)));
+  text += labelled("mass", fmt::format("{:.6g} {} ({})", total_mass(scene), unit, fmt::join(parts, ", ")));
   if (has_charge(scene) && (scene.surface.opens_by_cooling || scene.surface.model == GapModel::closing))
     text += labelled("a charge that cooled", cooling_text(scene));
   return text;
@@ -53,10 +55,9 @@ std::string load_text(const Scene& scene) {
                                               scene.load.rescale_to_peak ? ", rescaled" : ""));
   text += labelled("peak", pressure_text(peak));
   text += labelled("acts", chamber_text(scene, peak));
-  if (const std::string exit = exit_text(scene); !exit.empty()) text += labelled("muzzle exit", exit);
+  text += labelled("muzzle exit", exit_text(scene));
   text += labelled("end", end_text(scene));
-  if (const std::string measured = measured_load_text(scene.load); !measured.empty())
-    text += labelled("measurement", measured);
+  text += labelled("measurement", measured_load_text(scene.load));
   text += labelled("rigid acceleration", fmt::format("{:.6g} m/s2", rigid_acceleration(scene, peak)));
   if (has_charge(scene)) text += labelled("setback pressure", pressure_text(setback_pressure(scene)));
   return text;
@@ -90,16 +91,12 @@ std::string lengths_text(double shortest, double longest) {
   return fmt::format("{:.4g} to {:.4g} mm", 1e3 * shortest, 1e3 * longest);
 }
 
-std::string mesh_text(const Scene& scene, const Plan& plan) {
-  const CellRange cells = cells_of(scene);
-  return fmt::format("{} x {} cells, {} in x, {} in r, {} particles", cells.nx, cells.nr,
-                     lengths_text(cells.shortest_x, cells.longest_x),
-                     lengths_text(cells.shortest_r, cells.longest_r), plan.particles());
-}
-
 std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) {
+  const CellRange cells = cells_of(scene);
   std::string text = "Cost\n";
-  text += labelled("mesh", mesh_text(scene, plan));
+  text += labelled("mesh", fmt::format("{} x {} cells, {} in x, {} in r, {} particles", cells.nx, cells.nr,
+                                       lengths_text(cells.shortest_x, cells.longest_x),
+                                       lengths_text(cells.shortest_r, cells.longest_r), plan.particles()));
   if (const std::string edges = charge_edges_off_grid(scene); !edges.empty())
     text += labelled("charge off the grid",
                      edges + "; calibrated constants do not carry over from a grid that fits");
@@ -119,15 +116,10 @@ std::string cost_text(const Plan& plan, const Scene& scene, double update_rate) 
 
 }  // namespace
 
-std::string labelled(std::string_view label, const std::string& value) {
-  return fmt::format("  {:<22}{}\n", label, value);
-}
-
 std::string to_text(const Plan& plan, const Scene& scene, double update_rate) {
-  std::string text = scene.title.empty() ? std::string{} : scene.title + "\n\n";
-  text += bodies_text(scene) + "\n" + interfaces_text(scene) + load_text(scene) + "\n" + physics_text(plan) +
-          "\n";
-  return text + cost_text(plan, scene, update_rate);
+  return fmt::format("{}{}{}\n{}{}\n{}\n{}", scene.title, scene.title.empty() ? "" : "\n\n",
+                     bodies_text(scene), interfaces_text(scene), load_text(scene), physics_text(plan),
+                     cost_text(plan, scene, update_rate));
 }
 
 }  // namespace launchsafe::scene

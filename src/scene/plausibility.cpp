@@ -1,13 +1,11 @@
 // What is plausible of keys, and of quantities that follow from several of them.
 #include "launchsafe/scene/plausibility.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 
 #include <boost/math/special_functions/lambert_w.hpp>
-#include <fmt/format.h>
 
 namespace launchsafe::scene {
 namespace {

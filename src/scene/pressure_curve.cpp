@@ -3,8 +3,6 @@
 #include "input_text.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include <fmt/format.h>
-
 #include <cctype>
 #include <cmath>
 

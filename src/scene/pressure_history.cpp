@@ -10,7 +10,6 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
-#include <fmt/format.h>
 // clang-format on
 
 #include <cassert>

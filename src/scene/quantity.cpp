@@ -2,8 +2,6 @@
 
 #include "input_text.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <charconv>
 #include <cmath>

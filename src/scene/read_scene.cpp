@@ -1,13 +1,11 @@
+
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "input_text.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
 #include "scene_file.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::scene {
 namespace {
@@ -253,7 +251,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     SceneFile file;
     file.file = path.string();
     file.folder = path.parent_path();
-    if (const auto fault = check_content(table, file.file, InputContent::scene)) throw *fault;
+    check_content(table, file.file, InputContent::scene);
     Scene& scene = file.scene;
     // Faults of the keys first, then of the tables; within each by line.
     ReadValues read = read_described(table, descriptions_of(scene_keys()), read_apart, file.file).or_throw();
@@ -273,7 +271,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     file.sources = read_sources(table, names_of_values(file), file.file);
     file.sources.insert(file.sources.end(), of_contacts.begin(), of_contacts.end());
     rebuild(file, false);
-    if (const auto fault = check_expected_velocity(file)) throw *fault;
+    check_expected_velocity(file);
     if (table.contains("accept"))
       file.scene.accepted = read_acceptances(table, acceptable_keys(file.scene), file.file).or_throw();
     return file;

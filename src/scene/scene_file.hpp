@@ -28,6 +28,17 @@ void use_materials(SceneFile& file, Scene& scene);
 /// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
 std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file);
 
+/// Reads all [interface.NAME] of a file, in the order of their names, the sources of values that they have of
+/// a contact, by "interface.<name>.<key>", and the places of these and of "interface.<name>". Throws the
+/// fault of a table that is none, a key that does not exist, a value out of range, a contact that is not
+/// among `contacts`.
+void read_interfaces(const toml::table& root, const std::string& file,
+                     const std::vector<NamedContact>& contacts, Scene& scene, std::vector<Source>& sources,
+                     std::map<std::string, Place>& places);
+
+/// Whether two bodies share more than an edge of their surfaces.
+bool share_a_face(const Scene& scene, const Body& a, const Body& b);
+
 /// The extent of a body along one axis.
 struct Axis {
   const char* name;
@@ -55,6 +66,9 @@ void check_near_edges(const SceneFile& file);
 /// A charge whose bottom does not bear on a body all over, bodies that nothing holds, and a chamber that the
 /// drawing leaves unclear.
 void check_support(const SceneFile& file);
+/// A body that does not touch the charge, keys of an interface that are missing or would do nothing, sliding
+/// in a form that has none.
+void check_interfaces(const SceneFile& file);
 /// A measured curve, what stands beside it, and the end of the load.
 void check_load(const SceneFile& file);
 

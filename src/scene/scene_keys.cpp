@@ -1,11 +1,7 @@
-#include "launchsafe/scene/scene_keys.hpp"
 
 #include "input_text.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plausibility.hpp"
 #include "scene_file.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::scene {
 namespace {

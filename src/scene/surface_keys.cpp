@@ -1,5 +1,5 @@
 // The keys of the charge's bottom.
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 
 namespace launchsafe::scene {
 namespace {

@@ -21,11 +21,7 @@
 
 #include "input_text.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 namespace launchsafe::scene {

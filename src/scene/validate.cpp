@@ -1,9 +1,6 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
 #include "input_text.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "scene_file.hpp"
-
-#include <fmt/format.h>
 
 #include <set>
 #include <tuple>
@@ -78,18 +75,15 @@ void check_overlaps(const SceneFile& file) {
 /// A body thinner than half a cell is not resolved by the mesh at all.
 void check_cell_size(const SceneFile& file) {
   const double cell = file.scene.numerics.cell_size;
-  double largest = std::numeric_limits<double>::infinity();
-  const Body* thinnest = nullptr;
-  for (const Body& body : file.scene.bodies) {
-    const double allowed = 2.0 * std::min(body.x_end - body.x_begin, body.r_end - body.r_begin);
-    if (allowed >= largest) continue;
-    largest = allowed;
-    thinnest = &body;
-  }
-  if (!thinnest || cell <= largest * (1.0 + 1e-9)) return;
+  const auto thickness = [](const Body& body) {
+    return std::min(body.x_end - body.x_begin, body.r_end - body.r_begin);
+  };
+  const Body& thinnest = *std::ranges::min_element(file.scene.bodies, {}, thickness);
+  const double largest = 2.0 * thickness(thinnest);
+  if (cell <= largest * (1.0 + 1e-9)) return;
   throw fault_at(file, "numerics.cell_size",
                  fmt::format("{}, with which the body \"{}\", {} thick, has no particle of the mesh",
-                             length_text(cell), thinnest->name, length_text(0.5 * largest)),
+                             length_text(cell), thinnest.name, length_text(0.5 * largest)),
                  fmt::format("at most {} for this body", length_text(largest)));
 }
 

@@ -1,8 +1,5 @@
 #include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/interfaces.hpp"
 #include "scene_file.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::scene {
 namespace {

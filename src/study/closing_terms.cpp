@@ -1,5 +1,4 @@
 // The terms on which a gap that closes is looked at.
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/closing_gaps.hpp"

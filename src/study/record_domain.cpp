@@ -1,6 +1,5 @@
 #include "launchsafe/study/record_domain.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // What launchsafe explains of itself: keys and schemas.
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "program.hpp"
 
 #include <nlohmann/json.hpp>

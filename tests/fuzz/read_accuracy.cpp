@@ -2,7 +2,7 @@
 // be what the program writes, claim nothing that does not follow from it, and set numerics only; whatever is
 // not must say why.
 #include "fuzz_input.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "record_text.hpp"
 

@@ -2,7 +2,7 @@
 // plausible value that is printed beside the verdict.
 #include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/pressure_curve.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/record_domain.hpp"
 #include "study/synthetic_launch.hpp"

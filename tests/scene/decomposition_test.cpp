@@ -1,7 +1,6 @@
 // Decompositions whose numbers belong together, and the one that a flame lives on.
 #include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

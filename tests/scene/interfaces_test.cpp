@@ -1,8 +1,7 @@
 // Interfaces in scene files: read, written back, refused.
-#include "launchsafe/scene/interfaces.hpp"
-
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // make of their names.
 #include "launchsafe/scene/named_material.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/plausibility.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "small_shell.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-#include "launchsafe/scene/scene_keys.hpp"
-
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

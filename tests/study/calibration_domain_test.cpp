@@ -1,5 +1,4 @@
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/firing_posterior.hpp"

@@ -1,6 +1,6 @@
 #include "launchsafe/study/record_domain.hpp"
 
-#include "launchsafe/scene/interfaces.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/study_cases.hpp"

@@ -1,6 +1,6 @@
 #include "launchsafe/study/run_cases.hpp"
 
-#include "launchsafe/scene/scene_keys.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 #include "study/synthetic_launch.hpp"
 

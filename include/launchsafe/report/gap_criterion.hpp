@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/report/page_texts.hpp"
-#include "launchsafe/scene/input_error.hpp"
 
 namespace launchsafe::report {
 

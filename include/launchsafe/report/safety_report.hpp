@@ -3,7 +3,6 @@
 #pragma once
 
 #include "launchsafe/report/gap_criterion.hpp"
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/record_domain.hpp"
 

@@ -1,5 +1,6 @@
 // Materials, and how bodies hold the charge, as data: [material.NAME] and [contact.NAME] in a scene or in a
-// file of materials, and those that ship with the program. Each number may say where it comes from.
+// file of materials, and those that ship with the program; [interface.NAME] of a scene, for the body of that
+// name and the charge. Each number may say where it comes from.
 #pragma once
 
 #include "launchsafe/scene/scene.hpp"
@@ -52,6 +53,8 @@ struct NamedMaterials {
 const KeyDescription& material_file_key();
 /// What [material.NAME] says beside the numbers of its law.
 const std::vector<Key<NamedMaterial>>& material_keys();
+/// Keys of one [interface.NAME].
+const std::vector<Key<Interface>>& interface_keys();
 /// Keys of one [contact.NAME], and that of an interface which names a contact.
 const std::vector<Key<NamedContact>>& contact_keys();
 const KeyDescription& contact_of_interface_key();
@@ -91,6 +94,15 @@ std::vector<Source> read_sources(const toml::table& table, const std::vector<std
 const Source* source_of(const std::vector<Source>& sources, const std::string& key);
 /// Takes a key away from its source: its value is another one.
 void forget_source(std::vector<Source>& sources, const std::string& key);
+
+/// Names of the bodies, no charges themselves, that touch a charge.
+std::vector<std::string> bodies_at_the_charge(const Scene& scene);
+
+/// What holds the charge, as people read it: one line a body that touches it, with what that assumes.
+struct InterfaceText {
+  std::string body, condition, assumes;
+};
+std::vector<InterfaceText> describe_interfaces(const Scene& scene);
 
 // Decompositions of explosives whose numbers belong together, as data: what a flame lives on after the
 // ignition.

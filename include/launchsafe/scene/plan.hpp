@@ -97,9 +97,6 @@ Plan make_plan(const Scene& scene);
 /// Seconds of wall time at an update rate (particle updates per second, > 0).
 double predicted_time(const Plan& plan, double update_rate);
 
-/// A label with its value, a line of a list for people.
-std::string labelled(std::string_view label, const std::string& value);
-
 /// What `launchsafe explain` prints: masses, load, mesh, what is in and what is left out, and what the run
 /// will cost; the time too where an update rate (particle updates per second) is given.
 std::string to_text(const Plan& plan, const Scene& scene, double update_rate = 0.0);

@@ -43,8 +43,8 @@ std::string acceptances_to_write(const std::vector<Implausible>& values);
 
 const std::vector<Key<Acceptance>>& acceptance_keys();
 
-/// Why a text is no reason in words, such as "x" or one of several lines: the fault of `key` at a place.
-Fault check_reason(const std::string& text, const Place& place, const std::string& key);
+/// Throws the fault of `key` at a place where a text is no reason in words, such as "x" or several lines.
+void check_reason(const std::string& text, const Place& place, const std::string& key);
 
 /// The table "accept" of a file; none if it has none. Faults: a key that is not among `known`, one that
 /// stands there twice with one value, a value that the key cannot have, a range beyond a factor of 2, a

@@ -4,6 +4,8 @@
 #include "launchsafe/keys/key.hpp"
 #include "launchsafe/scene/input_error.hpp"
 
+#include <fmt/format.h>
+
 namespace launchsafe::scene {
 
 using keys::Dimension;

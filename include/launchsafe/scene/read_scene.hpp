@@ -1,10 +1,34 @@
-// A scene from a file: read, completed, validated; changed key by key; listed and written back.
+// Every key of a scene file: name, dimension, range, default, standing and meaning, bound to the member of
+// the Scene that it fills; and a scene from a file: read, completed, validated; changed key by key; listed
+// and written back. Reading, documenting, sweeping and storing scenes all go through the one list of keys.
 #pragma once
 
 #include "launchsafe/scene/named_material.hpp"
-#include "launchsafe/scene/scene_keys.hpp"
 
 namespace launchsafe::scene {
+
+/// Keys of the scene itself, in the order in which they are applied.
+const std::vector<Key<Scene>>& scene_keys();
+/// The role of a key of the scene. One that is none of these, such as "body.wall.x", changes everything.
+keys::Role role_of(std::string_view key);
+/// Whether a number of a law does anything in a scene. Those that came later than what is stored are written
+/// only where they do.
+bool is_of_use(const KeyDescription& number, const Scene& scene);
+/// Those of the charge's bottom among them: gap and air, friction and stations.
+std::vector<Key<Scene>> surface_keys();
+/// Keys of one [[body]].
+const std::vector<Key<Body>>& body_keys();
+/// Keys of one [[observation_point]].
+const std::vector<Key<ObservationPoint>>& observation_point_keys();
+
+/// A key and its default as people read it; an empty default for a key that must be given.
+struct DocumentedKey {
+  KeyDescription description;
+  std::string default_text;
+};
+/// All keys of a scene file, those of its tables as "body.x", "interface.NAME.friction",
+/// "observation_point.x" and "accept.key".
+std::vector<DocumentedKey> describe_keys();
 
 /// A valid scene, and what in it was said rather than assumed.
 struct SceneFile {
@@ -27,11 +51,11 @@ Expected<SceneFile> read_scene(const std::filesystem::path& file);
 /// The same from text; `file` is named in errors, and relative paths start from its folder.
 Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::path& file);
 
-/// The fault of a `load.expected_velocity` that differs by more than 5 % from what the load gives the
+/// Throws that of a `load.expected_velocity` that differs by more than 5 % from what the load gives the
 /// projectile as one rigid body at the exit, or at the end of the launch where there is none. Files are
 /// checked when they are read, and again under what a study sets; cases of its axes are other launches on
 /// purpose.
-Fault check_expected_velocity(const SceneFile& file);
+void check_expected_velocity(const SceneFile& file);
 
 /// The key of a scene by dotted name; "body.<name>.x", ".r" or ".material" of a body that the scene has, for
 /// what holds the charge "interface.<name>.<key>" of a body that touches it, whether or not the scene has

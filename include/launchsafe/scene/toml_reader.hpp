@@ -157,7 +157,7 @@ enum class InputContent { scene, study, materials, unknown };
 /// materials and contacts.
 InputContent content_of(const toml::table& root);
 
-/// The fault of a file that is clearly of something else than is wanted.
-Fault check_content(const toml::table& root, const std::string& file, InputContent wanted);
+/// Throws the fault of a file that is clearly of something else than is wanted.
+void check_content(const toml::table& root, const std::string& file, InputContent wanted);
 
 }  // namespace launchsafe::scene
