@@ -319,28 +319,17 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
-/// A particle of a snapshot.
-struct ParticleRow {
-  const DrawnCase* drawn;
-  const run::Snapshot* shot;
-  std::size_t particle;
-};
-
-Quantities<ParticleRow> particle_quantities() {
-  Quantities<ParticleRow> quantities{
+Quantities<std::size_t> particle_quantities(const DrawnCase& drawn, const run::Snapshot& shot) {
+  Quantities<std::size_t> quantities{
       {"body", "body", keys::text(), "Body of the particle.",
-       [](const ParticleRow& row) {
-         return row.drawn->scene.bodies[static_cast<std::size_t>(row.shot->body[row.particle])].name;
-       }},
-      {"x", "x", keys::significant(6, millimetre), "Of the particle at present.",
-       [](const ParticleRow& row) { return row.shot->x[row.particle]; }},
-      {"r", "r", keys::significant(6, millimetre), "Likewise.",
-       [](const ParticleRow& row) { return row.shot->r[row.particle]; }}};
+       [&](std::size_t i) { return drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])].name; }},
+      {"x", "x", keys::significant(6, millimetre), "Of the particle at present.", at_sample(shot.x)},
+      {"r", "r", keys::significant(6, millimetre), "Likewise.", at_sample(shot.r)}};
   for (const Field& field : run::snapshot_fields()) {
     const std::string name(field.name), meaning(field.meaning);
-    quantities.push_back({{name, name, form_of(field), meaning}, [&field](const ParticleRow& row) {
-                            const std::vector<double>& all = values_of(*row.shot, field);
-                            return all.empty() ? std::nullopt : std::optional(all[row.particle]);
+    const std::vector<double>& all = values_of(shot, field);
+    quantities.push_back({{name, name, form_of(field), meaning}, [&all](std::size_t i) {
+                            return all.empty() ? std::nullopt : std::optional(all[i]);
                           }});
   }
   return quantities;
@@ -348,11 +337,9 @@ Quantities<ParticleRow> particle_quantities() {
 
 std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
   std::vector<CaseTable> tables;
-  for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
-    std::vector<ParticleRow> rows;
-    for (std::size_t i = 0; i < each.snapshot->x.size(); ++i) rows.push_back({&drawn, each.snapshot, i});
-    tables.push_back({"field" + name_of(each) + ".csv", table_of({}, particle_quantities(), rows)});
-  }
+  for (const ShownSnapshot& each : chosen_snapshots(drawn))
+    tables.push_back({"field" + name_of(each) + ".csv",
+                      sample_table(particle_quantities(drawn, *each.snapshot), each.snapshot->x.size())});
   return tables;
 }
 

@@ -80,8 +80,7 @@ std::string index_page(const path& folder) {
     return std::filesystem::exists(folder / text_of(entry, "place") / "report.html");
   });
   const Row facts{{"entries", std::move(entries)}};
-  const auto page = filled(index_template, {&facts}, kainjow::mustache::html_escape<std::string>);
-  return page ? index_begin + *page : std::string{};
+  return index_begin + filled(index_template, {&facts}, kainjow::mustache::html_escape<std::string>);
 }
 
 }  // namespace launchsafe::report

@@ -180,9 +180,8 @@ void prepare(Row& blocks, const std::vector<TextFile>& figures) {
 
 }  // namespace
 
-store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
-                                          const PageTemplates& templates, const Row& head,
-                                          const DrawingLimits& limits) {
+RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& all,
+                           const PageTemplates& templates, const Row& head, const DrawingLimits& limits) {
   Sections made{all, templates.texts, limits};
   made.add_all(order);
   Row page{
@@ -198,14 +197,12 @@ store::Result<RenderedReport> render_page(const std::vector<PageText>& order, co
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);
-  auto html = filled(templates.html, {&page}, html_escape<std::string>);
-  if (!html) return html.error();
-  auto markdown = filled(templates.markdown, {&page}, markdown_escaped);
-  if (!markdown) return markdown.error();
+  std::string html = filled(templates.html, {&page}, html_escape<std::string>);
+  std::string markdown = filled(templates.markdown, {&page}, markdown_escaped);
   // What a template leaves of its tags are empty lines.
-  for (std::size_t at = 0; (at = markdown->find("\n\n\n", at)) != std::string::npos;) markdown->erase(at, 1);
+  for (std::size_t at = 0; (at = markdown.find("\n\n\n", at)) != std::string::npos;) markdown.erase(at, 1);
   report.files.insert(report.files.begin(),
-                      {{"report.html", std::move(*html)}, {"report.md", std::move(*markdown)}});
+                      {{"report.html", std::move(html)}, {"report.md", std::move(markdown)}});
   std::ranges::move(made.figures, std::back_inserter(report.files));
   return report;
 }

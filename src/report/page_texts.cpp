@@ -182,7 +182,7 @@ class Facts : public mustache::basic_context<std::string> {
 
 }  // namespace
 
-store::Result<std::vector<PageText>> texts_in(const std::string& file, const std::string& name) {
+std::vector<PageText> texts_in(const std::string& file, const std::string& name) {
   std::vector<PageText> texts;
   std::istringstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -191,7 +191,7 @@ store::Result<std::vector<PageText>> texts_in(const std::string& file, const std
     if (line.starts_with('@'))
       texts.push_back({line.substr(1)});
     else if (texts.empty())
-      return no_template(
+      throw no_template(
           fmt::format("{}: found \"{}\" before the first name; allowed: texts under their "
                       "names, such as @answer.value",
                       name, line));
@@ -204,7 +204,7 @@ store::Result<std::vector<PageText>> texts_in(const std::string& file, const std
   }
   for (const PageText& text : texts)
     if (const mustache::mustache parsed(text.words); !parsed.is_valid())
-      return no_template(
+      throw no_template(
           fmt::format("{}: the text {} is no template: {}", name, text.id, parsed.error_message()));
   return texts;
 }
@@ -228,19 +228,14 @@ const Row& found_in(const Row& facts, const std::string& name) {
   return found == facts.end() ? nothing : found_in(*found, name.substr(dot + 1));
 }
 
-store::Result<std::string> filled(const std::string& text, std::vector<const Row*> facts,
-                                  std::string (*escape)(const std::string&)) {
+std::string filled(const std::string& text, std::vector<const Row*> facts,
+                   std::string (*escape)(const std::string&)) {
   mustache::mustache parsed(text);
-  parsed.set_custom_escape(escape);
+  parsed.set_custom_escape(escape ? escape : [](const std::string& each) { return each; });
   Facts context(std::move(facts));
   std::string page = parsed.render(context);
   if (parsed.is_valid()) return page;
-  return no_template("a template cannot be filled: " + parsed.error_message());
-}
-
-std::string filled(const std::string& text, std::vector<const Row*> facts) {
-  const auto made = filled(text, std::move(facts), [](const std::string& each) { return each; });
-  return made ? *made : std::string{};
+  throw no_template("a template cannot be filled: " + parsed.error_message());
 }
 
 std::vector<const Row*> selected(const PageText& text, const Row& facts) {
@@ -291,7 +286,8 @@ std::vector<std::string> said(const std::vector<PageText>& texts, const std::str
   return all;
 }
 
-store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates templates) {
+store::Result<PageTemplates> read_templates(const std::filesystem::path& folder,
+                                            PageTemplates templates) try {
   const std::pair<const char*, std::string*> pages[] = {{"report.html.mustache", &templates.html},
                                                         {"report.md.mustache", &templates.markdown},
                                                         {"texts.mustache", nullptr}};
@@ -306,19 +302,19 @@ store::Result<PageTemplates> read_templates(const std::filesystem::path& folder,
     ++found;
     if (page != nullptr) {
       if (const kainjow::mustache::mustache parsed(*file); !parsed.is_valid())
-        return no_template(fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
+        throw no_template(fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
       *page = std::move(*file);
       continue;
     }
-    auto texts = texts_in(*file, path.string());
-    if (!texts) return texts.error();
-    for (PageText& each : *texts) templates.texts[each.id] = std::move(each.words);
+    for (PageText& each : texts_in(*file, path.string())) templates.texts[each.id] = std::move(each.words);
   }
   if (found > 0) return templates;
   return store::Error{store::Error::Kind::missing,
                       fmt::format("{}: found no template there; allowed: a folder with at least one of "
                                   "report.html.mustache, report.md.mustache, texts.mustache",
                                   folder.string())};
+} catch (const store::Error& error) {
+  return error;
 }
 
 }  // namespace launchsafe::report

@@ -3,9 +3,9 @@
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
-#include "safety_facts.hpp"
 
 namespace launchsafe::report {
 namespace safety {
@@ -33,8 +33,8 @@ std::pair<std::string, std::string> parts_of(const std::string& input) {
   constexpr std::string_view heading = "\n\n# scene\n";
   const std::size_t begin = input.rfind(heading);
   if (begin == std::string::npos) return {input, {}};
-  const std::string scene = input.substr(begin + heading.size());
-  return {input.substr(0, begin), scene.substr(0, scene.find("\n\n# "))};
+  const std::size_t scene = begin + heading.size();
+  return {input.substr(0, begin), input.substr(scene, input.find("\n\n# ", scene) - scene)};
 }
 
 /// Files as they were written; a picture stands in the row that tells what it shows.

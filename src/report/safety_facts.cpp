@@ -1,8 +1,7 @@
 // What a safety report tells: rows of studies, what was selected from them, and what was computed besides.
-#include "safety_facts.hpp"
-
 #include "launchsafe/report/case_pictures.hpp"
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
@@ -350,7 +349,7 @@ Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases
 std::string temperature_text(const StudyEvidence& main, const std::vector<CaseEvidence>& cases) {
   std::set<double> all;
   for (const CaseEvidence& each : cases) all.insert(each.value("initial_temperature"));
-  if (all.empty()) all.insert(main.scene.scene.initial_temperature);
+  if (all.empty()) all = {main.scene.scene.initial_temperature};
   return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
 }
 
@@ -423,17 +422,16 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
 
 PageTemplates built_in_templates() {
   PageTemplates templates{built_in_html, built_in_markdown, {}};
-  const auto built_in = texts_in(built_in_texts, "texts");
-  for (const PageText& each : *built_in) templates.texts[each.id] = each.words;
+  for (const PageText& each : texts_in(built_in_texts, "texts")) templates.texts[each.id] = each.words;
   return templates;
 }
 
 store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const std::optional<GapCriterion>& criterion,
                                                  const PageTemplates& templates, const DocumentHead& document,
-                                                 const DrawingLimits& limits) {
+                                                 const DrawingLimits& limits) try {
   const PageFacts facts = safety::facts_of(evidence, criterion);
-  return render_page(*texts_in(built_in_texts, "texts"), facts, templates,
+  return render_page(texts_in(built_in_texts, "texts"), facts, templates,
                      {{"format", "launchsafe safety report 3"},
                       {"title", evidence.main().title},
                       {"subject", evidence.main().scene.scene.title},
@@ -444,6 +442,8 @@ store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                         {"date", document.date},
                         {"approvals", document.approvals}}}},
                      limits);
+} catch (const store::Error& error) {
+  return error;
 }
 
 }  // namespace launchsafe::report

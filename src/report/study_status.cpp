@@ -268,8 +268,8 @@ std::string status_page(Row facts, const std::vector<std::string>& files) {
     gap["y"] = y += line;
   }
   facts["plot_height"] = y + line;
-  const auto page = filled(status_page_template, {&facts}, kainjow::mustache::html_escape<std::string>);
-  return page ? std::string(store::page_begin) + *page : std::string{};
+  return std::string(store::page_begin) +
+         filled(status_page_template, {&facts}, kainjow::mustache::html_escape<std::string>);
 }
 
 bool is_running(const Row& facts) { return found_in(facts, "is.running") == true; }

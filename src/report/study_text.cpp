@@ -133,13 +133,11 @@ std::string distribution_text(const ShownKey& key, const math::Distribution& dis
 }
 
 std::string place_text(const std::vector<ShownKey>& keys, const std::vector<double>& coordinates) {
-  std::string text;
-  for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < std::min(keys.size(), coordinates.size()); ++i)
     // A pure number says nothing without its name.
-    text += fmt::format("{}{}{}", text.empty() ? "" : ", ",
-                        keys[i].form.unit.empty() ? keys[i].heading + " " : "", keys[i].text(coordinates[i]));
-  }
-  return text;
+    parts.push_back((keys[i].form.unit.empty() ? keys[i].heading + " " : "") + keys[i].text(coordinates[i]));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 bool varies(const study::Study& study, const std::string& key) {

@@ -117,8 +117,6 @@ std::pair<int, int> cells_beside_anchor(const Mesh& mesh, const Extent& shell) {
   return {cells(mesh.x_anchor - shell.x_begin), cells(shell.x_end - mesh.x_anchor)};
 }
 
-Extent extent_of_body(const Body& body) { return {body.x_begin, body.x_end, body.r_begin, body.r_end}; }
-
 /// Number and lengths of a grid's cells between two of its lines.
 struct CellsBetween {
   int count = 0;
@@ -134,9 +132,10 @@ CellsBetween cells_between(std::span<const double> lines, double length) {
   return cells;
 }
 
-/// Those of a part of the scene, by the lines of its grid; the even grid of the updated-Lagrangian form needs
-/// none.
-CellRange cells_within(const Scene& scene, const GridLines& lines, const Extent& part) {
+/// Those of a body, or of another part of the scene, by the lines of its grid; the even grid of the
+/// updated-Lagrangian form needs none.
+template <class Part>
+CellRange cells_within(const Scene& scene, const GridLines& lines, const Part& part) {
   if (scene.numerics.formulation == Formulation::updated_lagrangian) {
     const Mesh mesh = fit_mesh(scene);
     const int nx = parts_of(part.x_end - part.x_begin, mesh.dx),
@@ -281,14 +280,14 @@ CellRange cells_of_charge(const Scene& scene) {
 }
 
 CellRange cells_of(const Scene& scene, const Body& body) {
-  return cells_within(scene, lines_of_lattice(scene), extent_of_body(body));
+  return cells_within(scene, lines_of_lattice(scene), body);
 }
 
 MeshSize mesh_size(const Scene& scene) {
   const GridLines lines = lines_of_lattice(scene);
   MeshSize size{cells_of_all(scene, lines), {}, {}};
   for (const Body& body : scene.bodies) {
-    size.cells.push_back(cells_within(scene, lines, extent_of_body(body)));
+    size.cells.push_back(cells_within(scene, lines, body));
     size.particles.push_back(particles_in(scene, body, size.cells.back()).total());
   }
   return size;

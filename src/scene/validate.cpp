@@ -354,7 +354,7 @@ void check_output(const SceneFile& file) {
 
 }  // namespace
 
-Fault validate(const SceneFile& file) try {
+void validate(const SceneFile& file) {
   for (const auto check : {check_names,
                            check_near_edges,
                            check_charge_fits,
@@ -378,9 +378,6 @@ Fault validate(const SceneFile& file) try {
                            check_coupling,
                            check_output})
     check(file);
-  return std::nullopt;
-} catch (const InputError& fault) {
-  return fault;
 }
 
 }  // namespace launchsafe::scene

@@ -131,7 +131,8 @@ std::string text_of(const std::vector<std::string>& lines) {
 /// Particle updates of a launch; 0 for a scene that is refused.
 double work_of(const std::vector<std::string>& lines) {
   const auto scene = scene::parse_scene(text_of(lines), "shell.toml");
-  return scene && !scene::validate(*scene) ? run::cost_of(scene->scene).work : 0.0;
+  if (scene) EXPECT_NO_THROW(scene::validate(*scene));
+  return scene ? run::cost_of(scene->scene).work : 0.0;
 }
 
 class EditedStudy : public Program, public ::testing::WithParamInterface<int> {

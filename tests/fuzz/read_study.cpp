@@ -16,8 +16,11 @@ namespace {
 using namespace launchsafe;
 
 void check_case(const study::StudyCase& each) {
-  const auto fault = scene::validate(each.scene);
-  fuzz::require(!fault, "the scene of a case is valid", fault ? fault->message() : std::string{});
+  try {
+    scene::validate(each.scene);
+  } catch (const scene::InputError& fault) {
+    fuzz::require(false, "the scene of a case is valid", fault.message());
+  }
   const std::string written = scene::to_toml(each.scene.scene);
   const auto again = scene::parse_scene(written, "written.toml");
   fuzz::require(again.has_value(), "the scene of a case can be written and read",

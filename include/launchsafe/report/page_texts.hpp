@@ -34,20 +34,19 @@ struct PageText {
   std::string words = {};
 };
 
-/// The texts of a file in their order. Errors: corrupt (words before the first name, or tags that do not fit
-/// together).
-store::Result<std::vector<PageText>> texts_in(const std::string& file, const std::string& name);
+/// The texts of a file in their order. Throws store::Error, corrupt: words before the first name, or tags
+/// that do not fit together.
+std::vector<PageText> texts_in(const std::string& file, const std::string& name);
 
 /// What a text is said of: "main.gap_shares where case {{own.case}} largest lowers_cm". Once where it names
 /// nothing; facts that are false or empty have nothing to say. All rows with the largest or smallest number
 /// are chosen; "lowest" are those without a number where there are such, and else those with the smallest.
 std::vector<const Row*> selected(const PageText& text, const Row& facts);
 
-/// A template filled with facts, the inner ones last. Errors: corrupt.
-store::Result<std::string> filled(const std::string& text, std::vector<const Row*> facts,
-                                  std::string (*escape)(const std::string&));
-/// Of a text that was read: nothing is escaped.
-std::string filled(const std::string& text, std::vector<const Row*> facts);
+/// A template filled with facts, the inner ones last; nothing is escaped unless by `escape`. Throws
+/// store::Error, corrupt, as one that was read before never does.
+std::string filled(const std::string& text, std::vector<const Row*> facts,
+                   std::string (*escape)(const std::string&) = nullptr);
 
 /// What the texts under a name say, "answer" those of "answer.value" too: in their order, each once for
 /// everything that it is said of; empty ones are left out.
@@ -73,10 +72,9 @@ struct PageFacts {
 /// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words
 /// `templates` may replace. `head`: "format", "title", "subject" and "answer" of the page. Whatever facts say
 /// is escaped, so that markup in it is shown. A figure that gnuplot does not draw is a remark, in the page
-/// too. Equal facts make equal files. Errors: corrupt (a template that cannot be rendered).
-store::Result<RenderedReport> render_page(const std::vector<PageText>& order, const PageFacts& all,
-                                          const PageTemplates& templates, const Row& head,
-                                          const DrawingLimits& limits = {});
+/// too. Equal facts make equal files. Throws store::Error, corrupt: a template that cannot be rendered.
+RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& all,
+                           const PageTemplates& templates, const Row& head, const DrawingLimits& limits = {});
 
 /// How a page of `index_page` begins, by which it is known.
 inline constexpr const char* index_begin = "<!DOCTYPE html>\n<!-- launchsafe report --index 1 -->\n";

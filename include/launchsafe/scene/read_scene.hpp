@@ -99,7 +99,7 @@ std::vector<ListedKey> list_keys(const SceneFile& file);
 /// file they came from.
 std::string to_toml(const Scene& scene);
 
-/// The first fault that makes a scene unfit to compute, if any (see the places of the file for where).
-Fault validate(const SceneFile& file);
+/// Throws the first fault that makes a scene unfit to compute (see the places of the file for where).
+void validate(const SceneFile& file);
 
 }  // namespace launchsafe::scene
