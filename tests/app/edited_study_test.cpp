@@ -131,8 +131,9 @@ std::string text_of(const std::vector<std::string>& lines) {
 /// Particle updates of a launch; 0 for a scene that is refused.
 double work_of(const std::vector<std::string>& lines) {
   const auto scene = scene::parse_scene(text_of(lines), "shell.toml");
-  if (scene) EXPECT_NO_THROW(scene::validate(*scene));
-  return scene ? run::cost_of(scene->scene).work : 0.0;
+  if (!scene) return 0.0;
+  EXPECT_NO_THROW(scene::validate(*scene));
+  return run::cost_of(scene->scene).work;
 }
 
 class EditedStudy : public Program, public ::testing::WithParamInterface<int> {
