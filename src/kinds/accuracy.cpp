@@ -4,8 +4,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
-#include <span>
-
 namespace launchsafe::kinds {
 
 using study::RecordedSetting, study::ReferenceValue;

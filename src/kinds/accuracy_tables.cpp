@@ -2,8 +2,6 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include <span>
-
 namespace launchsafe::kinds {
 
 using study::RecordedSetting, study::ReferenceValue;

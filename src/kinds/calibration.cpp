@@ -1,8 +1,4 @@
-#include "launchsafe/kinds/calibration.hpp"
-
 #include "calibration_parts.hpp"
-
-#include <cassert>
 
 namespace launchsafe::kinds {
 namespace {

@@ -1,6 +1,5 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
 #include "calibration_parts.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {

@@ -1,8 +1,6 @@
 #include "answer_tables.hpp"
 #include "launchsafe/kinds/comparison.hpp"
 
-#include <numeric>
-
 namespace launchsafe::kinds {
 
 using study::ModelAlternative, study::ModelFormEntry, study::ModelFormRecord, study::StationConvergence;

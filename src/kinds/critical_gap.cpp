@@ -1,5 +1,3 @@
-#include "launchsafe/kinds/critical_gap.hpp"
-
 #include "critical_gap_tables.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"

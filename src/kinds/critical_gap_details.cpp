@@ -4,8 +4,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 
-#include <span>
-
 namespace launchsafe::kinds {
 
 using keys::scientific;

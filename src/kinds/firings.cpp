@@ -1,7 +1,6 @@
 // A calibration on firings, with its tables, page and files.
 #include "calibration_parts.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/study/case_answer.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -3,8 +3,6 @@
 
 #include <fnmatch.h>
 
-#include <cassert>
-
 namespace launchsafe::kinds {
 
 const std::vector<Kind>& kinds() {

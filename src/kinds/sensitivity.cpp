@@ -1,5 +1,3 @@
-#include "launchsafe/kinds/sensitivity.hpp"
-
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 #include "study_keys.hpp"

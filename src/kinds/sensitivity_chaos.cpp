@@ -1,8 +1,6 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 
-#include <numeric>
-
 namespace launchsafe::kinds {
 
 using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;

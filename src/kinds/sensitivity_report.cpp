@@ -2,11 +2,6 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 
-#include <array>
-#include <cctype>
-#include <numeric>
-#include <span>
-
 namespace launchsafe::kinds {
 
 namespace {

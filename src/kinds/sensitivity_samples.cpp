@@ -1,7 +1,5 @@
 #include "sensitivity_parts.hpp"
 
-#include <array>
-
 namespace launchsafe::kinds {
 
 namespace {

@@ -3,13 +3,6 @@
 #include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
-
 namespace launchsafe::study {
 namespace {
 

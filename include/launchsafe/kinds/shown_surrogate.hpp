@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/report/table.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/surrogate.hpp"
 

@@ -4,8 +4,6 @@
 
 #include "launchsafe/scene/plausibility.hpp"
 
-#include <memory>
-
 namespace launchsafe::study {
 
 /// One input that two scenes have otherwise.

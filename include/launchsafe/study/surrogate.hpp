@@ -7,8 +7,6 @@
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
-#include <cmath>
-
 namespace launchsafe::study {
 
 /// Inputs that vary together, as the calibration that fitted them found: their logarithms are normal.
