@@ -175,104 +175,84 @@ void fit_constants(SkinModel& model, const BottomTrace& trace, const Calibration
 
 // --- the load ---
 
-struct Trial {
-  Load load;
-  double localisation = 0;
-  double exchange_time = 0;  ///< s
-};
-
-/// What tells the loads of trials apart: peak time, width, steepness, base.
-using LoadNumbers = std::array<double, 4>;
-LoadNumbers numbers_of(const Load& load) { return {load.peak_time, load.width, load.steepness, load.base}; }
-
-/// Tries loads, each by a mechanical run the first time that it is asked for.
+/// Tries loads with constants, each a scene, whose mechanics is run the first time that it is asked for.
 struct LoadTrials {
   const StudyFile& study;
   const CalibrationTargets& targets;
   const StudyOptions& options;
   Timing& timing;
-  Trial start{study.scene.scene.load};
-  std::map<LoadNumbers, BottomTrace> traces = {};
+  Scene start = study.scene.scene;
+  std::map<std::string, BottomTrace> traces = {};  ///< by the hash of their run
 
   /// Constants that meet the highest temperatures under the scene's load.
   void find_start() {
-    run_all({start.load});
+    run_all({start});
     CalibrationTargets highest = targets;
     highest.load_fitted = false;
-    const CalibratedConstants found =
-        calibrate(surface::skin_model(study.scene.scene), trace_of(start.load), highest);
+    const CalibratedConstants found = calibrate(surface::skin_model(start), trace_of(start), highest);
     // An ignition temperature is found at the end, and what stands in its way here may be gone then.
     if (!std::isfinite(found.constants.localisation)) throw FitFailed{found.failure};
-    start.localisation = found.constants.localisation;
-    start.exchange_time = found.constants.exchange_time;
+    start.surface.localisation = found.constants.localisation;
+    start.surface.exchange_time = found.constants.exchange_time;
   }
 
   /// With the unknowns given as logarithms of their ratios to those of the start.
   std::vector<std::vector<double>> misfits(const std::vector<std::vector<double>>& points) {
-    run_all(of_each(points, [&](const auto& point) { return trial_at(point).load; }));
-    return of_each(points, [&](const auto& point) { return misfits_of(trial_at(point)); });
+    const auto trials = of_each(points, [&](const auto& point) { return trial_at(point); });
+    run_all(trials);
+    return of_each(trials, [&](const Scene& trial) { return misfits_of(trial); });
   }
 
   /// Derivative of the misfits with respect to the pressure at the start, 1/Pa.
   std::vector<double> base_derivative(const math::NonlinearFit& fit) {
-    Trial raised = trial_at(fit.unknowns);
+    Scene raised = trial_at(fit.unknowns);
     const double change = 2e-3 * raised.load.peak;
     raised.load.base += change;
-    run_all({raised.load});
+    run_all({raised});
     std::vector<double> derivative = misfits_of(raised);
     for (std::size_t i = 0; i < derivative.size(); ++i)
       derivative[i] = (derivative[i] - fit.residuals[i]) / change;
     return derivative;
   }
 
-  Trial trial_at(const std::vector<double>& point) const {
-    Trial trial = start;
-    std::size_t next = 0;
-    for (double* number : {&trial.load.peak_time, &trial.load.width, &trial.load.steepness,
-                           &trial.localisation, &trial.exchange_time})
-      *number *= std::exp(point[next++]);
+  Scene trial_at(const std::vector<double>& point) const {
+    Scene trial = start;
+    for (std::size_t i = 0; i < fitted_keys.size(); ++i) {
+      const auto& key = *scene::find_key(scene::scene_keys(), fitted_keys[i]);
+      key.set(trial, std::get<double>(key.get(start)) * std::exp(point[i]));
+    }
     return trial;
   }
 
-  Scene scene_under(const Load& load) const {
-    Scene scene = study.scene.scene;
-    scene.load = load;
-    return scene;
+  static study::CaseRun run_of(const Scene& trial) {
+    const Load& load = trial.load;
+    return study::mechanics_run(trial, fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}",
+                                                   1e3 * load.peak_time, 1e3 * load.width, load.steepness));
   }
 
-  const BottomTrace& trace_of(const Load& load) const { return traces.at(numbers_of(load)); }
+  const BottomTrace& trace_of(const Scene& trial) const { return traces.at(run_of(trial).hash); }
 
-  std::vector<double> misfits_of(const Trial& trial) const {
-    SkinModel model = surface::skin_model(study.scene.scene);
-    model.surface.localisation = trial.localisation;
-    model.surface.exchange_time = trial.exchange_time;
-    return weighted_misfits(model, trace_of(trial.load), targets);
+  std::vector<double> misfits_of(const Scene& trial) const {
+    return weighted_misfits(surface::skin_model(trial), trace_of(trial), targets);
   }
 
-  /// Runs those loads that were not run before.
-  void run_all(const std::vector<Load>& loads) {
+  /// Runs those that were not run before.
+  void run_all(const std::vector<Scene>& trials) {
     if (stop_requested(options)) throw FitFailed{"interrupted"};
-    std::map<LoadNumbers, Load> untried;
-    for (const Load& load : loads)
-      if (!traces.contains(numbers_of(load))) untried[numbers_of(load)] = load;
-    const auto runs = of_each(untried, [&](const auto& each) {
-      return planned_run(study::mechanics_run(scene_under(each.second), label_of(each.second)));
-    });
+    std::map<std::string, study::CaseRun> untried;
+    for (study::CaseRun& run : of_each(trials, run_of))
+      if (!traces.contains(run.hash)) untried.emplace(run.hash, std::move(run));
+    const auto runs = of_each(untried, [](const auto& each) { return planned_run(each.second); });
     std::vector<FinishedRun> finished(runs.size());
     study::ProgressTracker untold({});
     run_each(runs, options, untold, timing,
              [&](std::size_t i, const FinishedRun& run) { finished[i] = run; });
-    for (std::size_t i = 0; const auto& [numbers, load] : untried) {
+    for (std::size_t i = 0; const auto& [hash, asked] : untried) {
       const FinishedRun& run = finished[i++];
       if (!run.failure.empty())
-        throw FitFailed{fmt::format("the run with its {}: {}", label_of(load), run.failure)};
-      traces[numbers] = trace::until(run.result.mechanics.trace, scene::read_time(load));
+        throw FitFailed{fmt::format("the run with its {}: {}", asked.label, run.failure)};
+      traces[hash] = trace::until(run.result.mechanics.trace, scene::read_time(asked.scene.load));
     }
-  }
-
-  static std::string label_of(const Load& load) {
-    return fmt::format("peak at {:.6g} ms, width {:.6g} ms, steepness {:.6g}", 1e3 * load.peak_time,
-                       1e3 * load.width, load.steepness);
   }
 };
 
