@@ -46,17 +46,15 @@ struct ReferenceRow {
   const VariantAccuracy* variant;
   Column what;
   const ReferenceValue* value;
+
+  /// Nothing where no limit is justified.
+  const ReferenceRow* if_justified() const { return value->limit.justified ? this : nullptr; }
 };
 
 /// Numbers are in the unit of the row.
 Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) {
   const auto in_unit = [](auto get) {
     return [get](const ReferenceRow& row) { return shown_value(get(*row.value), row.what.form); };
-  };
-  const auto if_justified = [](auto get) {
-    return [get](const ReferenceRow& row) {
-      return row.value->limit.justified ? std::optional(get(row)) : std::nullopt;
-    };
   };
   Quantities<ReferenceRow> quantities{{quantity::subject, &ReferenceRow::what, &Column::heading},
                                       {quantity::unit, &ReferenceRow::what, &Column::form, &Form::unit}};
@@ -71,9 +69,10 @@ Quantities<ReferenceRow> reference_quantities(const std::vector<double>& sizes) 
   return joined<ReferenceRow>(
       {quantities,
        {{"order", "order", fixed(2), "Order at which the meshes converge; none where no limit is justified.",
-         if_justified([](const ReferenceRow& row) { return row.value->limit.order; })},
+         &ReferenceRow::if_justified, &ReferenceRow::value, &ReferenceValue::limit,
+         &math::Extrapolation::order},
         {"extrapolated", "extrapolated", significant(7), "Limit of the meshes; none where none is justified.",
-         if_justified(in_unit([](const ReferenceValue& value) { return value.limit.value; }))},
+         &ReferenceRow::if_justified, in_unit([](const ReferenceValue& value) { return value.limit.value; })},
         {"uncertainty", "uncertainty", significant(2), "By how much the reference may be off.",
          in_unit([](const ReferenceValue& value) { return value.limit.uncertainty; })},
         {"method", "by", text(), "How the limit was found, or why there is none.",

@@ -108,6 +108,11 @@ std::size_t count_failed(const std::vector<CaseAnswer>& answers);
 /// "completed", how the run ended instead, or "failed" where it never was.
 std::string status_of(const CaseAnswer& answer);
 
+/// Why there is no critical gap, or why it is a bound; else empty.
+inline std::string gap_remark(const CaseAnswer& answer) {
+  return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
+}
+
 /// Where a case lies, or its label if it has no coordinates.
 std::string name_of(const std::vector<ShownKey>& keys, const StudyCase& input);
 

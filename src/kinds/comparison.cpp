@@ -156,6 +156,9 @@ struct CaseRow {
   const ComparedCase& compared() const { return result->answers[index]; }
   const std::vector<double>& coordinates() const { return result->study.cases.coordinates(index); }
   const std::string& variant() const { return result->variants()[compared().variant].name; }
+  const ComparedCase& counterpart() const { return result->answers[result->counterpart(index)]; }
+  /// Nothing for one of the scene as it is.
+  const CaseRow* if_changed() const { return compared().variant == 0 ? nullptr : this; }
 };
 
 /// Variant, and peak pressure where there are several.
@@ -172,37 +175,26 @@ double hottest(const ComparedCase& each) {
 }
 
 /// m by which the critical gap of a variant is above that of the scene as it is; NaN where one has none.
-double shift_of(const ComparisonResult& result, std::size_t index) {
-  return report::value_of(result.answers[index].critical) -
-         report::value_of(result.answers[result.counterpart(index)].critical);
+double shift_of(const CaseRow& row) {
+  return report::value_of(row.compared().critical) - report::value_of(row.counterpart().critical);
 }
 
 Quantities<CaseRow> compared_case_quantities(const Study& study) {
-  const auto unless_own = [](double (*difference)(const CaseRow&)) {
-    return [difference](const CaseRow& row) {
-      return row.compared().variant == 0 ? not_a_number : difference(row);
-    };
-  };
   return joined<CaseRow>(
       {place_quantities(study),
        of_part<CaseRow>(report::critical_gap_quantities(), &CaseRow::compared, &CaseAnswer::critical),
        {{"critical_gap_difference", "less that of the scene", significant(3, centimetre),
-         "Critical gap minus that of the scene as it is.",
-         unless_own([](const CaseRow& row) { return shift_of(*row.result, row.index); })},
-        {quantity::temperature_max_inert, [](const CaseRow& row) { return hottest(row.compared()); }},
+         "Critical gap minus that of the scene as it is.", &CaseRow::if_changed, shift_of},
+        {quantity::temperature_max_inert, &CaseRow::compared, hottest},
         {"temperature_max_inert_difference", "less that of the scene", fixed(1, kelvin),
-         "The same minus that of the scene as it is.", unless_own([](const CaseRow& row) {
-           return hottest(row.compared()) - hottest(row.result->answers[row.result->counterpart(row.index)]);
-         })},
+         "The same minus that of the scene as it is.", &CaseRow::if_changed,
+         [](const CaseRow& row) { return hottest(row.compared()) - hottest(row.counterpart()); }},
         {for_programs(quantity::processor_time), &CaseRow::compared, &ComparedCase::processor_time},
         {for_programs(quantity::particles), &CaseRow::compared, &CaseAnswer::run, &RunSummary::particles},
         {for_programs(quantity::steps), &CaseRow::compared, &CaseAnswer::run, &RunSummary::steps},
         {for_programs(quantity::energy_drift), &CaseRow::compared, &CaseAnswer::run,
          &RunSummary::energy_drift},
-        {quantity::reason, [](const CaseRow& row) {
-           const CaseAnswer& answer = row.compared();
-           return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
-         }}}});
+        {quantity::reason, &CaseRow::compared, gap_remark}}});
 }
 
 /// A row for every case: critical gap, hottest temperature, both less those of the scene as it is, and cost.
@@ -311,7 +303,7 @@ std::string answer(const ComparisonResult& result) {
       facts["own"].push_back({{"case", label}, {"critical_gap", reads_as(result.answers[i].critical)}});
       continue;
     }
-    const double shift = shift_of(result, i);
+    const double shift = shift_of({&result, i});
     unknown += std::isnan(shift);
     if (!(shift < least)) continue;
     least = shift;

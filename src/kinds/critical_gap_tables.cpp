@@ -134,10 +134,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
         {quantity::recorded_uncertainty,
          [](const JudgedCase& row) { return row.input().recorded_uncertainty(); }}},
        in_detail ? Quantities<JudgedCase>{} : of_part<JudgedCase>(run_quantities(study)),
-       {{quantity::remark, [](const JudgedCase& row) {
-           const CaseAnswer& answer = *row.answer;
-           return answer.completed() ? text_of(answer.critical.reason) : answer.failure;
-         }}}});
+       {{quantity::remark, &AnsweredCase::answer, gap_remark}}});
 }
 
 /// What the audit of the air says of the gap where most was taken; there may be millions of others.

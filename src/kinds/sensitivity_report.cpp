@@ -159,9 +159,8 @@ struct IndexRow {
   ShownInput input;
   std::size_t place;  ///< among the inputs
 
-  const math::InputIndices* indices() const {
-    return output->reason.empty() ? &output->sobol.inputs[place] : nullptr;
-  }
+  const math::SobolIndices* sobol() const { return output->reason.empty() ? &output->sobol : nullptr; }
+  const math::InputIndices* indices() const { return sobol() ? &sobol()->inputs[place] : nullptr; }
 };
 
 std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSensitivity& output) {
@@ -174,22 +173,14 @@ std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSe
 /// An index with the ends of its interval.
 Quantities<IndexRow> interval_quantities(const std::string& name, const std::string& heading,
                                          math::Estimate math::InputIndices::*index, const char* meaning) {
-  const auto of = [index](double math::Estimate::*member) {
-    return [=](const IndexRow& row) {
-      return row.indices() != nullptr ? std::optional(row.indices()->*index.*member) : std::nullopt;
-    };
-  };
-  return {{{name, heading, fixed(3), meaning}, of(&math::Estimate::value)},
-          {name + "_lower", "from", fixed(3), "Lower end of its interval.", of(&math::Estimate::lower)},
-          {name + "_upper", "to", fixed(3), "Upper end of its interval.", of(&math::Estimate::upper)}};
+  return {{{name, heading, fixed(3), meaning}, &IndexRow::indices, index, &Estimate::value},
+          {name + "_lower", "from", fixed(3), "Lower end of its interval.", &IndexRow::indices, index,
+           &Estimate::lower},
+          {name + "_upper", "to", fixed(3), "Upper end of its interval.", &IndexRow::indices, index,
+           &Estimate::upper}};
 }
 
 Quantities<IndexRow> index_quantities() {
-  const auto of_rows = [](auto count) {
-    return [count](const IndexRow& row) {
-      return row.indices() != nullptr ? std::optional(count(row.output->sobol)) : std::nullopt;
-    };
-  };
   return joined<IndexRow>(
       {{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
         {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
@@ -197,10 +188,10 @@ Quantities<IndexRow> index_quantities() {
                            "Share of the variance by the input alone."),
        interval_quantities("total_order", "total", &math::InputIndices::total,
                            "Share of the variance with its interactions."),
-       {{"used", "rows used", count(), "Rows of the design that the indices rest on.",
-         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used; })},
-        {"of", "of", count(), "Rows of the design.",
-         of_rows([](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; })}}});
+       {{"used", "rows used", count(), "Rows of the design that the indices rest on.", &IndexRow::sobol,
+         &math::SobolIndices::rows_used},
+        {"of", "of", count(), "Rows of the design.", &IndexRow::sobol,
+         [](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; }}}});
 }
 
 /// The same below each other for all outputs.

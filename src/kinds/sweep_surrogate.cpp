@@ -152,36 +152,33 @@ Column shown(const SurrogateOutput& output) {
 }
 
 Quantities<SurrogateOutput> fit_quantities() {
-  const auto of_fit = [](auto get) {
-    return [=](const SurrogateOutput& output) {
-      return output.fit.chaos.points > 0 ? std::optional(get(output)) : std::nullopt;
-    };
+  using math::PolynomialChaos, study::HeldOutError, study::SurrogateFit;
+  const auto fitted = [](const SurrogateOutput& output) {
+    return output.fit.chaos.points > 0 ? &output : nullptr;
   };
-  const auto error_of = [=](auto get) {
-    return of_fit(
-        [=](const SurrogateOutput& output) { return shown_value(get(output), shown(output).form); });
+  const auto in_unit = [](auto get) {
+    return [=](const SurrogateOutput& output) { return shown_value(get(output), shown(output).form); };
   };
-  return {{"fitted", "fitted", count(), "Evaluations that were fitted.",
-           of_fit([](const SurrogateOutput& output) { return output.fit.chaos.points; })},
-          {"fit", "fit", text(), "What predicts: the one with the smaller leave-one-out error.",
-           of_fit([](const SurrogateOutput& output) {
-             return output.fit.by_process() ? "Gaussian process" : "polynomial";
-           })},
-          {"terms", "terms", count(), "Terms of the polynomial.",
-           of_fit([](const SurrogateOutput& output) { return output.fit.chaos.terms.size(); })},
+  return {{"fitted", "fitted", count(), "Evaluations that were fitted.", fitted, &SurrogateOutput::fit,
+           &SurrogateFit::chaos, &PolynomialChaos::points},
+          {"fit", "fit", text(), "What predicts: the one with the smaller leave-one-out error.", fitted,
+           &SurrogateOutput::fit,
+           [](const SurrogateFit& fit) { return fit.by_process() ? "Gaussian process" : "polynomial"; }},
+          {"terms", "terms", count(), "Terms of the polynomial.", fitted,
+           [](const SurrogateOutput& output) { return output.fit.chaos.terms.size(); }},
           {"leave_one_out", "leave-one-out error", significant(2), "Root mean square, of the polynomial.",
-           error_of([](const SurrogateOutput& output) { return output.fit.chaos.leave_one_out; })},
+           fitted, in_unit([](const SurrogateOutput& output) { return output.fit.chaos.leave_one_out; })},
           {"process_leave_one_out", "of the process", significant(2), "The same of the Gaussian process.",
-           error_of([](const SurrogateOutput& output) {
+           fitted, in_unit([](const SurrogateOutput& output) {
              const math::GaussianProcess& process = output.fit.process;
              return process.reason.empty() ? process.leave_one_out : not_a_number;
            })},
-          {"held_out", "held out", count(), "Evaluations that were not fitted.",
-           of_fit([](const SurrogateOutput& output) { return output.error.launches; })},
+          {"held_out", "held out", count(), "Evaluations that were not fitted.", fitted,
+           &SurrogateOutput::error, &HeldOutError::launches},
           {"held_out_error", "error there", significant(2), "Root mean square of the fit's error there.",
-           error_of([](const SurrogateOutput& output) { return output.error.root_mean_square; })},
-          {"held_out_largest", "largest there", significant(2), "Largest error of the fit there.",
-           error_of([](const SurrogateOutput& output) { return output.error.largest; })}};
+           fitted, in_unit([](const SurrogateOutput& output) { return output.error.root_mean_square; })},
+          {"held_out_largest", "largest there", significant(2), "Largest error of the fit there.", fitted,
+           in_unit([](const SurrogateOutput& output) { return output.error.largest; })}};
 }
 
 std::string gap_reason(const std::vector<CaseAnswer>& answers, std::string otherwise) {
@@ -190,8 +187,7 @@ std::string gap_reason(const std::vector<CaseAnswer>& answers, std::string other
   const auto first = std::ranges::find_if(
       answers, [](const CaseAnswer& answer) { return std::isnan(critical_gap_number(answer)); });
   if (otherwise.empty() || first == answers.end()) return otherwise;
-  return fmt::format("{} (the first without a number: {})", otherwise,
-                     first->completed() ? text_of(first->critical.reason) : first->failure);
+  return fmt::format("{} (the first without a number: {})", otherwise, gap_remark(*first));
 }
 
 std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, const StudyFile& study) {
