@@ -10,13 +10,6 @@ using study::Use, surface::Extent;
 
 namespace {
 
-/// The cases that differ along one axis alone: their T max by gap, where no one ignites, and critical gaps.
-struct Line {
-  std::map<double, Extent> temperature;  ///< K, by gap in m
-  std::set<double> ignited;
-  Extent critical;  ///< m
-};
-
 struct Effect {
   double temperature = not_a_number;  ///< K
   double critical = not_a_number;     ///< m
@@ -29,7 +22,9 @@ void raise(double& most, double value) {
 
 /// Of all cases, or of those with a crack below its flaw.
 Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_flaw) {
-  std::map<std::vector<double>, Line> lines;
+  // Of the cases that differ along the axis alone: K, infinite where one ignites, by gap too; and m.
+  std::map<std::pair<std::vector<double>, double>, Extent> temperatures;
+  std::map<std::vector<double>, Extent> critical_gaps;
   Effect effect;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
@@ -39,18 +34,12 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_f
     std::vector<double> others = input.coordinates;
     effect.values.include(others[axis]);
     others[axis] = 0.0;
-    Line& line = lines[others];
-    line.critical.include(report::value_of(answer.critical));
-    for (const GapVerdict& row : answer.verdicts) {
-      if (row.ignition) line.ignited.insert(row.gap);
-      line.temperature[row.gap].include(row.maximum.temperature);
-    }
+    critical_gaps[others].include(report::value_of(answer.critical));
+    for (const GapVerdict& row : answer.verdicts)
+      temperatures[{others, row.gap}].include(row.ignition ? math::infinity : row.maximum.temperature);
   }
-  for (const auto& [others, line] : lines) {
-    raise(effect.critical, line.critical.highest - line.critical.lowest);
-    for (const auto& [gap, range] : line.temperature)
-      if (!line.ignited.contains(gap)) raise(effect.temperature, range.highest - range.lowest);
-  }
+  for (const auto& [others, range] : critical_gaps) raise(effect.critical, range.highest - range.lowest);
+  for (const auto& [others, range] : temperatures) raise(effect.temperature, range.highest - range.lowest);
   return effect;
 }
 
