@@ -21,7 +21,7 @@ void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   const KeyDescription description = taken(scene::describe_key(study.scene, leaf.name, place), "settings");
   SettingsAxis& axis = own(study).settings[block].emplace_back();
   for (const Value& value : taken(scene::read_values(*leaf.node, description, study.file), "settings"))
-    axis.push_back({leaf.name, value, scene::format_value(description, value), key, place});
+    axis.push_back({leaf.name, value, place, key});
 }
 
 void check_reference_meshes(StudyFile& study) {
@@ -63,10 +63,10 @@ void check_reference_grids(StudyFile& study) {
   }
 }
 
-std::string label_of(const std::vector<Change>& changes) {
+std::string label_of(const StudyFile& study, const std::vector<Change>& changes) {
   if (changes.empty()) return "as in the scene";
-  const auto part = [](const Change& change) {
-    return change.key.substr(change.key.rfind('.') + 1) + " " + change.text;
+  const auto part = [&](const Change& change) {
+    return change.name.substr(change.name.rfind('.') + 1) + " " + text_of(study.scene, change);
   };
   return fmt::format("{}", fmt::join(of_each(changes, part), ", "));
 }
@@ -76,7 +76,7 @@ using KnownScenes = std::set<std::string>;
 void add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes& known) {
   SceneFile scene = taken(with_changes(study.scene, changes));
   if (!known.insert(scene::to_toml(scene.scene)).second) return;
-  StudyCase made = study::case_of(label_of(changes), std::move(scene));
+  StudyCase made = study::case_of(label_of(study, changes), std::move(scene));
   made.own_conditions = true;
   if (made.closing) made.scene.scene.surface.gaps = study.study.gaps;
   study.cases.add(std::move(made));
@@ -116,15 +116,12 @@ void read_settings(const toml::table& root, StudyFile& study) {
   check_setting_count(study);
 }
 
-void make_setting_cases(StudyFile& study) {
+void make_setting_cases(const toml::table& root, StudyFile& study) {
+  read_settings(root, study);
   const AccuracySettings settings = own(study);
-  const KeyDescription description = *scene::find_key(scene::scene_keys(), cell_size_key);
   KnownScenes known;
   for (const double size : settings.reference_cell_sizes)
-    add_case(study,
-             {{cell_size_key, size, scene::format_value(description, size), meshes_key,
-               place_of_key(study, meshes_key)}},
-             known);
+    add_case(study, {{cell_size_key, size, place_of_key(study, meshes_key), meshes_key}}, known);
   check_reference_grids(study);
   add_case(study, {}, known);
   for (const std::vector<SettingsAxis>& block : settings.settings) add_block(study, block, {}, known);
@@ -195,13 +192,9 @@ std::vector<const toml::table*> variants_of(const StudySource& source, const Stu
   return tables;
 }
 
-void read_accuracy(const StudySource& source, StudyFile& study) {
-  if (variants_of(source, study).empty()) read_settings(source.root, study);
-}
-
 void make_accuracy_cases(const StudySource& source, StudyFile& study) {
   const std::size_t variants = variants_of(source, study).size();
-  if (variants == 0) return make_setting_cases(study);
+  if (variants == 0) return make_setting_cases(source.root, study);
   for (std::size_t i = 0; i < variants; ++i) add_variant(source, i, study);
   // The first is the study's own.
   const StudyFile& first = own(study).variants.front().study;
@@ -237,7 +230,6 @@ Kind accuracy_kind() {
                  .closing_gaps = study::ClosingGaps::compared},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys)}),
       .tables = {{"settings", {}}, {variant_key, {}}},
-      .read = read_accuracy,
       .make_cases = make_accuracy_cases,
       .run = outcome_of<run_accuracy, accuracy_failures>,
       .files = {"accuracy.json", "accuracy_*.json", "error_against_time.svg"},

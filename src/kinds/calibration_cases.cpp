@@ -93,14 +93,12 @@ void complete(Firing& firing, const Scene& scene) {
 SceneFile scene_of(const StudyFile& study, const Firing& firing, std::size_t place) {
   const Scene& own = study.scene.scene;
   std::vector<Change> changes;
-  for (const auto& [key, of_firing, value, in_scene, dimension] :
-       {std::tuple{"load.peak", "pressure", firing.pressure, study::fired_pressure(own.load),
-                   Dimension::pressure},
-        std::tuple{"initial_temperature", "temperature", firing.temperature, own.initial_temperature,
-                   Dimension::temperature}}) {
+  for (const auto& [key, of_firing, value, in_scene] :
+       {std::tuple{"load.peak", "pressure", firing.pressure, study::fired_pressure(own.load)},
+        {"initial_temperature", "temperature", firing.temperature, own.initial_temperature}}) {
     if (study::same_number(value, in_scene)) continue;
     const std::string named = fmt::format("firing.{}.{}", place, of_firing);
-    changes.push_back({key, value, format_quantity(value, dimension), named, place_of_key(study, named)});
+    changes.push_back({key, value, place_of_key(study, named), named});
   }
   return taken(study::with_changes(study.scene, changes));
 }
@@ -194,17 +192,16 @@ void check_firings(const StudyFile& study) {
                 "a record of plausible constants, about which those of the firings are sought");
 }
 
-void read_calibration(const StudySource& source, StudyFile& study) {
+void make_calibration_cases(const StudySource& source, StudyFile& study) {
   read_firings(source.root, study);
   check_firings(study);
   read_references(source, study);
   add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes);
-}
-
-void make_calibration_cases(const StudySource&, StudyFile& study) {
   if (!firings_of(study).empty()) return make_firing_cases(study);
   calibration_targets(study);
-  make_factorial(study, [](const StudyCase& made) { return fmt::format("{:.6g} mm", 1e3 * made.cell_size); });
+  make_factorial(study);
+  for (std::size_t i = 0; i < study.cases.size(); ++i)
+    study.cases.relabel(i, fmt::format("{:.6g} mm", 1e3 * study.cases[i].cell_size));
 }
 
 /// Of the launches that a result has in `runs`.
@@ -265,7 +262,6 @@ Kind calibration_kind() {
       .keys =
           joined({reference_keys(), calibration_record_keys(), own_keys(calibration_keys), firing_keys()}),
       .tables = {reference_table(), study_table_of("firing", firing_row_keys)},
-      .read = read_calibration,
       .make_cases = make_calibration_cases,
       .run = run,
       .files = {"calibration.json"},

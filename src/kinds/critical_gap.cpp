@@ -254,12 +254,9 @@ void check_raised_load(const StudyFile& study) {
                         100.0 * (study::least_load_ratio - 1.0), 100.0 * (study::largest_load_ratio - 1.0)));
 }
 
-void read_critical_gap(const StudySource& source, StudyFile& study) {
+void make_critical_gap_cases(const StudySource& source, StudyFile& study) {
   read_references(source, study);
   read_cited_limits(source.root, study);
-}
-
-void make_critical_gap_cases(const StudySource&, StudyFile& study) {
   if (settings_of<CriticalGapSettings>(study.study).surrogate) check_sweep_surrogate(study);
   make_factorial(study);
   check_raised_load(study);
@@ -302,7 +299,6 @@ Kind critical_gap_kind() {
                       calibration_record_keys(), uncertainty_keys(), raised_load_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},
       .varies = {.values = true},
-      .read = read_critical_gap,
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
       .files = {"closing.svg", "temperature.svg", "critical_gap*.svg", "surrogate.json", "ask.html"},

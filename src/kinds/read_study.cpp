@@ -10,21 +10,9 @@ namespace {
 using scene::InputError;
 
 void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
-  const auto& [table_name, node] = overrides;
-  if (!node) return;
-  if (!node->is_table())
-    throw error_at(scene::place_of(*node, study.file), table_name, found_text(*node),
-                   fmt::format("a table, written [{}], of scene keys", table_name));
-  std::vector<Change> changes;
-  for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
-    const Place place = scene::place_of(*leaf.node, study.file);
-    const auto key = taken(scene::describe_key(study.scene, leaf.name, place), table_name);
-    const auto value = taken(scene::read_value(*leaf.node, key, study.file), table_name);
-    if (auto note = scene::note_on_former_word(*leaf.node, key, place))
-      study.scene.notes.push_back(std::move(*note));
-    study.overrides[leaf.name] = scene::format_value(key, value);
-    changes.push_back({leaf.name, value, study.overrides[leaf.name], table_name + "." + leaf.name, place});
-  }
+  const std::string written = fmt::format("a table, written [{}], of scene keys", overrides.name);
+  const auto changes = taken(changes_in(overrides, study.file, written, study.scene));
+  for (const Change& each : changes) study.overrides[each.name] = text_of(study.scene, each);
   const bool may_close = study.study.kind.closing_gaps != study::ClosingGaps::refused;
   study.scene = taken(with_changes(study.scene, changes, may_close));
 }
@@ -145,7 +133,6 @@ void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys,
 }
 
 void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
-  if (kind.read != nullptr) kind.read(source, study);
   if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
   if (kind.varies.distributions) read_correlations(source, study);
   check_load_axes(study);
@@ -167,6 +154,24 @@ InputError unnumbered(InputError error, const std::string& file) {
 }
 
 }  // namespace
+
+Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
+                                         const std::string& written, SceneFile& scene) {
+  const auto& [name, node] = table;
+  std::vector<Change> changes;
+  if (!node) return changes;
+  if (!node->is_table()) throw error_at(scene::place_of(*node, file), name, found_text(*node), written);
+  for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
+    const Place place = scene::place_of(*leaf.node, file);
+    const auto key = taken(scene::describe_key(scene, leaf.name, place), name);
+    const auto value = scene::read_value(*leaf.node, key, file);
+    if (!value) return scene::within(name, value.error());
+    if (auto note = scene::note_on_former_word(*leaf.node, key, place))
+      scene.notes.push_back(std::move(*note));
+    changes.push_back({leaf.name, *value, place, name + "." + leaf.name});
+  }
+  return changes;
+}
 
 SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
                            const std::string& key, const Place& place) {

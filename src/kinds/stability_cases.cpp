@@ -49,25 +49,18 @@ using Changed = Expected<SceneFile>;
 
 /// Changes a scene by tables of scene keys; a later one has the last word, also on keys that its own take
 /// back. Unknown keys are refused in any case.
-Changed with_keys(const SceneFile& start, const std::vector<OverrideTable>& all, const std::string& file) {
+Changed with_keys(SceneFile start, const std::vector<OverrideTable>& all, const std::string& file) {
   std::vector<Change> changes;
-  for (const auto& [name, node] : all) {
-    if (!node) continue;
-    std::vector<Change> earlier = std::exchange(changes, {});
-    if (!node->is_table())
-      throw error_at(scene::place_of(*node, file), name, found_text(*node),
-                     "a table of scene keys, written { key = value, ... }");
-    for (const Leaf& leaf : study::leaves_as_written(*node->as_table())) {
-      const Place place = scene::place_of(*leaf.node, file);
-      const auto key = taken(scene::describe_key(start, leaf.name, place), name);
-      const auto value = scene::read_value(*leaf.node, key, file);
-      if (!value) return scene::within(name, value.error());
-      std::erase_if(earlier, [&](const Change& change) {
-        return change.key == leaf.name || std::ranges::count(key.overrides, change.key) > 0;
+  for (const OverrideTable& table : all) {
+    const auto later = changes_in(table, file, "a table of scene keys, written { key = value, ... }", start);
+    if (!later) return later.error();
+    for (const Change& each : *later) {
+      const auto overrides = taken(scene::describe_key(start, each.name, each.place)).overrides;
+      std::erase_if(changes, [&](const Change& change) {
+        return change.name == each.name || std::ranges::count(overrides, change.name) > 0;
       });
-      changes.push_back({leaf.name, *value, scene::format_value(key, *value), name + "." + leaf.name, place});
     }
-    changes.insert(changes.begin(), earlier.begin(), earlier.end());
+    changes.insert(changes.end(), later->begin(), later->end());
   }
   return with_changes(start, changes, true);
 }

@@ -363,8 +363,7 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
       if (!key || std::isnan(shown) || column == quantity::gap.key()) continue;
       const double value =
           shown / shown_value(1.0, {.dimension = key->dimension, .unit = text_of(axis, "unit")});
-      if (!study::same_number(value, own_value(study, name)))
-        each.changes.push_back({name, value, {}, name, {}});
+      if (!study::same_number(value, own_value(study, name))) each.changes.push_back({name, value, {}, name});
     }
     for (const Row& run : study.rows("runs"))
       if (text_of(run, "case") == each.label) each.run = &run;
@@ -389,7 +388,7 @@ double own_value(const StudyEvidence& study, const std::string& key) {
 }
 
 double CaseEvidence::value(const std::string& key) const {
-  const auto found = std::ranges::find(changes, key, &study::Change::key);
+  const auto found = std::ranges::find(changes, key, &study::Change::name);
   return found != changes.end() ? std::get<double>(found->value) : own_value(*study, key);
 }
 

@@ -11,18 +11,15 @@ namespace {
 
 using scene::SceneFile;
 
-scene::Expected<scene::SceneFile> with_all(const scene::SceneFile& scene,
-                                           const std::vector<Change>& changes) {
-  std::vector<scene::KeyChange> all;
-  for (const Change& change : changes) all.push_back({change.key, change.value, change.place});
-  return scene::with_keys(scene, all);
+scene::Expected<SceneFile> with_all(const SceneFile& scene, const std::vector<Change>& changes) {
+  return scene::with_keys(scene, {changes.begin(), changes.end()});
 }
 
 /// The change that a fault of all together is about: of the key that it names, else the first that the scene
 /// could not have alone, else the first.
 const Change& change_at_fault(const scene::SceneFile& scene, const std::vector<Change>& changes,
                               const scene::InputError& error) {
-  const auto named = std::ranges::find(changes, error.key, &Change::key);
+  const auto named = std::ranges::find(changes, error.key, &Change::name);
   if (named != changes.end()) return *named;
   const auto alone =
       std::ranges::find_if(changes, [&](const Change& change) { return !with_all(scene, {change}); });
@@ -59,8 +56,7 @@ std::vector<Change> changes_of(const StudyFile& study, const std::vector<double>
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const Axis& axis = study.study.axes[i];
     const std::string& key = axis.values_key.empty() ? axis.study_key : axis.values_key;
-    changes.push_back({axis.key.name, coordinates[i], scene::format_value(axis.key, coordinates[i]), key,
-                       place_of_key(study, key)});
+    changes.push_back({axis.key.name, coordinates[i], place_of_key(study, key), key});
   }
   return changes;
 }
@@ -150,19 +146,23 @@ bool same_number(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max
 
 bool same_value(const scene::Value& a, const scene::Value& b) { return scene::same_value(a, b, 1e-9); }
 
+std::string text_of(const SceneFile& scene, const Change& change) {
+  return scene::format_value(scene::describe_key(scene, change.name, change.place).or_throw(), change.value);
+}
+
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
                                                const std::vector<Change>& changes, bool may_close) {
   if (changes.empty()) return scene;
   auto changed = with_all(scene, changes);
-  const auto model = std::ranges::find(changes, "gap.model", &Change::key);
+  const auto model = std::ranges::find(changes, "gap.model", &Change::name);
   if (!may_close && changed && changed->scene.surface.model == scene::GapModel::closing &&
       model != changes.end())
-    return scene::error_at(model->place, model->study_key, model->text, only_reservoir);
+    return scene::error_at(model->place, model->study_key, text_of(scene, *model), only_reservoir);
   if (changed) return changed;
   scene::InputError error = changed.error();
   const Change& change = change_at_fault(scene, changes, error);
-  if (error.key != change.key) {
-    error.found = fmt::format("{}, with which {} is {}", change.text, error.key, error.found);
+  if (error.key != change.name) {
+    error.found = fmt::format("{}, with which {} is {}", text_of(scene, change), error.key, error.found);
     error.allowed = fmt::format("values with which {} is {}", error.key, error.allowed);
   }
   error.file = change.place.file;
@@ -176,8 +176,7 @@ void set_keys(StudyFile& study, const std::map<std::string, scene::Value>& value
               const std::string& study_key) {
   std::vector<Change> changes;
   for (const auto& [key, value] : values)
-    changes.push_back({key, value, scene::format_value(*scene::find_key(scene::scene_keys(), key), value),
-                       study_key, place_of_key(study, study_key)});
+    changes.push_back({key, value, place_of_key(study, study_key), study_key});
   study.scene = with_changes(study.scene, changes).or_throw();
 }
 
@@ -234,13 +233,12 @@ void add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& 
   });
   if (first_fault < count)
     throw with_changes(start->scene, changes_of(study, coordinates_of(first_fault))).error();
-  study.cases.reserve(count);
   for (auto& [label, coordinates] : rows) study.cases.add(std::move(label), std::move(coordinates));
   study.cases.make_with(
       [start](const std::vector<double>& coordinates) { return known_case(*start, coordinates); });
 }
 
-void make_factorial(StudyFile& study, const std::function<std::string(const StudyCase&)>& label_of) {
+void make_factorial(StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
   double count = 1.0;
   std::vector<std::string> sizes;
@@ -252,9 +250,7 @@ void make_factorial(StudyFile& study, const std::function<std::string(const Stud
   check_count(study, key, count, fmt::format("{}", fmt::join(sizes, " x ")));
   add_varied_cases(
       study, static_cast<std::size_t>(count), [&](std::size_t place) { return values_at(axes, place); },
-      [&](std::size_t, const StudyCase& made) {
-        return label_of ? label_of(made) : case_label(study.study, made);
-      });
+      [&](std::size_t, const StudyCase& made) { return case_label(study.study, made); });
 }
 
 void check_count(const StudyFile& study, const std::string& key, double count, const std::string& what) {

@@ -57,10 +57,8 @@ struct Kind {
   std::vector<scene::Key<study::Study>> keys;  ///< of its study files, besides those of every kind
   std::vector<StudyTable> tables;
   Varied varies = {};  ///< of what becomes Study::axes; with none there is no [[vary]]
-  /// Reads its own tables; null where it has none but [[vary]]. The study has its scene with the overrides.
+  /// Reads its own tables but [[vary]], and fills StudyFile::cases. All else is known, the gaps to judge too.
   /// Throws what is wrong with them (src/kinds/study_keys.hpp).
-  void (*read)(const StudySource& source, study::StudyFile& study) = nullptr;
-  /// Fills StudyFile::cases. All else is known, the gaps to judge too. Throws likewise.
   void (*make_cases)(const StudySource& source, study::StudyFile& study);
   StudyOutcome (*run)(const study::StudyFile& study, const study::StudyOptions& options);
   /// Of its reports, besides report.md, study.json and those of tables: names, with "*" for what the study

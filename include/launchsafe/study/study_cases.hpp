@@ -13,13 +13,11 @@ bool same_number(double a, double b);
 bool same_value(const scene::Value& a, const scene::Value& b);
 
 /// A scene key with a new value.
-struct Change {
-  std::string key;  ///< of the scene
-  scene::Value value;
-  std::string text;       ///< the value as people read it
+struct Change : scene::KeyChange {
   std::string study_key;  ///< for faults: where in the study it was asked for
-  scene::Place place;     ///< likewise
 };
+/// The value as people read it.
+std::string text_of(const scene::SceneFile& scene, const Change& change);
 
 /// What gap.model may be where gaps that close are not judged: there they are judged on one launch, which a
 /// gap that closes has not.
@@ -132,8 +130,8 @@ using CoordinatesOf = std::function<std::vector<double>(std::size_t index)>;
 void add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
                       const LabelOf& label_of);
 
-/// The full factorial of Study::axes, the last one fastest. `label_of`: instead of `case_label`.
-void make_factorial(StudyFile& study, const std::function<std::string(const StudyCase& made)>& label_of = {});
+/// The full factorial of Study::axes, the last one fastest.
+void make_factorial(StudyFile& study);
 
 /// Refuses, at `key`, more cases than a study may have; `what` says how they come about.
 void check_count(const StudyFile& study, const std::string& key, double count, const std::string& what);

@@ -75,7 +75,6 @@ class Cases {
 
   void make_with(Make make) { make_ = std::move(make); }
   void complete_with(Complete complete) { complete_ = std::move(complete); }
-  void reserve(std::size_t count) { rows_.reserve(count); }
   void add(std::string label, std::vector<double> coordinates);
   /// A case with a scene of its own.
   void add(StudyCase made);
