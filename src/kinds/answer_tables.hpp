@@ -23,18 +23,10 @@ using run::MechanicsResult;
 using scene::format_quantity, scene::GapModel, scene::Load, scene::Scene;
 using study::Axis, study::CalibrationRecord, study::RunOutcome, study::Verdict;
 using study::CaseAnswer, study::CaseOutcome, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
-    study::GapVerdict, study::not_a_number, study::Reference, study::RunSummary, study::Study,
+    study::GapVerdict, study::not_a_number, study::of_each, study::Reference, study::RunSummary, study::Study,
     study::StudyCase, study::StudyFile, study::StudyOptions;
 using surface::SkinModel;
 using trace::BottomTrace;
-
-/// What a member, or a function, says of each of several.
-template <class Range, class Member>
-auto of_each(const Range& all, Member member) {
-  std::vector<std::decay_t<std::invoke_result_t<Member, decltype(*all.begin())>>> values;
-  for (const auto& each : all) values.push_back(std::invoke(member, each));
-  return values;
-}
 
 // Every kind, and what its tables hold.
 Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind(),

@@ -170,27 +170,20 @@ Plot model_form_plot(const ModelForm& form) {
   return plot;
 }
 
-/// The cases of the scene as it is, by increasing peak pressure; those of variants are in the same order.
-std::vector<std::size_t> by_peak_pressure(const ComparisonResult& result) {
-  std::vector<std::size_t> order(result.cases_per_variant());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return result.study.cases[i].peak_pressure; });
-  return order;
-}
-
 /// Of a comparison over peak pressures whose variants all name the record of a calibration; or why there is
 /// none, a clause. The comparison has to live as long as what is made of it.
 scene::Expected<ModelForm, std::string> model_form_of(const ComparisonResult& result) {
   ModelForm form{{}, {}, result.study.study.largest_gap};
-  const std::vector<std::size_t> order = by_peak_pressure(result);
+  // The cases of the scene as it is by increasing pressure; those of variants are in the same order.
+  const auto pressure_of = [&](std::size_t i) { return result.study.cases[i].peak_pressure; };
+  const std::vector<std::size_t> order = study::places_by(result.cases_per_variant(), pressure_of);
   for (const Variant& each : result.variants()) {
     const std::size_t first = form.entries.size() * result.cases_per_variant();
     const auto gap = [&](std::size_t i) { return gap_or_bound(result.answers[first + i].critical); };
     form.entries.push_back(
         {each.name, each.description, &*each.calibration, each.scene, of_each(order, gap)});
   }
-  auto made = make_model_form(
-      form.entries, of_each(order, [&](std::size_t i) { return result.study.cases[i].peak_pressure; }));
+  auto made = make_model_form(form.entries, of_each(order, pressure_of));
   if (!made) return made.error();
   form.record = std::move(*made);
   return form;

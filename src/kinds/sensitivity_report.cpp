@@ -87,16 +87,14 @@ using Groups = std::vector<std::vector<std::size_t>>;
 /// they overlap, and its order means nothing.
 Groups ranked(const std::vector<math::InputIndices>& inputs) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> order(inputs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
   // What has no value goes last; where an interval is missing nothing can be told apart.
   const auto known = [](double number, double otherwise) {
     return std::isfinite(number) ? number : otherwise;
   };
   const auto lower = [&](std::size_t i) { return known(inputs[i].total.lower, -infinite); };
   const auto upper = [&](std::size_t i) { return known(inputs[i].total.upper, infinite); };
-  std::ranges::stable_sort(order, std::greater(),
-                           [&](std::size_t i) { return known(inputs[i].total.value, -infinite); });
+  const auto order = study::places_by(
+      inputs.size(), [&](std::size_t i) { return -known(inputs[i].total.value, -infinite); });
   Groups groups;
   double lowest_before = infinite;
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -381,10 +379,8 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
   constexpr int blue = 0, orange = 1, black = 6;
   const auto shown = shown_inputs(result.study.study);
   const Study& study = result.study.study;
-  std::vector<std::size_t> order(shown.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater(),
-                           [&](std::size_t i) { return output.sobol.inputs[i].total.value; });
+  const auto order =
+      study::places_by(shown.size(), [&](std::size_t i) { return -output.sobol.inputs[i].total.value; });
   Plot plot;
   plot.title =
       fmt::format("{} makes {} % of the variance of {}", report::plain_words(shown[order.front()].name),

@@ -72,8 +72,7 @@ void describe_posterior(RecordObject& object, Posterior& posterior) {
   constexpr double largest = std::numeric_limits<double>::max();
   std::size_t points = posterior.size();
   const auto describe = [&](const char* key, auto member) {
-    std::vector<double> numbers;
-    for (PosteriorPoint& each : posterior) numbers.push_back(member(each));
+    auto numbers = of_each(posterior, [&](PosteriorPoint each) { return member(each); });
     const bool first = object.reading() && points == 0;
     object.value(key, numbers, above_to(0, largest), first ? 1 : points, first ? most_points : points);
     points = numbers.size();

@@ -200,8 +200,7 @@ struct AnswerRunner {
   }
 
   void answer_members(const std::vector<std::size_t>& members, std::vector<FinishedRun>& runs) {
-    std::vector<std::string> hashes;
-    for (const FinishedRun& run : runs) hashes.push_back(run.hash);
+    const std::vector<std::string> hashes = of_each(runs, &FinishedRun::hash);
     if (const auto loads = neighbouring_loads(study, members.front())) interpolate_raised_load(*loads, runs);
     run_parts(members.size(), [&](std::size_t i) {
       if (answers[members[i]]) return;

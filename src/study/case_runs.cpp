@@ -6,7 +6,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <numeric>
 #include <queue>
 #include <regex>
 
@@ -193,9 +192,7 @@ bool parse_shard(std::string_view text, Shard& shard) {
 }
 
 std::vector<int> shards_of(const std::vector<double>& costs, int count) {
-  std::vector<std::size_t> order(costs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, [&costs](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+  const auto order = places_by(costs.size(), [&](std::size_t i) { return -costs[i]; });
   using Load = std::pair<double, int>;  // ties go to the lower shard
   std::priority_queue<Load, std::vector<Load>, std::greater<>> least;
   for (int shard = 1; shard <= count; ++shard) least.emplace(0.0, shard);
@@ -269,9 +266,8 @@ std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpo
   std::vector<CaseRuns> cases = cases_by_runs(study);
   for (CaseRuns& each : cases) plan_runs(study, checkpoints, each);
   predict_costs(cases);
-  std::vector<double> costs;
-  for (const CaseRuns& each : cases) costs.push_back(each.runs.front().cost);
-  const std::vector<int> shard = shards_of(costs, shards);
+  const auto cost_of_first = [](const CaseRuns& each) { return each.runs.front().cost; };
+  const std::vector<int> shard = shards_of(of_each(cases, cost_of_first), shards);
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].shard = shard[i];
   return cases;
 }

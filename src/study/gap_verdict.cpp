@@ -42,9 +42,7 @@ double corrected_akaike(double misfit, double rows, double coefficients) {
 std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regressors,
                                      const std::vector<double>& gaps_cm,
                                      const std::vector<double>& temperatures) {
-  std::vector<std::vector<double>> rows;
-  for (const double gap : gaps_cm) rows.push_back(regressors(gap));
-  const auto fit = math::least_squares(rows, temperatures);
+  const auto fit = math::least_squares(of_each(gaps_cm, regressors), temperatures);
   if (!fit) return std::nullopt;
   FittedCurve curve{name, static_cast<int>(fit->coefficients.size())};
   curve.left_out = root_mean_square(left_out_errors(*fit, regressors, gaps_cm));
@@ -67,8 +65,7 @@ bool is_of_skin(const std::string& key) {
 std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vector<double>& temperatures,
                                const materials::KineticsParameters& kinetics,
                                const ReferenceLine& published) {
-  std::vector<double> gaps_cm;
-  for (const double gap : gaps) gaps_cm.push_back(100.0 * gap);
+  const auto gaps_cm = of_each(gaps, [](double gap) { return 100.0 * gap; });
   const auto fitted = math::fit_line(gaps_cm, temperatures);
   if (!fitted) return std::nullopt;
   GapFit fit;

@@ -24,17 +24,18 @@ std::string why_not_counted(const CalibrationRecord& calibration) {
   return {};
 }
 
-/// Why a scene is not that of the calibrated model; empty where it is.
-std::string why_another(const ModelFormEntry& entry) {
-  if (!entry.calibration->failure.empty()) return {};
-  const RecordDistance distance = distance_to_calibration(entry.scene, entry.calibration->calibration);
-  if (distance.inside()) return {};
-  return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
-}
+bool is_unknown(double gap) { return std::isnan(gap); }
 
-/// Why a model is no alternative to the default: a copy of it, or a model of another launch, or one that was
-/// calibrated on other published rows, or without a finer mesh to compare with.
-std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& other) {
+/// Why a model cannot stand in a record: its scene is not that of its calibration, or it is no alternative to
+/// the default: a copy of it, or a model of another launch, or one that was calibrated on other published
+/// rows, or without a finer mesh to compare with, or it would count and has a critical gap that is not known.
+std::string why_unfit(const ModelFormEntry& own, const ModelFormEntry& other, std::size_t pressures) {
+  const bool calibrated = other.calibration->failure.empty();
+  const RecordDistance distance = distance_to_calibration(other.scene, other.calibration->calibration);
+  if (calibrated && !distance.inside())
+    return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
+  if (other.critical_gap.size() != pressures) return "other peak pressures than " + own.name;
+  if (&own == &other) return {};
   bool other_model = false;
   std::vector<std::string> of_launch;
   for (const Difference& each : differences(other.scene, own.scene)) {
@@ -48,8 +49,10 @@ std::string why_no_alternative(const ModelFormEntry& own, const ModelFormEntry& 
   if (!other_model) return "it is the same model as " + own.name;
   if (own.calibration->references_digest != other.calibration->references_digest)
     return "it was calibrated on other published rows than " + own.name;
-  if (other.calibration->failure.empty() && !std::isfinite(other.calibration->stations.finer))
+  if (calibrated && !std::isfinite(other.calibration->stations.finer))
     return "its calibration has no finer mesh to compare stations with (meshes)";
+  if (why_not_counted(*other.calibration).empty() && std::ranges::any_of(other.critical_gap, is_unknown))
+    return "a critical gap is not known";
   return {};
 }
 
@@ -128,8 +131,6 @@ void describe_gaps(RecordObject& object, std::vector<GapOrBound>& gaps, std::siz
   }
 }
 
-bool is_unknown(double gap) { return std::isnan(gap); }
-
 void describe_alternative(RecordObject& object, ModelAlternative& each, std::size_t pressures) {
   object.value("name", each.name);
   object.value("title", each.title);
@@ -169,18 +170,11 @@ scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<
   if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
     return fmt::format("{} cannot be the default: {}", own.name, reason);
   for (const ModelFormEntry& each : entries) {
-    if (const std::string reason = why_another(each); !reason.empty())
+    if (const auto reason = why_unfit(own, each, record.peak_pressures.size()); !reason.empty())
       return fmt::format("{}: {}", each.name, reason);
-    if (each.critical_gap.size() != record.peak_pressures.size())
-      return fmt::format("{}: other peak pressures than {}", each.name, own.name);
-    if (&each == &own) continue;
-    if (const std::string reason = why_no_alternative(own, each); !reason.empty())
-      return fmt::format("{}: {}", each.name, reason);
-    ModelAlternative alternative{each.name, each.title, why_not_counted(*each.calibration),
-                                 each.critical_gap};
-    if (alternative.not_counted.empty() && std::ranges::any_of(alternative.critical_gap, is_unknown))
-      return fmt::format("{}: a critical gap is not known", each.name);
-    record.alternatives.push_back(std::move(alternative));
+    if (&each != &own)
+      record.alternatives.push_back(
+          {each.name, each.title, why_not_counted(*each.calibration), each.critical_gap});
   }
   return record;
 }

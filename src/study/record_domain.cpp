@@ -287,8 +287,7 @@ std::vector<Difference> differences(const Scene& scene, const Scene& recorded) {
 }
 
 std::vector<std::string> RecordDistance::names() const {
-  std::vector<std::string> names;
-  for (const scene::Implausible& each : foreign) names.push_back(each.key);
+  std::vector<std::string> names = of_each(foreign, &scene::Implausible::key);
   names.insert(names.end(), carried.begin(), carried.end());
   return names;
 }

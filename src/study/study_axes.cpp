@@ -138,9 +138,7 @@ KeyDescription varied_key(const StudyFile& study, const std::string& name, const
   const std::string& wanted = named == named_axes().end() ? name : named->key;
   auto key = scene::describe_key(study.scene, wanted, place);
   if (key && key->kind == KeyKind::number) return std::move(*key);
-  std::vector<std::string> short_names;
-  for (const NamedAxis& axis : named_axes()) short_names.push_back(axis.name);
-  throw unfit_key(study, name, faulty_key, place, short_names);
+  throw unfit_key(study, name, faulty_key, place, of_each(named_axes(), &NamedAxis::name));
 }
 
 double number_in(const scene::SceneFile& file, const std::string& key) {
@@ -202,10 +200,8 @@ void read_cited_limits(const toml::table& root, StudyFile& study) {
 
 std::vector<LimitComparison> compare_with_limits(const StudyFile& study,
                                                  const std::vector<const CriticalGap*>& critical) {
-  std::vector<LimitComparison> comparisons;
-  for (const CitedLimit& limit : study.study.cited_limits)
-    comparisons.push_back(compare(study, critical, limit));
-  return comparisons;
+  return of_each(study.study.cited_limits,
+                 [&](const CitedLimit& limit) { return compare(study, critical, limit); });
 }
 
 }  // namespace launchsafe::study

@@ -82,8 +82,7 @@ StudyCase varied_case(const Start& start, std::vector<double> coordinates, Scene
 /// A case that was found valid.
 StudyCase known_case(const Start& start, const std::vector<double>& coordinates) {
   std::vector<scene::KeyChange> changes;
-  for (std::size_t i = 0; i < coordinates.size(); ++i)
-    changes.push_back({start.axes[i].key.name, coordinates[i], {}});
+  for (const double value : coordinates) changes.push_back({start.axes[changes.size()].key.name, value, {}});
   auto scene = scene::with_keys(start.scene, changes, true);
   assert(scene);
   return varied_case(start, coordinates, std::move(*scene));

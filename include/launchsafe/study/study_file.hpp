@@ -10,10 +10,28 @@
 #include <boost/iterator/transform_iterator.hpp>
 
 #include <any>
+#include <numeric>
 
 namespace launchsafe::study {
 
 using math::not_a_number;
+
+/// What a member, or a function, says of each of several.
+template <class Range, class Member>
+auto of_each(const Range& all, Member member) {
+  std::vector<std::decay_t<std::invoke_result_t<Member, decltype(*all.begin())>>> values;
+  for (const auto& each : all) values.push_back(std::invoke(member, each));
+  return values;
+}
+
+/// The places of so many by a number of each, the smallest first; those with equal numbers stay as they are.
+template <class Number>
+std::vector<std::size_t> places_by(std::size_t count, Number number) {
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::ranges::stable_sort(places, {}, number);
+  return places;
+}
 
 /// K. By so much was T max of the 155 mm shell seen to move between meshes of 1 to 10 mm with one set of
 /// constants.
