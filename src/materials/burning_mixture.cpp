@@ -1,9 +1,5 @@
 #include "launchsafe/materials/burning_mixture.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
-
 namespace launchsafe::materials {
 namespace {
 

@@ -1,8 +1,6 @@
 // What scene files may say of the charge and its kinetics.
 #include "launchsafe/materials/charge.hpp"
 
-#include <utility>
-
 namespace launchsafe::materials {
 using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Hotter, keys::Key, keys::KeyKind,
     keys::always_plausible, keys::overriding, keys::plausibly, keys::then, keys::usually, keys::over_range,

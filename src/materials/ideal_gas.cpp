@@ -1,6 +1,5 @@
 #include "launchsafe/materials/ideal_gas.hpp"
 
-#include <cmath>
 #include <cstddef>
 
 namespace launchsafe::materials {

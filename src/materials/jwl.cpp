@@ -1,7 +1,6 @@
 #include "launchsafe/materials/jwl.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace launchsafe::materials {

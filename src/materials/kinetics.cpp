@@ -1,7 +1,6 @@
 #include "launchsafe/materials/kinetics.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace launchsafe::materials {
 namespace {

@@ -1,8 +1,6 @@
 // What scene files may say of steel.
 #include "launchsafe/materials/steel.hpp"
 
-#include <utility>
-
 namespace launchsafe::materials {
 using keys::above_to, keys::ActsOn, keys::between, keys::Dimension, keys::Key, keys::Role, keys::Standing,
     keys::usually;

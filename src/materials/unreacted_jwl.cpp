@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace launchsafe::materials {
 using keys::above_to, keys::between, keys::Dimension, keys::Key, keys::Standing, keys::then;
 

@@ -1,7 +1,6 @@
 #include "launchsafe/materials/visco_scram_step.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace launchsafe::materials {
 

@@ -2,7 +2,6 @@
 
 #include "launchsafe/math/polynomial.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace launchsafe::materials {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
-#include <optional>
 #include <sstream>
 #include <utility>
 

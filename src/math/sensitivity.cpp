@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
 namespace launchsafe::math {
 namespace {

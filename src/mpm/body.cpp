@@ -1,6 +1,5 @@
 #include "launchsafe/mpm/body.hpp"
 
-#include <numbers>
 #include <numeric>
 
 namespace launchsafe::mpm {

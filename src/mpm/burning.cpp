@@ -1,7 +1,5 @@
 #include "launchsafe/mpm/body.hpp"
 
-#include <algorithm>
-
 namespace launchsafe::mpm {
 
 using math::Pack;

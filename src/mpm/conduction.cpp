@@ -2,11 +2,6 @@
 
 #include <Eigen/IterativeLinearSolvers>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
-
 namespace launchsafe::mpm {
 namespace {
 

@@ -1,9 +1,5 @@
 #include "launchsafe/mpm/contact.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace launchsafe::mpm {
 namespace {
 

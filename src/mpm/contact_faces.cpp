@@ -1,11 +1,6 @@
 // Contact's faces: which nodes they are made of, and how they are paired at present.
 #include "launchsafe/mpm/contact.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-
 namespace launchsafe::mpm {
 namespace {
 

@@ -1,9 +1,5 @@
 #include "launchsafe/mpm/contact.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 namespace launchsafe::mpm {
 namespace {
 

@@ -1,11 +1,7 @@
 #include "launchsafe/mpm/nodes.hpp"
 
-#include "launchsafe/math/pack.hpp"
-
-#include <algorithm>
 #include <map>
 #include <numeric>
-#include <utility>
 
 namespace launchsafe::mpm {
 namespace {

@@ -1,10 +1,6 @@
 #include "launchsafe/mpm/simulation.hpp"
 
-#include "launchsafe/scene/chamber.hpp"
-
-#include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace launchsafe::mpm {
 namespace {

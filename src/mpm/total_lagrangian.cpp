@@ -1,12 +1,8 @@
 #include "launchsafe/mpm/total_lagrangian.hpp"
 
-#include "launchsafe/mpm/material_step.hpp"
-#include "launchsafe/scene/chamber.hpp"
 #include "total_lagrangian_row.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <limits>
 
 namespace launchsafe::mpm {
 namespace {

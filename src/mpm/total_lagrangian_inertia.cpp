@@ -2,10 +2,6 @@
 #include "launchsafe/mpm/total_lagrangian.hpp"
 #include "launchsafe/scene/plan.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace launchsafe::mpm {
 
 /// Selective mass scaling (Olovsson, Simonsson & Unosson, IJNME 63 (2005) 1436, who scale elements likewise),

@@ -1,11 +1,6 @@
 #include "launchsafe/mpm/updated_lagrangian.hpp"
 
 #include "launchsafe/mpm/material_step.hpp"
-#include "launchsafe/mpm/transfer.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace launchsafe::mpm {
 namespace {

@@ -7,8 +7,6 @@
 #include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 
 namespace launchsafe::store {

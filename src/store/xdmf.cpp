@@ -1,7 +1,5 @@
 #include "snapshot_layout.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::store {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "launchsafe/surface/skin.hpp"
 
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin_equation.hpp"

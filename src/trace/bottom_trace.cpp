@@ -3,7 +3,6 @@
 #include "launchsafe/math/numbers.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace launchsafe::trace {
 namespace {

@@ -7,8 +7,6 @@
 #include "launchsafe/materials/unreacted.hpp"
 #include "launchsafe/materials/visco_scram_step.hpp"
 
-#include <vector>
-
 namespace launchsafe::materials {
 
 struct Charge {

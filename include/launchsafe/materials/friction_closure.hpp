@@ -5,7 +5,6 @@
 #include "launchsafe/math/deviator.hpp"
 
 #include <array>
-#include <cstddef>
 #include <string_view>
 
 namespace launchsafe::materials {

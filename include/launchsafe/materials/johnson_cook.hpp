@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/math/deviator.hpp"
-#include "launchsafe/math/pack.hpp"
 
 #include <limits>
 

@@ -4,7 +4,6 @@
 #include "launchsafe/math/pack.hpp"
 #include "launchsafe/math/polynomial.hpp"
 
-#include <array>
 #include <limits>
 
 namespace launchsafe::materials {

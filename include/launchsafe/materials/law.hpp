@@ -24,9 +24,6 @@
 #include "launchsafe/math/deviator.hpp"
 
 #include <array>
-#include <cstddef>
-#include <string_view>
-#include <utility>
 
 namespace launchsafe::materials {
 

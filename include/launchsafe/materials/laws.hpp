@@ -6,9 +6,6 @@
 #include "launchsafe/materials/linear_elastic.hpp"
 #include "launchsafe/materials/steel.hpp"
 
-#include <cstddef>
-#include <variant>
-
 namespace launchsafe::materials {
 
 using Law = std::variant<Steel, Charge, LinearElastic>;

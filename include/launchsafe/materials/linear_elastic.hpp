@@ -3,8 +3,6 @@
 
 #include "launchsafe/materials/law.hpp"
 
-#include <vector>
-
 namespace launchsafe::materials {
 
 struct LinearElastic {

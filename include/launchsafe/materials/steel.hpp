@@ -5,8 +5,6 @@
 #include "launchsafe/materials/law.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
 
-#include <vector>
-
 namespace launchsafe::materials {
 
 struct Steel {

@@ -4,8 +4,6 @@
 
 #include "launchsafe/materials/unreacted_jwl.hpp"
 
-#include <variant>
-
 namespace launchsafe::materials {
 
 using UnreactedEos = std::variant<UnreactedJwl>;

@@ -5,10 +5,6 @@
 #include "launchsafe/keys/key.hpp"
 #include "launchsafe/materials/jwl.hpp"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace launchsafe::materials {
 
 /// What constants must satisfy beyond the range of each.

@@ -9,7 +9,6 @@
 #pragma once
 
 #include "launchsafe/math/deviator.hpp"
-#include "launchsafe/math/pack.hpp"
 
 #include <array>
 

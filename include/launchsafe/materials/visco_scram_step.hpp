@@ -12,10 +12,6 @@
 
 #include "launchsafe/materials/visco_scram.hpp"
 
-#include <array>
-#include <cstddef>
-#include <utility>
-
 namespace launchsafe::materials {
 
 class ViscoScramStep {

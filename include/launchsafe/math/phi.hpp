@@ -4,7 +4,6 @@
 #include "launchsafe/math/pack.hpp"
 
 #include <array>
-#include <cmath>
 
 namespace launchsafe::math {
 namespace detail {

@@ -4,13 +4,9 @@
 // bootstrap.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/math/sampling.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
-#include <vector>
 
 namespace launchsafe::math {
 

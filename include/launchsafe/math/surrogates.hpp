@@ -5,10 +5,6 @@
 
 #include "launchsafe/math/sensitivity.hpp"
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 namespace launchsafe::math {
 
 /// The polynomials that are orthonormal under the distribution of an input, whose place u in the open unit

@@ -6,16 +6,8 @@
 #pragma once
 
 #include "launchsafe/materials/burning_mixture.hpp"
-#include "launchsafe/materials/laws.hpp"
 #include "launchsafe/math/aligned_array.hpp"
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-#include <vector>
 
 namespace launchsafe::mpm {
 

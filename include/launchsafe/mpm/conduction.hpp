@@ -12,8 +12,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <vector>
-
 namespace launchsafe::mpm {
 
 /// Backward Euler in time: stable and free of new extremes for any step, conserves heat, first order in the

@@ -30,18 +30,10 @@
 // becomes exactly 0 takes J gap_before/(2 dt) >= 0 out of the energy.
 #pragma once
 
-#include "launchsafe/math/aligned_array.hpp"
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/mpm/nodes.hpp"
 #include "launchsafe/mpm/step.hpp"
-#include "launchsafe/scene/scene.hpp"
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <map>
-#include <utility>
-#include <vector>
 
 namespace launchsafe::mpm {
 

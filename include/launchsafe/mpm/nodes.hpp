@@ -4,10 +4,6 @@
 #include "launchsafe/math/aligned_array.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
-#include <cstddef>
-#include <functional>
-#include <vector>
-
 namespace launchsafe::mpm {
 
 /// Sums over the particles at the nodes of a body. A row of cells contributes to the node rows on both sides

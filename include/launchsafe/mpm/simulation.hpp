@@ -1,17 +1,9 @@
 // The launch as a material point computation, in either formulation.
 #pragma once
 
-#include "launchsafe/mpm/body.hpp"
-#include "launchsafe/mpm/step.hpp"
 #include "launchsafe/mpm/total_lagrangian.hpp"
 #include "launchsafe/mpm/updated_lagrangian.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/scene.hpp"
-
-#include <cstdint>
-#include <functional>
-#include <variant>
-#include <vector>
 
 namespace launchsafe::mpm {
 

@@ -11,14 +11,10 @@
 
 #include "launchsafe/mpm/body.hpp"
 #include "launchsafe/mpm/contact.hpp"
-#include "launchsafe/mpm/nodes.hpp"
-#include "launchsafe/mpm/step.hpp"
 #include "launchsafe/mpm/team.hpp"
 #include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/scene.hpp"
 
 #include <memory>
-#include <vector>
 
 namespace launchsafe::mpm {
 

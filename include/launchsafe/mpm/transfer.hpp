@@ -7,11 +7,7 @@
 #pragma once
 
 #include "launchsafe/math/aligned_array.hpp"
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
-
-#include <cstddef>
-#include <cstdint>
 
 namespace launchsafe::mpm {
 

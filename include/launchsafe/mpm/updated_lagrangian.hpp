@@ -8,9 +8,6 @@
 #include "launchsafe/mpm/body.hpp"
 #include "launchsafe/mpm/step.hpp"
 #include "launchsafe/mpm/transfer.hpp"
-#include "launchsafe/scene/scene.hpp"
-
-#include <vector>
 
 namespace launchsafe::mpm {
 

@@ -1,7 +1,6 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
-#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/surface/air_energy.hpp"
 #include "launchsafe/surface/film.hpp"
 
