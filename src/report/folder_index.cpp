@@ -11,11 +11,6 @@ namespace {
 
 using std::filesystem::path;
 
-std::vector<std::string> names_in(const path& folder) {
-  std::error_code failed;
-  return store::list_folder(folder, failed);
-}
-
 /// The first lines of what a study answers, or what leads the first section of a safety report.
 Row findings_of(const Row& told) {
   Row findings = Row::array();
@@ -32,7 +27,7 @@ Row findings_of(const Row& told) {
 /// What a folder holds, as the index names it; null where that is neither a page nor a picture.
 Row entry_of(const path& folder, const std::string& place) {
   Row entry{{"place", place}, {"title", ""}, {"findings", Row::array()}};
-  for (const std::string& name : names_in(folder))
+  for (const std::string& name : store::list_folder(folder))
     for (const auto& [ending, list] : {std::pair{".svg", "pictures"}, {".html", "pages"}, {".md", "pages"}})
       if (name.ends_with(ending)) entry[list].push_back({{"file", place + "/" + name}, {"name", name}});
   if (!entry.contains("pages") && !entry.contains("pictures")) return {};
@@ -55,7 +50,7 @@ Row entry_of(const path& folder, const std::string& place) {
 }
 
 void add_parts(const path& root, const std::string& place, Row& parts) {
-  for (const std::string& name : names_in(root / place)) {
+  for (const std::string& name : store::list_folder(root / place)) {
     const std::string part = place + "/" + name;
     if (!std::filesystem::is_directory(root / part)) continue;
     if (Row entry = entry_of(root / part, part); !entry.is_null()) parts.push_back(std::move(entry));
@@ -67,7 +62,7 @@ void add_parts(const path& root, const std::string& place, Row& parts) {
 
 std::string index_page(const path& folder) {
   Row entries = Row::array();
-  for (const std::string& name : names_in(folder)) {
+  for (const std::string& name : store::list_folder(folder)) {
     if (!std::filesystem::is_directory(folder / name)) continue;
     Row entry = entry_of(folder / name, name);
     if (entry.is_null()) continue;

@@ -36,18 +36,18 @@ std::string_view word_after(std::string_view text, std::string_view mark) {
   return rest.substr(0, rest.find('\n'));
 }
 
-/// The HDF5 image inside a case file's bytes. Errors: corrupt.
-Result<std::string_view> checked_image(std::string_view file) {
+/// The HDF5 image inside a case file's bytes. Throws where they are damaged.
+std::string_view checked_image(std::string_view file) {
   const auto corrupt = [](std::string message) { return Error{Error::Kind::corrupt, std::move(message)}; };
   const std::string_view block = file.substr(0, user_block_size);
-  if (!block.starts_with(format_name)) return corrupt("not a launchsafe case file");
-  if (block.size() < user_block_size) return corrupt("truncated in its first block");
+  if (!block.starts_with(format_name)) throw corrupt("not a launchsafe case file");
+  if (block.size() < user_block_size) throw corrupt("truncated in its first block");
   const std::string_view image = file.substr(user_block_size);
   const std::string_view size_text = word_after(block, size_mark);
   std::size_t size = 0;
   std::from_chars(size_text.data(), size_text.data() + size_text.size(), size);
-  if (image.size() != size) return corrupt(fmt::format("truncated: {} of {} bytes", image.size(), size));
-  if (word_after(block, digest_mark) != sha256(image)) return corrupt("damaged: its SHA-256 is another one");
+  if (image.size() != size) throw corrupt(fmt::format("truncated: {} of {} bytes", image.size(), size));
+  if (word_after(block, digest_mark) != sha256(image)) throw corrupt("damaged: its SHA-256 is another one");
   return image;
 }
 
@@ -83,17 +83,13 @@ void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
   });
 }
 
-/// Runs `body` on a reader of the image in a case file's bytes. Errors: corrupt.
-template <class Body>
-MaybeError read_image(std::string_view bytes, Body body) {
-  const Result<std::string_view> image = checked_image(bytes);
-  if (!image) return image.error();
-  Hdf5Reader reader(*image);
+/// A reader of the image in a case file's bytes. Throws where it is none.
+Hdf5Reader reader_of(std::string_view bytes) {
+  Hdf5Reader reader(checked_image(bytes));
   std::string version;
   reader.attribute("format_version", version);
-  if (!reader.failed() && version != format_version) reader.fail("format version " + version + " is unknown");
-  body(reader);
-  return reader.error();
+  if (version != format_version) reader.fail("format version " + version + " is unknown");
+  return reader;
 }
 
 // --- whether a result that was read can have come from a run ---
@@ -165,40 +161,41 @@ Result<Value> read_with(const std::filesystem::path& path, Result<Value> (*parse
   return value ? value : of_file(path, value.error());
 }
 
-Result<Manifest> manifest_of(std::string_view bytes) {
+Result<Manifest> manifest_of(std::string_view bytes) try {
+  Hdf5Reader reader = reader_of(bytes);
   Manifest manifest;
-  const MaybeError error =
-      read_image(bytes, [&manifest](Hdf5Reader& reader) { lay_out_manifest(reader, manifest); });
-  if (error) return *error;
+  lay_out_manifest(reader, manifest);
   return manifest;
+} catch (const Error& error) {
+  return error;
 }
 
 }  // namespace
 
 Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult& result,
-                               const Manifest& manifest) {
+                               const Manifest& manifest) try {
   Hdf5Writer writer;
   writer.attribute("format", std::string(format_name));
   writer.attribute("format_version", std::string(format_version));
   lay_out_manifest(writer, manifest);
   write_scene(writer, scene);
   lay_out_result(writer, result);
-  const Result<std::string> image = writer.finish();
-  if (!image) return image;
-  return user_block_of(*image) + *image;
+  const std::string image = writer.finish();
+  return user_block_of(image) + image;
+} catch (const Error& error) {
+  return error;
 }
 
-Result<StoredCase> case_of(std::string_view bytes) {
+Result<StoredCase> case_of(std::string_view bytes) try {
+  Hdf5Reader reader = reader_of(bytes);
   StoredCase stored;
-  const MaybeError error = read_image(bytes, [&stored](Hdf5Reader& reader) {
-    lay_out_manifest(reader, stored.manifest);
-    reader.group("scene", "", [&] { reader.value("title", stored.title); });
-    lay_out_result(reader, stored.result);
-    if (reader.failed()) return;
-    if (const std::string fault = fault_in(stored.result); !fault.empty()) reader.fail(fault);
-  });
-  if (error) return *error;
+  lay_out_manifest(reader, stored.manifest);
+  reader.group("scene", "", [&] { reader.value("title", stored.title); });
+  lay_out_result(reader, stored.result);
+  if (const std::string fault = fault_in(stored.result); !fault.empty()) reader.fail(fault);
   return stored;
+} catch (const Error& error) {
+  return error;
 }
 
 MaybeError write_case_file(const std::filesystem::path& path, const scene::Scene& scene,

@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::size_t hash_digits = 32;
 
-MaybeError make_folder(const std::filesystem::path& folder) {
+void make_folder(const std::filesystem::path& folder) {
   std::error_code status;
   const bool is_new = std::filesystem::create_directories(folder, status);
   if (is_new) sync_folder((folder / "..").lexically_normal());
-  if (!status) return {};
-  return Error{Error::Kind::write_failed,
-               fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
+  if (status)
+    throw Error{Error::Kind::write_failed,
+                fmt::format("cannot make the folder {}: {}", folder.string(), status.message())};
 }
 
 /// What every case of this program has in common; what differs between equal runs is left out.
@@ -44,31 +44,22 @@ std::string type_of_column(const PlainTable& table, std::size_t column) {
 }
 
 /// Makes a table and fills it; none of that name may be there.
-MaybeError write_table(Database& database, const PlainTable& table) {
+void write_table(Database& database, const PlainTable& table) {
   std::vector<std::string> declared;
   for (std::size_t i = 0; i < table.columns.size(); ++i)
     declared.push_back(fmt::format("\"{}\" {}", table.columns[i], type_of_column(table, i)));
-  if (MaybeError error =
-          database.run(fmt::format("CREATE TABLE \"{}\" ({}) STRICT", table.name, fmt::join(declared, ", "))))
-    return error;
+  database.run(fmt::format("CREATE TABLE \"{}\" ({}) STRICT", table.name, fmt::join(declared, ", ")));
   const std::vector<std::string> marks(table.columns.size(), "?");
   const std::string insert =
       fmt::format("INSERT INTO \"{}\" VALUES ({})", table.name, fmt::join(marks, ", "));
-  for (const SqlRow& row : table.rows)
-    if (MaybeError error = database.run(insert, row)) return error;
-  return {};
+  for (const SqlRow& row : table.rows) database.run(insert, row);
 }
 
 /// Drops all tables that are none of the store's own.
-MaybeError drop_plain_tables(Database& database) {
-  const auto found = database.rows(
-      "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT GLOB 'stored_*' AND name NOT GLOB "
-      "'sqlite_*'");
-  if (!found) return found.error();
-  for (const SqlRow& row : *found)
-    if (MaybeError error = database.run(fmt::format("DROP TABLE \"{}\"", std::get<std::string>(row[0]))))
-      return error;
-  return {};
+void drop_plain_tables(Database& database) {
+  for (const SqlRow& row : database.rows("SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT "
+                                         "GLOB 'stored_*' AND name NOT GLOB 'sqlite_*'"))
+    database.run(fmt::format("DROP TABLE \"{}\"", std::get<std::string>(row[0])));
 }
 
 }  // namespace
@@ -82,41 +73,44 @@ CaseIdentity::CaseIdentity(std::string input)
 
 Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& folder,
                                                    const std::string& part,
-                                                   std::function<void(const Error&)> on_failure) {
+                                                   std::function<void(const Error&)> on_failure) try {
   StoreNames names{folder, part};
   if (const MaybeError error = obstacle_in(names)) return *error;
-  for (const std::filesystem::path& each : {folder, names.cases()}) {
-    if (const MaybeError error = make_folder(each)) return *error;
-  }
-  Result<Database> database = Database::open(names.results());
-  if (!database) return told_who_writes(database.error(), names.results());
+  make_folder(folder);
+  make_folder(names.cases());
+  Database database = of_results(names.results(), [&] { return Database::open(names.results()); });
   std::vector<std::filesystem::path> others = results_files_in(folder);
   std::erase_if(others, [&](const std::filesystem::path& each) {
     return each == names.results() || (!part.empty() && each != StoreNames{folder, {}}.results());
   });
   std::unique_ptr<CaseStore> store(
-      new CaseStore(std::move(names), std::move(on_failure), std::move(*database), true));
-  if (const MaybeError error = store->take_over(others)) return *error;
+      new CaseStore(std::move(names), std::move(on_failure), std::move(database), true));
+  store->take_over(others);
   remove_leftovers_of(store->names_);
   store->write_status();
   return store;
+} catch (const Error& error) {
+  return error;
 }
 
-Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder) {
+Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder) try {
   if (const MaybeError error = obstacle_of_older(folder)) return *error;
   std::error_code status;
-  list_folder(folder, status);
+  const std::filesystem::directory_iterator readable(folder, status);
   if (status)
     return Error{Error::Kind::unreadable,
                  fmt::format("cannot read {}: {}", folder.string(), status.message())};
   std::vector<std::filesystem::path> files = results_files_in(folder);
-  Result<Database> database = files.empty() ? Database::in_memory(StoreNames{folder, {}}.results())
-                                            : Database::copy_of(files.front());
-  if (!database) return told_who_writes(database.error(), files.empty() ? folder : files.front());
+  Database database = of_results(files.empty() ? folder : files.front(), [&] {
+    return files.empty() ? Database::in_memory(StoreNames{folder, {}}.results())
+                         : Database::copy_of(files.front());
+  });
   if (!files.empty()) files.erase(files.begin());
-  std::unique_ptr<CaseStore> store(new CaseStore({folder, {}}, {}, std::move(*database), false));
-  if (const MaybeError error = store->take_over(files)) return *error;
+  std::unique_ptr<CaseStore> store(new CaseStore({folder, {}}, {}, std::move(database), false));
+  store->take_over(files);
   return store;
+} catch (const Error& error) {
+  return error;
 }
 
 CaseStore::CaseStore(StoreNames names, std::function<void(const Error&)> on_failure, Database database,
@@ -136,8 +130,7 @@ CaseStore::~CaseStore() {
 
 std::vector<RunRecord> CaseStore::records() const {
   const std::lock_guard lock(using_);
-  auto found = records_in(database_);
-  return found ? std::move(*found) : std::vector<RunRecord>{};
+  return records_in(database_);
 }
 
 bool CaseStore::holds(const std::string& hash) {
@@ -201,8 +194,8 @@ void CaseStore::note(RunRecord record) {
   put(record);
 }
 
-void CaseStore::write(const std::function<MaybeError(Database&)>& make) {
-  change(false, [&] { return make(database_); });
+void CaseStore::write(const std::function<void(Database&)>& make) {
+  change(false, [&] { make(database_); });
 }
 
 void CaseStore::read(const std::function<void(Database&)>& look) const {
@@ -212,10 +205,8 @@ void CaseStore::read(const std::function<void(Database&)>& look) const {
 
 void CaseStore::replace_tables(const std::vector<PlainTable>& tables) {
   change(true, [&] {
-    MaybeError error = drop_plain_tables(database_);
-    for (const PlainTable& table : tables)
-      if (!error) error = write_table(database_, table);
-    return error;
+    drop_plain_tables(database_);
+    for (const PlainTable& table : tables) write_table(database_, table);
   });
 }
 
@@ -224,7 +215,7 @@ std::vector<std::string> CaseStore::remarks() const {
   return remarks_;
 }
 
-Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& other) {
+Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& other) try {
   Imported imported;
   std::error_code status;
   if (std::filesystem::equivalent(other, folder(), status)) return imported;
@@ -232,10 +223,9 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   const std::vector<std::filesystem::path> files = results_files_in(other);
   if (files.empty())
     return Error{Error::Kind::missing, fmt::format("{} holds no results of a study", other.string())};
-  for (const std::filesystem::path& file : files)
-    if (const MaybeError error = Database::obstacle(file)) return told_who_writes(*error, file);
+  for (const std::filesystem::path& file : files) of_results(file, [&] { Database::demand_free(file); });
   const StoreNames theirs{other, {}};
-  for (const std::string& hash : stored_hashes(theirs, status)) {
+  for (const std::string& hash : stored_hashes(theirs)) {
     if (holds(hash)) {
       ++imported.already_there;
       continue;
@@ -256,8 +246,10 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   }
   if (const MaybeError error = flush()) return *error;
   const std::lock_guard lock(using_);
-  if (const MaybeError error = take_over(files)) return *error;
+  take_over(files);
   return imported;
+} catch (const Error& error) {
+  return error;
 }
 
 }  // namespace launchsafe::store

@@ -41,65 +41,59 @@ constexpr std::tuple record_members{&RunRecord::hash,           &RunRecord::stat
 constexpr std::size_t columns = std::tuple_size_v<decltype(record_members)>;
 constexpr std::size_t host_column = 9;  ///< of texts that repeat
 
-MaybeError put_record(Database& database, const RunRecord& record) {
+void put_record(Database& database, const RunRecord& record) {
   SqlRow row;
   std::apply([&](auto... member) { (row.push_back(to_sql(record.*member)), ...); }, record_members);
-  const auto host = database.number_of_text(record.host);
-  if (!host) return host.error();
-  row[host_column] = *host;
+  row[host_column] = database.number_of_text(record.host);
   const std::vector<std::string> marks(columns, "?");
-  return database.run(fmt::format("INSERT OR REPLACE INTO stored_runs VALUES ({})", fmt::join(marks, ", ")),
-                      row);
+  database.run(fmt::format("INSERT OR REPLACE INTO stored_runs VALUES ({})", fmt::join(marks, ", ")), row);
 }
 
 /// Errors: corrupt also where a value is none of its member's.
-Result<RunRecord> record_from(Database& database, SqlRow row) {
-  if (row.size() != columns) return Error{Error::Kind::corrupt, "stored_runs has other columns"};
+RunRecord record_from(Database& database, SqlRow row) {
+  if (row.size() != columns) throw Error{Error::Kind::corrupt, "stored_runs has other columns"};
   const auto* number = std::get_if<std::int64_t>(&row[host_column]);
-  auto host = database.text_of_number(number != nullptr ? *number : -1);
-  if (!host) return host.error();
-  row[host_column] = std::move(*host);
+  row[host_column] = database.text_of_number(number != nullptr ? *number : -1);
   RunRecord record;
   std::size_t next = 0;
   const auto read = [&](auto... member) { return (from_sql(row[next++], record.*member) && ...); };
   if (!std::apply(read, record_members))
-    return Error{Error::Kind::corrupt, "a value in stored_runs cannot be"};
+    throw Error{Error::Kind::corrupt, "a value in stored_runs cannot be"};
   return record;
 }
 
 }  // namespace
 
-Result<std::vector<RunRecord>> records_in(Database& database, const std::string& which,
-                                          const SqlRow& values) {
-  const auto rows = database.rows("SELECT * FROM stored_runs " + which + " ORDER BY hash", values);
-  if (!rows) return rows.error();
+std::vector<RunRecord> records_in(Database& database, const std::string& which, const SqlRow& values) try {
   std::vector<RunRecord> records;
-  for (const SqlRow& row : *rows) {
-    auto record = record_from(database, row);
-    if (!record) return record.error();
-    records.push_back(std::move(*record));
-  }
+  for (const SqlRow& row : database.rows("SELECT * FROM stored_runs " + which + " ORDER BY hash", values))
+    records.push_back(record_from(database, row));
   return records;
+} catch (const Error&) {
+  return {};
 }
 
 std::string to_string(CaseState state) { return states.at(static_cast<std::size_t>(state)); }
 
-MaybeError CaseStore::take_over(const std::vector<std::filesystem::path>& others) {
-  if (!database_.has_table("stored_runs")) {
-    if (MaybeError error = database_.run(make_table)) return error;
-  }
-  for (const std::filesystem::path& other : others)
-    if (MaybeError error = database_.take_rows_of(other)) return told_who_writes(*error, other);
-  return {};
+void CaseStore::take_over(const std::vector<std::filesystem::path>& others) {
+  database_.run(make_table);
+  for (const std::filesystem::path& other : others) of_results(other, [&] { database_.take_rows_of(other); });
 }
 
-void CaseStore::change(bool at_once, const std::function<MaybeError()>& make) {
-  MaybeError failed;
-  {
-    const std::lock_guard lock(using_);
-    if (!failure_) failed = make_change(at_once, make);
+void CaseStore::change(bool at_once, const std::function<void()>& make) try {
+  const std::lock_guard lock(using_);
+  if (failure_) return;
+  if (!database_.in_transaction()) {
+    database_.run("BEGIN IMMEDIATE");
+    batch_began_ = Clock::now();
   }
-  if (failed) fail(*failed);
+  if (!std::exchange(has_said_who_, true))
+    database_.run("INSERT INTO stored_events VALUES (?, ?, ?, 'began to write')",
+                  {utc_now(), host_, std::int64_t{::getpid()}});
+  make();
+  if (at_once || Clock::now() - batch_began_ >= batch_time) database_.run("COMMIT");
+} catch (const Error& error) {
+  fail(error);
 }
 
 void CaseStore::fail(const Error& error) {
@@ -110,21 +104,6 @@ void CaseStore::fail(const Error& error) {
     if (database_.in_transaction()) database_.roll_back();
   }
   if (on_failure_) on_failure_(error);
-}
-
-MaybeError CaseStore::make_change(bool at_once, const std::function<MaybeError()>& make) {
-  if (!database_.in_transaction()) {
-    if (MaybeError error = database_.run("BEGIN IMMEDIATE")) return error;
-    batch_began_ = Clock::now();
-  }
-  if (!std::exchange(has_said_who_, true)) {
-    if (MaybeError error = database_.run("INSERT INTO stored_events VALUES (?, ?, ?, 'began to write')",
-                                         {utc_now(), host_, std::int64_t{::getpid()}}))
-      return error;
-  }
-  if (MaybeError error = make()) return error;
-  if (!at_once && Clock::now() - batch_began_ < batch_time) return {};
-  return database_.run("COMMIT");
 }
 
 MaybeError CaseStore::failure() const {
@@ -138,19 +117,18 @@ MaybeError CaseStore::flush() {
     const std::lock_guard lock(using_);
     is_pending = database_.in_transaction();
   }
-  if (is_pending) change(true, [] { return MaybeError(); });
+  if (is_pending) change(true, [] {});
   return failure();
 }
 
 std::optional<RunRecord> CaseStore::record_of(const std::string& hash) const {
   const std::lock_guard lock(using_);
-  auto found = records_in(database_, "WHERE hash = ?", {hash});
-  if (!found || found->empty()) return std::nullopt;
-  return std::move(found->front());
+  const std::vector<RunRecord> found = records_in(database_, "WHERE hash = ?", {hash});
+  return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 void CaseStore::put(const RunRecord& record) {
-  change(true, [&] { return put_record(database_, record); });
+  change(true, [&] { put_record(database_, record); });
 }
 
 bool CaseStore::is_given_up(const std::string& hash) const {
@@ -252,11 +230,12 @@ void CaseStore::write_status(bool ended) {
   nlohmann::ordered_json members{{"host", host_},     {"process", ::getpid()}, {"since", since_},
                                  {"time", utc_now()}, {"ended", ended},        {"runs_done", 0},
                                  {"runs_running", 0}, {"runs_total", 0}};
-  const auto sums =
-      database_.rows("SELECT count(*), coalesce(sum(file_bytes), 0) FROM stored_runs WHERE state = 'done'");
-  if (sums) {
-    members["runs_stored"] = std::get<std::int64_t>(sums->front()[0]);
-    members["case_files_bytes"] = std::get<std::int64_t>(sums->front()[1]);
+  try {
+    const auto sums =
+        database_.rows("SELECT count(*), coalesce(sum(file_bytes), 0) FROM stored_runs WHERE state = 'done'");
+    members["runs_stored"] = std::get<std::int64_t>(sums.front()[0]);
+    members["case_files_bytes"] = std::get<std::int64_t>(sums.front()[1]);
+  } catch (const Error&) {  // the status lacks them
   }
   if (progress_) members.update(*progress_);
   // It helps people alone, so a failure to write it is none of the store.

@@ -21,7 +21,7 @@ std::optional<std::string> part_in(std::string_view name, std::string_view begin
 /// Whatever has the name of a case but is no file.
 MaybeError obstacle_among_cases(const StoreNames& names) {
   std::error_code ignored;
-  for (const std::string& hash : stored_hashes(names, ignored)) {
+  for (const std::string& hash : stored_hashes(names)) {
     const std::filesystem::path path = names.case_file(hash);
     if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored)))
       return refusal(path, "is no plain file");
@@ -54,8 +54,8 @@ MaybeError obstacle_in_results(const StoreNames& names) {
   if (MaybeError error = obstacle_in_place(path, {})) return error;
   if (MaybeError error = obstacle_in_place(path.string() + "-journal", is_rollback_journal)) return error;
   std::error_code failed;
-  const MaybeError error = std::filesystem::exists(path, failed) ? Database::obstacle(path) : MaybeError();
-  return error ? told_who_writes(*error, path) : error;
+  if (std::filesystem::exists(path, failed)) of_results(path, [&] { Database::demand_free(path); });
+  return {};
 }
 
 constexpr const char* format_of_status = "launchsafe status 1";
@@ -93,15 +93,14 @@ bool is_store_name(std::string_view name) {
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  std::error_code status;
-  for (const std::string& name : list_folder(folder, status))
+  for (const std::string& name : list_folder(folder))
     if (part_in(name, stem, ending)) files.push_back(folder / name);
   return files;
 }
 
-std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status) {
+std::vector<std::string> stored_hashes(const StoreNames& names) {
   std::vector<std::string> hashes;
-  for (const std::string& name : list_folder(names.cases(), status)) {
+  for (const std::string& name : list_folder(names.cases())) {
     const std::filesystem::path file(name);
     if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
   }
@@ -110,8 +109,7 @@ std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code&
 
 MaybeError obstacle_of_older(const std::filesystem::path& folder) {
   if (!results_files_in(folder).empty()) return {};
-  std::error_code status;
-  for (const std::string& name : list_folder(folder, status)) {
+  for (const std::string& name : list_folder(folder)) {
     if (!part_in(name, "journal", ".jsonl")) continue;
     return Error{
         Error::Kind::conflict,
@@ -146,8 +144,7 @@ Error told_who_writes(const Error& error, const std::filesystem::path& results) 
 }
 
 void remove_leftovers_of(const StoreNames& names) {
-  std::error_code status;
-  for (const std::string& temporary : list_folder(names.cases(), status)) {
+  for (const std::string& temporary : list_folder(names.cases())) {
     const std::optional<std::string> name = name_behind(temporary);
     if (!name || !is_case_hash(name->substr(0, name->find('.')))) continue;
     // A part excludes whole studies and others of its own name.
@@ -194,8 +191,7 @@ std::optional<nlohmann::ordered_json> status_in(std::string_view content) {
 std::vector<StoreStatus> statuses_in(const std::filesystem::path& folder) {
   std::vector<StoreStatus> parts;
   std::optional<StoreStatus> whole;
-  std::error_code failed;
-  for (const std::string& name : list_folder(folder, failed)) {
+  for (const std::string& name : list_folder(folder)) {
     const std::optional<std::string> part = part_of_status(name);
     const auto text = part ? read_file(folder / name) : Error{};
     const auto members = text ? status_in(*text) : std::nullopt;

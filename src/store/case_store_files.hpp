@@ -7,7 +7,7 @@
 namespace launchsafe::store {
 
 /// The hashes of what has the name of a case file in a store, in order.
-std::vector<std::string> stored_hashes(const StoreNames& names, std::error_code& status);
+std::vector<std::string> stored_hashes(const StoreNames& names);
 
 /// What of a store's own names is taken by somebody else's files, or held by another process. Changes
 /// nothing.
@@ -16,6 +16,13 @@ MaybeError obstacle_in(const StoreNames& names);
 MaybeError obstacle_of_older(const std::filesystem::path& folder);
 /// The error, which says who writes where it is that somebody does.
 Error told_who_writes(const Error& error, const std::filesystem::path& results);
+/// What `use` gives, or throws like that, of a results file.
+template <class Use>
+auto of_results(const std::filesystem::path& results, Use use) try {
+  return use();
+} catch (const Error& error) {
+  throw told_who_writes(error, results);
+}
 
 /// Deletes what writers that were killed left half written. Those of living parts are not ours to judge.
 void remove_leftovers_of(const StoreNames& names);
@@ -28,9 +35,10 @@ bool belongs_to(const Manifest& manifest, const std::string& hash);
 bool began_as_case(const std::filesystem::path& path);
 Error of_another_case(const std::filesystem::path& path);
 
-/// The newest attempts on all cases, or on those that a condition selects, in the order of their hashes.
-Result<std::vector<RunRecord>> records_in(Database& database, const std::string& which = {},
-                                          const SqlRow& values = {});
+/// The newest attempts on all cases, or on those that a condition selects, in the order of their hashes; none
+/// where they cannot be read.
+std::vector<RunRecord> records_in(Database& database, const std::string& which = {},
+                                  const SqlRow& values = {});
 
 /// Whether the content of a file is that of a page of status.
 bool is_page(std::string_view content);

@@ -86,7 +86,7 @@ Error Database::error(int code) const {
 
 // --- opening ---
 
-Result<Database> Database::connect(const std::filesystem::path& path, int flags) {
+Database Database::connect(const std::filesystem::path& path, int flags) {
   sqlite3* opened = nullptr;
   // SQLite would refuse a link to a folder too, which may be one.
   std::error_code failed;
@@ -95,7 +95,7 @@ Result<Database> Database::connect(const std::filesystem::path& path, int flags)
       failed || flags & SQLITE_OPEN_MEMORY ? path : folder / path.filename();
   const int code = sqlite3_open_v2(followed.c_str(), &opened, flags | SQLITE_OPEN_NOFOLLOW, nullptr);
   Database database(path, Handle(opened));
-  if (code != SQLITE_OK) return database.error(code);
+  if (code != SQLITE_OK) throw database.error(code);
   sqlite3_extended_result_codes(opened, 1);
   sqlite3_busy_timeout(opened, patience);
   // A file from somebody else runs nothing of its own.
@@ -106,190 +106,177 @@ Result<Database> Database::connect(const std::filesystem::path& path, int flags)
   return database;
 }
 
-Result<Database> Database::open(const std::filesystem::path& path) {
-  auto database = connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (!database) return database;
-  if (MaybeError error = database->check_format()) return *error;
-  if (MaybeError error = database->lock_and_prepare()) return *error;
+Database Database::open(const std::filesystem::path& path) {
+  Database database = connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  database.check_format();
+  database.lock_and_prepare();
   return database;
 }
 
-MaybeError Database::obstacle(const std::filesystem::path& path) {
-  auto database = connect(path, SQLITE_OPEN_READWRITE);
-  return database ? database->check_format() : database.error();
+void Database::demand_free(const std::filesystem::path& path) {
+  connect(path, SQLITE_OPEN_READWRITE).check_format();
 }
 
-Result<Database> Database::in_memory(const std::filesystem::path& path) {
-  auto database = connect(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY);
-  if (!database) return database;
-  database->path_ = path;
-  if (MaybeError error = database->make_tables()) return *error;
+Database Database::in_memory(const std::filesystem::path& path) {
+  Database database = connect(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_MEMORY);
+  database.path_ = path;
+  database.make_tables();
   return database;
 }
 
 /// Reads only. A file without anything in it is one to be.
-MaybeError Database::check_format() {
-  const auto found = rows(
-      "SELECT application_id, (SELECT count(*) FROM sqlite_schema), user_version FROM pragma_application_id, "
-      "pragma_user_version");
-  if (!found) return found.error();
-  const auto number = [&](std::size_t column) { return std::get<std::int64_t>(found->front()[column]); };
-  if (number(0) == 0 && number(1) == 0) return {};
-  if (number(0) != application_id) return refusal(path_, foreign_file);
-  if (number(2) == schema_version) return {};
-  return Error{Error::Kind::conflict,
-               fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
-                           "into another folder",
-                           path_.string(), number(2), schema_version)};
+void Database::check_format() {
+  const SqlRow found = rows(
+                           "SELECT application_id, (SELECT count(*) FROM sqlite_schema), user_version FROM "
+                           "pragma_application_id, pragma_user_version")
+                           .front();
+  const auto number = [&](std::size_t column) { return std::get<std::int64_t>(found[column]); };
+  if (number(0) == 0 && number(1) == 0) return;
+  if (number(0) != application_id) throw refusal(path_, foreign_file);
+  if (number(2) != schema_version)
+    throw Error{Error::Kind::conflict,
+                fmt::format("{} is a results file of format {}, and this program's is {}; run the study anew "
+                            "into another folder",
+                            path_.string(), number(2), schema_version)};
 }
 
 /// Takes the lock, which no commit gives back, and makes what is missing.
-MaybeError Database::lock_and_prepare() {
+void Database::lock_and_prepare() {
   // A log beside the file (WAL) does not work on shared disks.
   for (const char* statement : {"PRAGMA locking_mode = EXCLUSIVE", "PRAGMA synchronous = FULL",
                                 "BEGIN EXCLUSIVE", "COMMIT", "PRAGMA journal_mode = DELETE"})
-    if (MaybeError error = run(statement)) return error;
-  if (MaybeError error = check_pages("main")) return error;
-  return has_table("stored_texts") ? MaybeError() : make_tables();
+    run(statement);
+  check_pages("main");
+  if (!has_table("stored_texts")) make_tables();
 }
 
-MaybeError Database::make_tables() {
+void Database::make_tables() {
   for (const std::string& statement : std::initializer_list<std::string>{
            "BEGIN IMMEDIATE", fmt::format("PRAGMA application_id = {}", application_id),
            fmt::format("PRAGMA user_version = {}", schema_version),
            "CREATE TABLE stored_texts (number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT",
            "CREATE TABLE stored_events (time TEXT, host TEXT, process INTEGER, what TEXT) STRICT", "COMMIT"})
-    if (MaybeError error = run(statement)) return error;
-  return {};
+    run(statement);
 }
 
-MaybeError Database::check_pages(const std::string& schema) {
+void Database::check_pages(const std::string& schema) {
   const auto found = rows(fmt::format("PRAGMA {}.quick_check(1)", schema));
-  if (!found) return found.error();
-  if (!found->empty() && found->front() == SqlRow{std::string("ok")}) return {};
-  return error(SQLITE_CORRUPT);
+  if (found.empty() || found.front() != SqlRow{std::string("ok")}) throw error(SQLITE_CORRUPT);
 }
 
-Result<Database> Database::copy_of(const std::filesystem::path& path) {
-  auto database = in_memory(path);
-  if (!database) return database;
-  if (MaybeError error = database->copy_into("main", path)) return *error;
+Database Database::copy_of(const std::filesystem::path& path) {
+  Database database = in_memory(path);
+  database.copy_into("main", path);
   // A kill at the very beginning leaves an empty file.
-  if (!database->has_table("stored_texts"))
-    if (MaybeError error = database->make_tables()) return *error;
+  if (!database.has_table("stored_texts")) database.make_tables();
   return database;
 }
 
-MaybeError Database::copy_into(const std::string& schema, const std::filesystem::path& source) {
+void Database::copy_into(const std::string& schema, const std::filesystem::path& source) {
   // What a killed writer left is rolled back, for which the file is written to; where it cannot be, it opens
   // to be read.
-  auto file = connect(source, SQLITE_OPEN_READWRITE);
-  if (!file) return file.error();
-  if (MaybeError error = file->check_format()) return error;
-  sqlite3_backup* backup = sqlite3_backup_init(handle_.get(), schema.c_str(), file->handle_.get(), "main");
-  if (backup == nullptr) return error(sqlite3_errcode(handle_.get()));
+  Database file = connect(source, SQLITE_OPEN_READWRITE);
+  file.check_format();
+  sqlite3_backup* backup = sqlite3_backup_init(handle_.get(), schema.c_str(), file.handle_.get(), "main");
+  if (backup == nullptr) throw error(sqlite3_errcode(handle_.get()));
   const int code = sqlite3_backup_step(backup, -1);
   sqlite3_backup_finish(backup);
-  if (code != SQLITE_DONE) return file->error(code);
-  return check_pages(schema);
+  if (code != SQLITE_DONE) throw file.error(code);
+  check_pages(schema);
 }
 
 // --- statements ---
 
-Result<sqlite3_stmt*> Database::prepared(const std::string& statement) {
+sqlite3_stmt* Database::prepared(const std::string& statement) {
   Statement& known = statements_[statement];
   if (known) return known.get();
   sqlite3_stmt* made = nullptr;
   const int code =
       sqlite3_prepare_v3(handle_.get(), statement.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &made, nullptr);
-  if (code != SQLITE_OK) return error(code);
+  if (code != SQLITE_OK) throw error(code);
   known.reset(made);
   return made;
 }
 
-Result<std::vector<SqlRow>> Database::rows(const std::string& statement, const SqlRow& values) {
-  const auto found = prepared(statement);
-  if (!found) return found.error();
-  for (std::size_t i = 0; i < values.size(); ++i) bind(*found, static_cast<int>(i) + 1, values[i]);
+std::vector<SqlRow> Database::rows(const std::string& statement, const SqlRow& values) {
+  sqlite3_stmt* const found = prepared(statement);
+  for (std::size_t i = 0; i < values.size(); ++i) bind(found, static_cast<int>(i) + 1, values[i]);
   std::vector<SqlRow> rows;
   int code = SQLITE_ROW;
-  while ((code = sqlite3_step(*found)) == SQLITE_ROW) {
-    SqlRow& row = rows.emplace_back(static_cast<std::size_t>(sqlite3_column_count(*found)));
-    for (std::size_t i = 0; i < row.size(); ++i) row[i] = column_of(*found, static_cast<int>(i));
+  while ((code = sqlite3_step(found)) == SQLITE_ROW) {
+    SqlRow& row = rows.emplace_back(static_cast<std::size_t>(sqlite3_column_count(found)));
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = column_of(found, static_cast<int>(i));
   }
   MaybeError failure;
   if (code != SQLITE_DONE) failure = error(code);
-  sqlite3_reset(*found);
-  if (failure) return *failure;
+  sqlite3_reset(found);
+  if (failure) throw *failure;
   return rows;
 }
 
-MaybeError Database::run(const std::string& statement, const SqlRow& values) {
-  const auto done = rows(statement, values);
-  return done ? MaybeError() : done.error();
+void Database::try_to_run(const char* statement) {
+  sqlite3_exec(handle_.get(), statement, nullptr, nullptr, nullptr);
 }
 
 bool Database::has_table(const std::string& name) {
-  const auto found = rows("SELECT 1 FROM sqlite_schema WHERE name = ?", {name});
-  return found && !found->empty();
+  return !rows("SELECT 1 FROM sqlite_schema WHERE name = ?", {name}).empty();
 }
 
 bool Database::in_transaction() const { return sqlite3_get_autocommit(handle_.get()) == 0; }
 
-Result<std::int64_t> Database::number_of_text(const std::string& text) {
-  if (text.empty()) return std::int64_t{0};
+std::int64_t Database::number_of_text(const std::string& text) {
+  if (text.empty()) return 0;
   constexpr std::size_t digits = 15;  // 60 bits: a positive number
   const std::int64_t number = std::stoll(sha256(text).substr(0, digits), nullptr, 16);
   if (const auto known = texts_.find(number); known != texts_.end() && known->second == text) return number;
-  if (MaybeError error = run("INSERT OR IGNORE INTO stored_texts VALUES (?, ?)", {number, text}))
-    return *error;
+  run("INSERT OR IGNORE INTO stored_texts VALUES (?, ?)", {number, text});
   texts_.insert_or_assign(number, text);
   return number;
 }
 
-Result<std::string> Database::text_of_number(std::int64_t number) {
-  if (number == 0) return std::string();
+std::string Database::text_of_number(std::int64_t number) {
+  if (number == 0) return {};
   if (const auto known = texts_.find(number); known != texts_.end()) return known->second;
   const auto found = rows("SELECT text FROM stored_texts WHERE number = ?", {number});
-  if (!found) return found.error();
-  if (found->empty())
-    return Error{Error::Kind::corrupt, fmt::format("{}: the text {} is missing", path_.string(), number)};
-  return texts_[number] = std::get<std::string>(found->front().front());
+  if (found.empty())
+    throw Error{Error::Kind::corrupt, fmt::format("{}: the text {} is missing", path_.string(), number)};
+  return texts_[number] = std::get<std::string>(found.front().front());
 }
 
 void Database::roll_back() {
   texts_.clear();
-  run("ROLLBACK");
+  try_to_run("ROLLBACK");
 }
 
-MaybeError Database::take_rows_of(const std::filesystem::path& other) {
-  if (MaybeError error = run("ATTACH ':memory:' AS other")) return error;
-  MaybeError failure = copy_into("other", other);
-  if (!failure) failure = take_attached_rows();
-  if (in_transaction()) roll_back();
-  const MaybeError detached = run("DETACH other");
-  return failure ? failure : detached;
+void Database::take_rows_of(const std::filesystem::path& other) {
+  run("ATTACH ':memory:' AS other");
+  try {
+    copy_into("other", other);
+    take_attached_rows();
+  } catch (const Error&) {
+    if (in_transaction()) roll_back();
+    try_to_run("DETACH other");
+    throw;
+  }
+  run("DETACH other");
 }
 
-MaybeError Database::take_attached_rows() {
+void Database::take_attached_rows() {
   const auto tables =
       rows("SELECT name, sql FROM other.sqlite_schema WHERE type = 'table' AND name GLOB 'stored_*'");
-  if (!tables) return tables.error();
-  if (MaybeError error = run("BEGIN IMMEDIATE")) return error;
-  for (const SqlRow& table : *tables) {
+  run("BEGIN IMMEDIATE");
+  for (const SqlRow& table : tables) {
     const auto name = std::get<std::string>(table[0]);
-    if (!has_table(name)) {
-      if (MaybeError error = run(std::get<std::string>(table[1]))) return error;
-    }
+    if (!has_table(name)) run(std::get<std::string>(table[1]));
     const std::string newer =
         "INSERT OR REPLACE INTO main.stored_runs SELECT theirs.* FROM other.stored_runs AS theirs LEFT JOIN "
         "main.stored_runs AS ours USING (hash) WHERE ours.hash IS NULL OR (theirs.state = 'done') > "
         "(ours.state "
         "= 'done') OR ((theirs.state = 'done') = (ours.state = 'done') AND theirs.end_time > ours.end_time)";
     const std::string more = fmt::format("INSERT OR IGNORE INTO main.{0} SELECT * FROM other.{0}", name);
-    if (MaybeError error = run(name == "stored_runs" ? newer : more)) return error;
+    run(name == "stored_runs" ? newer : more);
   }
-  return run("COMMIT");
+  run("COMMIT");
 }
 
 }  // namespace launchsafe::store

@@ -61,13 +61,13 @@ Hdf5Id text_type(std::size_t bytes) {
   return type;
 }
 
-bool write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+herr_t write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
   const Hdf5Id type = text_type(std::max<std::size_t>(1, text.size()));
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Id attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
   // The library reads one byte of an empty text, which has one: the zero at its end.
-  return attribute.valid() && H5Awrite(attribute.get(), type.get(), text.c_str()) >= 0;
+  return attribute.valid() ? H5Awrite(attribute.get(), type.get(), text.c_str()) : -1;
 }
 
 /// "/trace/stations" of a group or file and the name of something in it.
@@ -77,62 +77,59 @@ std::string path_of(hid_t group, const std::string& name) {
   return path + (path.ends_with("/") ? "" : "/") + name;
 }
 
-/// The library's last error, with the place. The reason first: to ask for the path clears it.
-std::string failure_at(hid_t group, const std::string& name) {
-  const std::string reason = hdf5_reason();
-  return path_of(group, name) + ": " + reason;
+}  // namespace
+
+// --- both ---
+
+Hdf5File::Hdf5File(Error::Kind kind) : kind_(kind) { silence_hdf5(); }
+
+void Hdf5File::check(herr_t status, const std::string& name) const {
+  if (status >= 0) return;
+  const std::string reason = hdf5_reason();  // before the path, as to ask for that clears it
+  fail(path_of(here(), name) + ": " + reason);
 }
 
-}  // namespace
+Hdf5Id Hdf5File::checked(hid_t id, Hdf5Id::Closer closer, const std::string& name) const {
+  check(id < 0 ? -1 : 0, name);
+  return {id, closer};
+}
 
 // --- writing ---
 
-Hdf5Writer::Hdf5Writer() {
-  silence_hdf5();
-  group_creation_ = untimed(H5P_GROUP_CREATE);
-  dataset_creation_ = untimed(H5P_DATASET_CREATE);
-  const Hdf5Id access = memory_access();
-  if (access.valid())
+Hdf5Writer::Hdf5Writer()
+    : Hdf5File(Error::Kind::failed),
+      group_creation_(untimed(H5P_GROUP_CREATE)),
+      dataset_creation_(untimed(H5P_DATASET_CREATE)) {
+  if (const Hdf5Id access = memory_access(); access.valid())
     file_ = {H5Fcreate(unique_name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose};
   if (!file_.valid()) fail("cannot begin an HDF5 file: " + hdf5_reason());
 }
 
-void Hdf5Writer::fail(const std::string& what) {
-  if (!error_) error_ = Error{Error::Kind::failed, what};
-}
-
-bool Hdf5Writer::enter(const std::string& name, const std::string& description) {
-  if (failed()) return false;
-  Hdf5Id group(H5Gcreate2(here(), name.c_str(), H5P_DEFAULT, group_creation_.get(), H5P_DEFAULT), H5Gclose);
-  if (!group.valid() || !write_text_attribute(group.get(), "description", description)) {
-    fail(failure_at(here(), name));
-    return false;
-  }
-  groups_.push_back(std::move(group));
-  return true;
+Hdf5Id Hdf5Writer::made(const std::string& name, const std::string& description) {
+  Hdf5Id group = checked(H5Gcreate2(here(), name.c_str(), H5P_DEFAULT, group_creation_.get(), H5P_DEFAULT),
+                         H5Gclose, name);
+  check(write_text_attribute(group.get(), "description", description), name);
+  return group;
 }
 
 void Hdf5Writer::attribute(const std::string& name, const std::string& text) {
-  if (!failed() && !write_text_attribute(here(), name, text)) fail(failure_at(here(), name));
+  check(write_text_attribute(here(), name, text), name);
 }
 
 void Hdf5Writer::put(const std::string& name, const Label& label, hid_t type,
                      const std::vector<hsize_t>& extent, const void* data) {
-  if (failed()) return;
-  if (label.units.empty() || label.description.empty())
-    return fail(path_of(here(), name) + " lacks its units");
+  if (label.units.empty() || label.description.empty()) fail(path_of(here(), name) + " lacks its units");
   const Hdf5Id space(extent.empty()
                          ? H5Screate(H5S_SCALAR)
                          : H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                      H5Sclose);
-  const Hdf5Id set(
+  const Hdf5Id set = checked(
       H5Dcreate2(here(), name.c_str(), type, space.get(), H5P_DEFAULT, dataset_creation_.get(), H5P_DEFAULT),
-      H5Dclose);
+      H5Dclose, name);
   const bool empty = std::ranges::find(extent, hsize_t{0}) != extent.end();
-  if (!set.valid() || (!empty && H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) ||
-      !write_text_attribute(set.get(), "units", label.units) ||
-      !write_text_attribute(set.get(), "description", label.description))
-    fail(failure_at(here(), name));
+  if (!empty) check(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
+  check(write_text_attribute(set.get(), "units", label.units), name);
+  check(write_text_attribute(set.get(), "description", label.description), name);
 }
 
 void Hdf5Writer::value(const std::string& name, const std::string& text, const Label& label) {
@@ -151,118 +148,81 @@ void Hdf5Writer::array(const std::string& name, const std::vector<std::string>& 
 
 void Hdf5Writer::table(const std::string& name, const std::vector<double>& values, Shape shape,
                        const Label& label) {
-  if (!values.empty() && values.size() != shape.rows * shape.columns) {
-    return fail(path_of(here(), name) + " has " + std::to_string(values.size()) + " values, not " +
-                std::to_string(shape.rows) + " x " + std::to_string(shape.columns));
-  }
+  if (!values.empty() && values.size() != shape.rows * shape.columns)
+    fail(path_of(here(), name) + " has " + std::to_string(values.size()) + " values, not " +
+         std::to_string(shape.rows) + " x " + std::to_string(shape.columns));
   put(name, label, hdf5_type<double>(), {values.empty() ? 0 : shape.rows, shape.columns}, values.data());
 }
 
-Result<std::string> Hdf5Writer::finish() {
-  if (failed()) return *error_;
+std::string Hdf5Writer::finish() {
   const bool flushed = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
   const ssize_t size = flushed ? H5Fget_file_image(file_.get(), nullptr, 0) : 0;
   std::string image(static_cast<std::size_t>(std::max<ssize_t>(0, size)), '\0');
-  if (size <= 0 || H5Fget_file_image(file_.get(), image.data(), image.size()) != size) {
+  if (size <= 0 || H5Fget_file_image(file_.get(), image.data(), image.size()) != size)
     fail("cannot finish the HDF5 file: " + hdf5_reason());
-    return *error_;
-  }
   return image;
 }
 
 // --- reading ---
 
-Hdf5Reader::Hdf5Reader(std::string_view image) : image_size_(image.size()) {
-  silence_hdf5();
+Hdf5Reader::Hdf5Reader(std::string_view image) : Hdf5File(Error::Kind::corrupt), image_size_(image.size()) {
   const Hdf5Id access = memory_access();
   // HDF5 copies the image; its signature lacks the const.
   if (access.valid() && !image.empty() &&
-      H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) >= 0) {
+      H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) >= 0)
     file_ = {H5Fopen(unique_name().c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose};
-  }
   if (!file_.valid()) fail("not a whole HDF5 file: " + hdf5_reason());
 }
 
-void Hdf5Reader::fail(const std::string& what) {
-  if (!error_) error_ = Error{Error::Kind::corrupt, what};
-}
-
-bool Hdf5Reader::enter(const std::string& name) {
-  if (failed()) return false;
-  Hdf5Id group(H5Gopen2(here(), name.c_str(), H5P_DEFAULT), H5Gclose);
-  if (!group.valid()) {
-    fail(failure_at(here(), name));
-    return false;
-  }
-  groups_.push_back(std::move(group));
-  return true;
-}
-
 bool Hdf5Reader::has(const std::string& name) const {
-  return !failed() && H5Lexists(here(), name.c_str(), H5P_DEFAULT) > 0;
+  return H5Lexists(here(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
 std::size_t Hdf5Reader::size() const {
   H5G_info_t info{};
-  if (failed() || H5Gget_info(here(), &info) < 0) return 0;
-  return info.nlinks;
+  return H5Gget_info(here(), &info) < 0 ? 0 : info.nlinks;
 }
 
 void Hdf5Reader::attribute(const std::string& name, std::string& text) {
-  if (failed()) return;
   const Hdf5Id attribute(H5Aopen(here(), name.c_str(), H5P_DEFAULT), H5Aclose);
   const Hdf5Id type(attribute.valid() ? H5Aget_type(attribute.get()) : -1, H5Tclose);
   if (!type.valid() || H5Tget_class(type.get()) != H5T_STRING || H5Tis_variable_str(type.get()) != 0 ||
-      H5Tget_size(type.get()) > image_size_) {
-    return fail(path_of(here(), name) + ": no such text attribute");
-  }
+      H5Tget_size(type.get()) > image_size_)
+    fail(path_of(here(), name) + ": no such text attribute");
   text.assign(H5Tget_size(type.get()), '\0');
-  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return fail(failure_at(here(), name));
+  check(H5Aread(attribute.get(), type.get(), text.data()), name);
   text.resize(std::min(text.find('\0'), text.size()));
 }
 
-Hdf5Reader::Dataset Hdf5Reader::open(const std::string& name, H5T_class_t type_class, std::size_t rank) {
-  if (failed()) return {};
-  const auto fault = [&](const std::string& what) {
-    fail(path_of(here(), name) + what);
-    return Dataset{};
-  };
+Hdf5Reader::Dataset Hdf5Reader::open(const std::string& name, H5T_class_t type_class,
+                                     std::size_t rank) const {
   Dataset set;
-  set.id = {H5Dopen2(here(), name.c_str(), H5P_DEFAULT), H5Dclose};
-  if (set.id.valid()) set.type = {H5Dget_type(set.id.get()), H5Tclose};
-  const Hdf5Id space(set.id.valid() ? H5Dget_space(set.id.get()) : -1, H5Sclose);
-  if (!set.type.valid() || !space.valid()) return fault(": " + hdf5_reason());
+  set.id = checked(H5Dopen2(here(), name.c_str(), H5P_DEFAULT), H5Dclose, name);
+  set.type = checked(H5Dget_type(set.id.get()), H5Tclose, name);
+  const Hdf5Id space = checked(H5Dget_space(set.id.get()), H5Sclose, name);
   if (H5Tget_class(set.type.get()) != type_class ||
       H5Sget_simple_extent_ndims(space.get()) != static_cast<int>(rank))
-    return fault(" has another type or number of dimensions");
+    fail(path_of(here(), name) + " has another type or number of dimensions");
   set.extent.resize(rank);
   H5Sget_simple_extent_dims(space.get(), set.extent.data(), nullptr);
   // Each factor is compared by itself, so that no product overflows.
-  for (const hsize_t length : set.extent) {
-    if (length > image_size_) return fault(" is larger than its file");
-    set.count *= length;
-  }
-  if (set.count > image_size_ || H5Tget_size(set.type.get()) * set.count > image_size_)
-    return fault(" is larger than its file");
+  bool fits = std::ranges::all_of(set.extent, [this](hsize_t length) { return length <= image_size_; });
+  for (const hsize_t length : set.extent) set.count *= length;
+  fits = fits && set.count <= image_size_ && H5Tget_size(set.type.get()) * set.count <= image_size_;
+  if (!fits) fail(path_of(here(), name) + " is larger than its file");
   return set;
 }
 
-void Hdf5Reader::read(const std::string& name, const Dataset& set, hid_t type, void* data) {
-  if (set.count > 0 && H5Dread(set.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-    fail(failure_at(here(), name));
+void Hdf5Reader::read(const std::string& name, const Dataset& set, hid_t type, void* data) const {
+  if (set.count > 0) check(H5Dread(set.id.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
 }
 
-std::vector<std::string> Hdf5Reader::texts_of(const std::string& name, std::size_t rank) {
+std::vector<std::string> Hdf5Reader::texts_of(const std::string& name, std::size_t rank) const {
   const Dataset set = open(name, H5T_STRING, rank);
-  if (!set.id.valid()) return {};
-  if (H5Tis_variable_str(set.type.get()) != 0) {
-    fail(path_of(here(), name) + " has texts of variable length");
-    return {};
-  }
+  if (H5Tis_variable_str(set.type.get()) != 0) fail(path_of(here(), name) + " has texts of variable length");
   const std::size_t length = H5Tget_size(set.type.get());
   std::string padded(length * set.count, '\0');
   read(name, set, set.type.get(), padded.data());
-  if (failed()) return {};
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < set.count; ++i) {
     std::string text = padded.substr(i * length, length);
@@ -273,8 +233,7 @@ std::vector<std::string> Hdf5Reader::texts_of(const std::string& name, std::size
 }
 
 void Hdf5Reader::value(const std::string& name, std::string& text, const Label&) {
-  std::vector<std::string> texts = texts_of(name, 0);
-  if (!texts.empty()) text = std::move(texts.front());
+  text = texts_of(name, 0).front();
 }
 
 void Hdf5Reader::array(const std::string& name, std::vector<std::string>& texts, const Label&) {
@@ -283,9 +242,8 @@ void Hdf5Reader::array(const std::string& name, std::vector<std::string>& texts,
 
 void Hdf5Reader::table(const std::string& name, std::vector<double>& values, Shape shape, const Label&) {
   const Dataset set = open(name, H5T_FLOAT, 2);
-  if (!set.id.valid()) return;
   if (set.count > 0 && (set.extent[0] != shape.rows || set.extent[1] != shape.columns))
-    return fail(path_of(here(), name) + " has another shape than the data it belongs to");
+    fail(path_of(here(), name) + " has another shape than the data it belongs to");
   values.assign(set.count, 0.0);
   read(name, set, hdf5_type<double>(), values.data());
 }

@@ -21,6 +21,7 @@
 #include <CLI/Version.hpp>
 #endif
 
+#include "launchsafe/run/case_result.hpp"
 #include "launchsafe/store/sha256.hpp"
 #include "launchsafe/version.hpp"
 

@@ -31,8 +31,7 @@ void choice(Archive& archive, const std::string& name, Value& value, const Words
   archive.value(name, text, label);
   if constexpr (Archive::reading) {
     const auto found = std::ranges::find(words, text);
-    if (found == words.end())
-      return archive.fail(name + " is '" + text + "', which this program does not know");
+    if (found == words.end()) archive.fail(name + " is '" + text + "', which this program does not know");
     value = static_cast<Value>(found - words.begin());
   }
 }
@@ -51,14 +50,12 @@ void column(Archive& archive, const std::string& name, Rows& rows, Member member
   } else {
     archive.array(name, values, label);
     if (rows.empty()) rows.resize(values.size());
-    if (rows.size() != values.size())
-      return archive.fail(name + " has another length than the columns before it");
+    if (rows.size() != values.size()) archive.fail(name + " has another length than the columns before it");
     for (std::size_t i = 0; i < rows.size(); ++i) {
       std::invoke(member, rows[i]) = static_cast<Value>(values[i]);
-      if constexpr (std::is_integral_v<Value>) {
+      if constexpr (std::is_integral_v<Value>)
         if (static_cast<Stored>(std::invoke(member, rows[i])) != values[i])
-          return archive.fail(name + " is out of range");
-      }
+          archive.fail(name + " is out of range");
     }
   }
 }
@@ -113,7 +110,7 @@ void list(Archive& archive, const std::string& name, const std::string& descript
           Body body) {
   archive.group(name, description, [&] {
     if constexpr (Archive::reading) elements.resize(archive.size());
-    for (std::size_t i = 0; i < elements.size() && !archive.failed(); ++i)
+    for (std::size_t i = 0; i < elements.size(); ++i)
       archive.group(fmt::format("{:04}", i), description, [&] { body(elements[i]); });
   });
 }
@@ -133,7 +130,7 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
                    std::size_t count, const Label& label) {
   std::vector<double> rows;
   if constexpr (!Archive::reading) {
-    if (along.size() != across.size()) return archive.fail(name + " has components of different lengths");
+    if (along.size() != across.size()) archive.fail(name + " has components of different lengths");
     for (std::size_t i = 0; i < along.size(); ++i) rows.insert(rows.end(), {along[i], across[i], 0.0});
     archive.table(name, rows, {count, 3}, label);
   } else {
@@ -243,8 +240,7 @@ void lay_out_events(Archive& archive, Value& snapshot) {
     const std::vector<std::string>& known = scene::event_words();
     for (const std::string& word : words) {
       const auto found = std::find(known.begin(), known.end(), word);
-      if (found == known.end())
-        return archive.fail("events has '" + word + "', which this program does not know");
+      if (found == known.end()) archive.fail("events has '" + word + "', which this program does not know");
       snapshot.events.push_back(static_cast<scene::Event>(found - known.begin()));
     }
   }

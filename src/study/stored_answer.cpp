@@ -5,7 +5,7 @@
 namespace launchsafe::study {
 namespace {
 
-using nlohmann::json, store::Database, store::MaybeError;
+using nlohmann::json, store::Database;
 
 /// The values of an answer one after the other. One description of them serves writing and reading.
 class Values {
@@ -145,26 +145,27 @@ std::string bytes_of(CaseAnswer answer) {
   return values.bytes();
 }
 
-MaybeError save_answer(Database& database, const std::string& key, const CaseAnswer& answer) {
-  if (MaybeError error = database.run("CREATE TABLE IF NOT EXISTS stored_case_answers (key TEXT PRIMARY KEY, "
-                                      "check_sum TEXT, answer BLOB) "
-                                      "STRICT"))
-    return error;
+void save_answer(Database& database, const std::string& key, const CaseAnswer& answer) {
+  database.run(
+      "CREATE TABLE IF NOT EXISTS stored_case_answers (key TEXT PRIMARY KEY, check_sum TEXT, answer BLOB) "
+      "STRICT");
   const std::string bytes = bytes_of(answer);
-  return database.run("INSERT OR REPLACE INTO stored_case_answers VALUES (?, ?, CAST(? AS BLOB))",
-                      {key, check_of(key, bytes), bytes});
+  database.run("INSERT OR REPLACE INTO stored_case_answers VALUES (?, ?, CAST(? AS BLOB))",
+               {key, check_of(key, bytes), bytes});
 }
 
-std::optional<CaseAnswer> read_answer(Database& database, const std::string& key) {
+std::optional<CaseAnswer> read_answer(Database& database, const std::string& key) try {
   const auto found = database.rows("SELECT check_sum, answer FROM stored_case_answers WHERE key = ?", {key});
-  if (!found || found->size() != 1) return std::nullopt;
-  const auto* check = std::get_if<std::string>(&found->front()[0]);
-  const auto* bytes = std::get_if<std::string>(&found->front()[1]);
+  if (found.size() != 1) return std::nullopt;
+  const auto* check = std::get_if<std::string>(&found.front()[0]);
+  const auto* bytes = std::get_if<std::string>(&found.front()[1]);
   if (check == nullptr || bytes == nullptr || *check != check_of(key, *bytes)) return std::nullopt;
   Values values(json::from_cbor(*bytes, true, false));
   CaseAnswer answer;
   describe(values, answer);
   return values.is_sound() && is_sound(answer) ? std::optional(std::move(answer)) : std::nullopt;
+} catch (const store::Error&) {
+  return std::nullopt;
 }
 
 }  // namespace launchsafe::study

@@ -69,7 +69,7 @@ class StudyOverheadSlow : public launchsafe::testing::TemporaryFolder {
     fmt::print("and runs looked up in {:.2f} s\n", seconds_since(start));
     std::vector<store::SqlRow> keys;
     store->read(
-        [&](store::Database& database) { keys = *database.rows("SELECT key FROM stored_case_answers"); });
+        [&](store::Database& database) { keys = database.rows("SELECT key FROM stored_case_answers"); });
     for (const store::SqlRow& key : keys)
       store->read([&](store::Database& database) {
         answers += read_answer(database, std::get<std::string>(key[0])) ? 1 : 0;

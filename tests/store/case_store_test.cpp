@@ -164,10 +164,9 @@ TEST_F(CaseStoreTest, TablesForOtherProgramsAreReplacedTogether) {
     save(*store, 1);
   }
   auto file = Database::copy_of(results());
-  ASSERT_TRUE(file);
-  EXPECT_FALSE(file->has_table("verdicts"));
-  EXPECT_EQ(*file->rows("SELECT * FROM cases WHERE gap_cm > 0.1"), std::vector<SqlRow>{cases.rows[0]});
-  EXPECT_EQ(file->rows("SELECT steps FROM runs")->front(), SqlRow{std::int64_t{12}});
+  EXPECT_FALSE(file.has_table("verdicts"));
+  EXPECT_EQ(file.rows("SELECT * FROM cases WHERE gap_cm > 0.1"), std::vector<SqlRow>{cases.rows[0]});
+  EXPECT_EQ(file.rows("SELECT steps FROM runs").front(), SqlRow{std::int64_t{12}});
   EXPECT_EQ(opened()->records().size(), 1U);
 }
 
@@ -176,7 +175,7 @@ TEST_F(CaseStoreTest, SomethingWrongInATableEndsTheWritingAndChangesNothing) {
   store->replace_tables({{"cases", {"case"}, {{std::string("a")}}}});
   store->replace_tables({{"cases", {"case", "case"}, {}}});
   EXPECT_TRUE(store->flush());
-  store->read([](Database& database) { EXPECT_EQ(database.rows("SELECT * FROM cases")->size(), 1U); });
+  store->read([](Database& database) { EXPECT_EQ(database.rows("SELECT * FROM cases").size(), 1U); });
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <limits>
 #include <thread>
 
@@ -11,8 +12,7 @@ namespace {
 std::string written(void (*body)(Hdf5Writer&)) {
   Hdf5Writer writer;
   body(writer);
-  const Result<std::string> image = writer.finish();
-  return image ? *image : std::string();
+  return writer.finish();
 }
 
 TEST(Hdf5, ReadsBackWhatWasWritten) {
@@ -60,46 +60,53 @@ TEST(Hdf5, ReadsBackWhatWasWritten) {
     EXPECT_TRUE(none.empty());
     EXPECT_EQ(table, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   });
-  EXPECT_FALSE(reader.failed()) << reader.error()->message;
+}
+
+/// What `action` throws.
+Error error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
 }
 
 TEST(Hdf5, DemandsUnits) {
   Hdf5Writer writer;
-  writer.value("length", 1.0, {"", "a length"});
-  const Result<std::string> image = writer.finish();
-  ASSERT_FALSE(image);
-  EXPECT_NE(image.error().message.find("/length"), std::string::npos);
+  const Error error = error_of([&] { writer.value("length", 1.0, {"", "a length"}); });
+  EXPECT_EQ(error.kind, Error::Kind::failed);
+  EXPECT_NE(error.message.find("/length"), std::string::npos);
 }
 
 TEST(Hdf5, RefusesATableOfAnotherSizeThanItsShape) {
   Hdf5Writer writer;
-  writer.table("table", {1, 2, 3}, {2, 2}, {"1", "three values"});
-  EXPECT_FALSE(writer.finish());
+  EXPECT_THROW(writer.table("table", {1, 2, 3}, {2, 2}, {"1", "three values"}), Error);
 }
 
-TEST(Hdf5, TheFirstErrorSticksAndNamesThePlace) {
+TEST(Hdf5, AnErrorNamesThePlaceAndLeavesTheValue) {
   const std::string image = written([](Hdf5Writer& writer) {
     writer.group("group", "a group", [&] { writer.value("text", std::string("text"), {"none", "a text"}); });
   });
   Hdf5Reader reader(image);
   double number = 7;
-  reader.group("group", "", [&] { reader.value("text", number); });
-  reader.group("absent", "", [] { ADD_FAILURE() << "entered a group after an error"; });
-  ASSERT_TRUE(reader.failed());
-  EXPECT_EQ(reader.error()->kind, Error::Kind::corrupt);
-  EXPECT_NE(reader.error()->message.find("/group/text"), std::string::npos) << reader.error()->message;
+  const Error error = error_of([&] { reader.group("group", "", [&] { reader.value("text", number); }); });
+  EXPECT_EQ(error.kind, Error::Kind::corrupt);
+  EXPECT_NE(error.message.find("/group/text"), std::string::npos) << error.message;
   EXPECT_EQ(number, 7);
+  EXPECT_THROW(Hdf5Reader(image).group("absent", "", [] { ADD_FAILURE() << "entered a group"; }), Error);
 }
 
 TEST(Hdf5, BytesThatAreNoFileAreAnError) {
-  EXPECT_TRUE(Hdf5Reader("").failed());
-  EXPECT_TRUE(Hdf5Reader("no HDF5").failed());
-  EXPECT_TRUE(Hdf5Reader(std::string(10'000, '\0')).failed());
+  EXPECT_THROW(Hdf5Reader(""), Error);
+  EXPECT_THROW(Hdf5Reader("no HDF5"), Error);
+  EXPECT_THROW(Hdf5Reader(std::string(10'000, '\0')), Error);
 }
 
 TEST(Hdf5, PrintsNothingOnErrorsInAnyThread) {
   ::testing::internal::CaptureStderr();
-  const auto read_nonsense = [] { EXPECT_TRUE(Hdf5Reader("no HDF5").failed()); };
+  const auto read_nonsense = [] { EXPECT_THROW(Hdf5Reader("no HDF5"), Error); };
   read_nonsense();
   std::thread(read_nonsense).join();
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");

@@ -39,18 +39,16 @@ inline void save(store::CaseStore& store, int number) {
 /// An answer of two columns, as a module above the store keeps its own.
 inline void save_answer(store::CaseStore& store, int number, const std::string& text) {
   store.write([&](store::Database& database) {
-    auto error =
-        database.run("CREATE TABLE IF NOT EXISTS stored_marks (mark INTEGER PRIMARY KEY, text TEXT) STRICT");
-    if (!error)
-      error = database.run("INSERT OR REPLACE INTO stored_marks VALUES (?, ?)", {std::int64_t{number}, text});
-    return error;
+    database.run("CREATE TABLE IF NOT EXISTS stored_marks (mark INTEGER PRIMARY KEY, text TEXT) STRICT");
+    database.run("INSERT OR REPLACE INTO stored_marks VALUES (?, ?)", {std::int64_t{number}, text});
   });
 }
 inline std::optional<std::string> answer_in(const store::CaseStore& store, int number) {
   std::optional<std::string> text;
   store.read([&](store::Database& database) {
+    if (!database.has_table("stored_marks")) return;
     const auto rows = database.rows("SELECT text FROM stored_marks WHERE mark = ?", {std::int64_t{number}});
-    if (rows && !rows->empty()) text = std::get<std::string>(rows->front().front());
+    if (!rows.empty()) text = std::get<std::string>(rows.front().front());
   });
   return text;
 }

@@ -64,9 +64,8 @@ TEST(CaseAnswer, HeatedTemperatureIsTMaxWithoutIgnition) {
 /// What is read back of an answer that was stored.
 std::optional<CaseAnswer> stored(const CaseAnswer& answer) {
   auto database = store::Database::in_memory("answers");
-  EXPECT_TRUE(database);
-  EXPECT_FALSE(save_answer(*database, "0a", answer));
-  return read_answer(*database, "0a");
+  save_answer(database, "0a", answer);
+  return read_answer(database, "0a");
 }
 
 TEST(CaseAnswer, ReadsBackExactly) {
@@ -132,14 +131,14 @@ TEST(CaseAnswer, NumbersThatAreNotFiniteReadBackAsNotANumber) {
 TEST(CaseAnswer, TheLastOneOfAKeyCounts) {
   auto database = store::Database::in_memory("answers");
   CaseAnswer answer = answer_to(six_gaps());
-  EXPECT_FALSE(read_answer(*database, "0a"));
-  ASSERT_FALSE(save_answer(*database, "0a", answer));
+  EXPECT_FALSE(read_answer(database, "0a"));
+  save_answer(database, "0a", answer);
   answer.verdicts.pop_back();
-  ASSERT_FALSE(save_answer(*database, "0a", answer));
-  const auto read = read_answer(*database, "0a");
+  save_answer(database, "0a", answer);
+  const auto read = read_answer(database, "0a");
   ASSERT_TRUE(read);
   EXPECT_EQ(read->verdicts.size(), 5u);
-  EXPECT_FALSE(read_answer(*database, "0b"));
+  EXPECT_FALSE(read_answer(database, "0b"));
 }
 
 }  // namespace

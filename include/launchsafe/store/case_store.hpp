@@ -137,7 +137,7 @@ class CaseStore {
 
   /// Changes tables of the caller's in the results file. What can be drawn again is committed together with
   /// what comes after it, at the latest with the first change after a second, or by `flush`.
-  void write(const std::function<MaybeError(Database&)>& make);
+  void write(const std::function<void(Database&)>& make);
   /// Looks into them.
   void read(const std::function<void(Database&)>& look) const;
   /// Puts these in the place of all tables for other programs, at once.
@@ -169,11 +169,10 @@ class CaseStore {
   CaseStore(StoreNames names, std::function<void(const Error&)> on_failure, Database database, bool writes);
 
   /// Makes the table of runs where it is missing, and takes the rows of these files.
-  MaybeError take_over(const std::vector<std::filesystem::path>& others);
+  void take_over(const std::vector<std::filesystem::path>& others);
   /// Makes a change, alone among the threads, unless something failed before; the first failure is kept and
   /// told. `at_once`: it is on disk before this returns.
-  void change(bool at_once, const std::function<MaybeError()>& make);
-  MaybeError make_change(bool at_once, const std::function<MaybeError()>& make);
+  void change(bool at_once, const std::function<void()>& make);
   void fail(const Error& error);
   MaybeError failure() const;
 

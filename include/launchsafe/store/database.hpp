@@ -20,37 +20,37 @@ namespace launchsafe::store {
 using SqlValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 using SqlRow = std::vector<SqlValue>;
 
-/// A results file that is open. One thread at a time. Every error is a value: held (another process writes
+/// A results file that is open. One thread at a time. Every Error is thrown: held (another process writes
 /// it), conflict (it is no results file of this program and format), corrupt (it is damaged), write_failed
 /// (the disk is full, for example), unreadable, failed.
 class Database {
  public:
   /// Opens a file for this process alone, or makes it: the lock ends with the process, however that ends.
   /// Links are not followed. What is no results file is left as it is.
-  static Result<Database> open(const std::filesystem::path& path);
-  /// Why a file that is there may not be opened to write. Changes nothing.
-  static MaybeError obstacle(const std::filesystem::path& path);
+  static Database open(const std::filesystem::path& path);
+  /// Throws why a file that is there may not be opened to write. Changes nothing.
+  static void demand_free(const std::filesystem::path& path);
   /// An empty one in memory, whose messages name `path`.
-  static Result<Database> in_memory(const std::filesystem::path& path);
+  static Database in_memory(const std::filesystem::path& path);
   /// A copy of a file in memory as the last commit left it. The file is held for as long as copying takes and
   /// may be on a disk that cannot be written to.
-  static Result<Database> copy_of(const std::filesystem::path& path);
+  static Database copy_of(const std::filesystem::path& path);
 
   /// The rows that a statement gives, with `values` for its question marks. Statements are kept, so that a
   /// second call is quick.
-  Result<std::vector<SqlRow>> rows(const std::string& statement, const SqlRow& values = {});
+  std::vector<SqlRow> rows(const std::string& statement, const SqlRow& values = {});
   /// The same for a statement that gives none.
-  MaybeError run(const std::string& statement, const SqlRow& values = {});
+  void run(const std::string& statement, const SqlRow& values = {}) { rows(statement, values); }
   bool has_table(const std::string& name);
 
   /// Texts that repeat are stored once, in `stored_texts`; 0 stands for an empty one. The number follows from
   /// the text, so that it means the same in every file.
-  Result<std::int64_t> number_of_text(const std::string& text);
-  Result<std::string> text_of_number(std::int64_t number);
+  std::int64_t number_of_text(const std::string& text);
+  std::string text_of_number(std::int64_t number);
 
   /// Takes the rows of another file: the newer ones of `stored_runs`, of which a result beats an attempt
   /// without one, and what it has more in the other `stored_` tables.
-  MaybeError take_rows_of(const std::filesystem::path& other);
+  void take_rows_of(const std::filesystem::path& other);
 
   /// Whether changes since the last commit are pending.
   bool in_transaction() const;
@@ -68,14 +68,16 @@ class Database {
   using Statement = std::unique_ptr<sqlite3_stmt, Finalize>;
 
   Database(std::filesystem::path path, Handle handle);
-  static Result<Database> connect(const std::filesystem::path& path, int flags);
-  MaybeError copy_into(const std::string& schema, const std::filesystem::path& source);
-  MaybeError check_format();
-  MaybeError lock_and_prepare();
-  MaybeError make_tables();
-  MaybeError check_pages(const std::string& schema);
-  MaybeError take_attached_rows();
-  Result<sqlite3_stmt*> prepared(const std::string& statement);
+  static Database connect(const std::filesystem::path& path, int flags);
+  void copy_into(const std::string& schema, const std::filesystem::path& source);
+  void check_format();
+  void lock_and_prepare();
+  void make_tables();
+  void check_pages(const std::string& schema);
+  void take_attached_rows();
+  sqlite3_stmt* prepared(const std::string& statement);
+  /// Runs a statement whose failure is of no consequence.
+  void try_to_run(const char* statement);
   Error error(int code) const;
 
   std::filesystem::path path_;

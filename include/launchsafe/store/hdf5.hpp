@@ -1,6 +1,6 @@
 // Trees of labelled values in HDF5, written to and read from memory: disk errors never meet the library,
 // whose failed closes cannot be undone. `Hdf5Writer` and `Hdf5Reader` have the same member functions, so that
-// one description of a layout serves both. The first error sticks; what follows it does nothing.
+// one description of a layout serves both. They throw the Error that names the place: failed or corrupt.
 #pragma once
 
 #include "launchsafe/store/result.hpp"
@@ -60,7 +60,35 @@ hid_t hdf5_type() {
   return H5T_NATIVE_UINT64;
 }
 
-class Hdf5Writer {
+/// An open file, and the groups in it that we are in.
+class Hdf5File {
+ public:
+  /// Throws.
+  [[noreturn]] void fail(const std::string& what) const { throw Error{kind_, what}; }
+
+ protected:
+  explicit Hdf5File(Error::Kind kind);
+  hid_t here() const { return groups_.empty() ? file_.get() : groups_.back().get(); }
+  /// An identifier of what is called `name` here. Throws the library's reason where it is none.
+  Hdf5Id checked(hid_t id, Hdf5Id::Closer closer, const std::string& name) const;
+  /// The same for what a function of the library returns.
+  void check(herr_t status, const std::string& name) const;
+  /// Runs `body` inside a group.
+  template <class Body>
+  void inside(Hdf5Id group, Body&& body) {
+    groups_.push_back(std::move(group));
+    body();
+    groups_.pop_back();
+  }
+
+  Hdf5Id file_;
+
+ private:
+  Error::Kind kind_;
+  std::vector<Hdf5Id> groups_;
+};
+
+class Hdf5Writer : public Hdf5File {
  public:
   static constexpr bool reading = false;
 
@@ -69,9 +97,7 @@ class Hdf5Writer {
   /// Runs `body` inside a new group.
   template <class Body>
   void group(const std::string& name, const std::string& description, Body&& body) {
-    if (!enter(name, description)) return;
-    body();
-    groups_.pop_back();
+    inside(made(name, description), body);
   }
 
   /// A text attribute of the group we are in.
@@ -92,25 +118,19 @@ class Hdf5Writer {
   /// Two dimensions. An error when `values` is neither empty nor of the size that the shape says.
   void table(const std::string& name, const std::vector<double>& values, Shape shape, const Label& label);
 
-  void fail(const std::string& what);
-  bool failed() const { return error_.has_value(); }
-
-  /// The file's bytes. Errors: failed, also when any call before failed.
-  Result<std::string> finish();
+  /// The file's bytes.
+  std::string finish();
 
  private:
-  hid_t here() const { return groups_.empty() ? file_.get() : groups_.back().get(); }
-  bool enter(const std::string& name, const std::string& description);
+  Hdf5Id made(const std::string& name, const std::string& description);
   /// A dataset of this extent in each dimension; a single value has none.
   void put(const std::string& name, const Label& label, hid_t type, const std::vector<hsize_t>& extent,
            const void* data);
 
-  Hdf5Id group_creation_, dataset_creation_, file_;
-  std::vector<Hdf5Id> groups_;
-  MaybeError error_;
+  Hdf5Id group_creation_, dataset_creation_;
 };
 
-class Hdf5Reader {
+class Hdf5Reader : public Hdf5File {
  public:
   static constexpr bool reading = true;
 
@@ -119,9 +139,7 @@ class Hdf5Reader {
 
   template <class Body>
   void group(const std::string& name, const std::string&, Body&& body) {
-    if (!enter(name)) return;
-    body();
-    groups_.pop_back();
+    inside(checked(H5Gopen2(here(), name.c_str(), H5P_DEFAULT), H5Gclose, name), body);
   }
 
   /// Whether the group we are in holds a dataset or group of this name.
@@ -133,15 +151,13 @@ class Hdf5Reader {
 
   template <Hdf5Number Number>
   void value(const std::string& name, Number& value, const Label& = {}) {
-    if (const Dataset set = open(name, H5Tget_class(hdf5_type<Number>()), 0); set.id.valid())
-      read(name, set, hdf5_type<Number>(), &value);
+    read(name, open(name, H5Tget_class(hdf5_type<Number>()), 0), hdf5_type<Number>(), &value);
   }
   void value(const std::string& name, std::string& text, const Label& = {});
 
   template <Hdf5Number Number>
   void array(const std::string& name, std::vector<Number>& values, const Label& = {}) {
     const Dataset set = open(name, H5Tget_class(hdf5_type<Number>()), 1);
-    if (!set.id.valid()) return;
     values.assign(set.count, Number{});
     read(name, set, hdf5_type<Number>(), values.data());
   }
@@ -150,12 +166,6 @@ class Hdf5Reader {
   /// An error when the dataset is neither empty nor of this shape.
   void table(const std::string& name, std::vector<double>& values, Shape shape, const Label& = {});
 
-  void fail(const std::string& what);
-  bool failed() const { return error_.has_value(); }
-
-  /// The first error, of kind corrupt.
-  const MaybeError& error() const { return error_; }
-
  private:
   struct Dataset {
     Hdf5Id id, type;
@@ -163,17 +173,12 @@ class Hdf5Reader {
     std::size_t count = 1;
   };
 
-  hid_t here() const { return groups_.empty() ? file_.get() : groups_.back().get(); }
-  bool enter(const std::string& name);
-  /// An open dataset of the wanted type class with `rank` dimensions; without an id after an error.
-  Dataset open(const std::string& name, H5T_class_t type_class, std::size_t rank);
-  void read(const std::string& name, const Dataset& set, hid_t type, void* data);
-  std::vector<std::string> texts_of(const std::string& name, std::size_t rank);
+  /// A dataset of the wanted type class with `rank` dimensions.
+  Dataset open(const std::string& name, H5T_class_t type_class, std::size_t rank) const;
+  void read(const std::string& name, const Dataset& set, hid_t type, void* data) const;
+  std::vector<std::string> texts_of(const std::string& name, std::size_t rank) const;
 
   std::size_t image_size_ = 0;
-  Hdf5Id file_;
-  std::vector<Hdf5Id> groups_;
-  MaybeError error_;
 };
 
 }  // namespace launchsafe::store

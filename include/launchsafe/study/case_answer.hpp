@@ -107,7 +107,7 @@ bool was_cut_off(const FinishedRun& run);
 CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs);
 
 /// Stores an answer in the place of one with the same key, which are hexadecimal digits.
-store::MaybeError save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
+void save_answer(store::Database& database, const std::string& key, const CaseAnswer& answer);
 
 /// Exactly what was saved, its rows not judged; not finite numbers but infinity become NaN. Nothing where
 /// there is none, and for what was not written by this program as it is: another checksum, an unknown
