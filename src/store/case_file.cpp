@@ -109,9 +109,8 @@ std::string fault_in_trace(const BottomTrace& trace, bool completed) {
     if (history->size() != trace.samples()) return "a history of the completed run is cut short";
     if (!math::all_finite(*history)) return "a history of the completed run holds what is no number";
   }
-  for (const auto& friction : trace.friction) {
+  for (const auto& friction : trace.friction)
     if (!math::all_finite(friction)) return "the friction of the completed run holds what is no number";
-  }
   return {};
 }
 
@@ -135,9 +134,8 @@ std::string fault_in(const run::CaseResult& result) {
   const bool completed = mechanics.status == run::RunStatus::completed;
   if (!(mechanics.end_time >= 0.0)) return "the time reached is none";
   if (std::string fault = fault_in_trace(mechanics.trace, completed); !fault.empty()) return fault;
-  for (const run::GapResult& gap : result.gaps) {
+  for (const run::GapResult& gap : result.gaps)
     if (std::string fault = fault_in_gap(gap, mechanics.trace); !fault.empty()) return fault;
-  }
   return {};
 }
 

@@ -75,7 +75,7 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
                                                    const std::string& part,
                                                    std::function<void(const Error&)> on_failure) try {
   StoreNames names{folder, part};
-  if (const MaybeError error = obstacle_in(names)) return *error;
+  demand_free(names);
   make_folder(folder);
   make_folder(names.cases());
   Database database = of_results(names.results(), [&] { return Database::open(names.results()); });
@@ -94,7 +94,7 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
 }
 
 Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder) try {
-  if (const MaybeError error = obstacle_of_older(folder)) return *error;
+  demand_none_of_older(folder);
   std::error_code status;
   const std::filesystem::directory_iterator readable(folder, status);
   if (status)
@@ -219,7 +219,7 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   Imported imported;
   std::error_code status;
   if (std::filesystem::equivalent(other, folder(), status)) return imported;
-  if (const MaybeError error = obstacle_of_older(other)) return *error;
+  demand_none_of_older(other);
   const std::vector<std::filesystem::path> files = results_files_in(other);
   if (files.empty())
     return Error{Error::Kind::missing, fmt::format("{} holds no results of a study", other.string())};

@@ -49,11 +49,10 @@ void put_record(Database& database, const RunRecord& record) {
   database.run(fmt::format("INSERT OR REPLACE INTO stored_runs VALUES ({})", fmt::join(marks, ", ")), row);
 }
 
-/// Errors: corrupt also where a value is none of its member's.
-RunRecord record_from(Database& database, SqlRow row) {
-  if (row.size() != columns) throw Error{Error::Kind::corrupt, "stored_runs has other columns"};
-  const auto* number = std::get_if<std::int64_t>(&row[host_column]);
-  row[host_column] = database.text_of_number(number != nullptr ? *number : -1);
+/// From the columns and, behind them, the name of the host. Throws where a value is none of its member's.
+RunRecord record_from(SqlRow row) {
+  if (row.size() != columns + 1) throw Error{Error::Kind::corrupt, "stored_runs has other columns"};
+  row[host_column] = std::move(row.back());
   RunRecord record;
   std::size_t next = 0;
   const auto read = [&](auto... member) { return (from_sql(row[next++], record.*member) && ...); };
@@ -65,9 +64,11 @@ RunRecord record_from(Database& database, SqlRow row) {
 }  // namespace
 
 std::vector<RunRecord> records_in(Database& database, const std::string& which, const SqlRow& values) try {
+  const std::string with_hosts =
+      "SELECT stored_runs.*, iif(host, text, '') FROM stored_runs LEFT JOIN stored_texts ON number = host ";
   std::vector<RunRecord> records;
-  for (const SqlRow& row : database.rows("SELECT * FROM stored_runs " + which + " ORDER BY hash", values))
-    records.push_back(record_from(database, row));
+  for (SqlRow& row : database.rows(with_hosts + which + " ORDER BY hash", values))
+    records.push_back(record_from(std::move(row)));
   return records;
 } catch (const Error&) {
   return {};

@@ -18,15 +18,14 @@ std::optional<std::string> part_in(std::string_view name, std::string_view begin
   return std::string(part.substr(1));
 }
 
-/// Whatever has the name of a case but is no file.
-MaybeError obstacle_among_cases(const StoreNames& names) {
+/// Throws what has the name of a case but is no file.
+void demand_files_of_cases(const StoreNames& names) {
   std::error_code ignored;
   for (const std::string& hash : stored_hashes(names)) {
     const std::filesystem::path path = names.case_file(hash);
     if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored)))
-      return refusal(path, "is no plain file");
+      throw refusal(path, "is no plain file");
   }
-  return {};
 }
 
 /// Whether the content of a file is that of SQLite's rollback journal: its mark, or zeros once it is done
@@ -39,23 +38,17 @@ bool is_rollback_journal(std::string_view content) {
 
 /// A store makes its folder of cases before anything else: an empty file of a store's name beside none is not
 /// its own.
-MaybeError obstacle_before_first(const StoreNames& names) {
+void demand_nothing_before_first(const StoreNames& names) {
   std::error_code failed;
-  if (std::filesystem::exists(names.cases(), failed)) return {};
-  for (const std::filesystem::path& path : {names.results(), names.status()}) {
+  if (std::filesystem::exists(names.cases(), failed)) return;
+  for (const std::filesystem::path& path : {names.results(), names.status()})
     if (std::filesystem::is_regular_file(path, failed) && std::filesystem::file_size(path, failed) == 0)
-      return refusal(path, foreign_file);
-  }
-  return {};
+      throw refusal(path, foreign_file);
 }
 
-MaybeError obstacle_in_results(const StoreNames& names) {
-  const std::filesystem::path path = names.results();
-  if (MaybeError error = obstacle_in_place(path, {})) return error;
-  if (MaybeError error = obstacle_in_place(path.string() + "-journal", is_rollback_journal)) return error;
-  std::error_code failed;
-  if (std::filesystem::exists(path, failed)) of_results(path, [&] { Database::demand_free(path); });
-  return {};
+/// See `obstacle_in_place`.
+void demand_place(const std::filesystem::path& path, const std::function<bool(std::string_view)>& is_ours) {
+  if (const MaybeError error = obstacle_in_place(path, is_ours)) throw *error;
 }
 
 constexpr const char* format_of_status = "launchsafe status 1";
@@ -107,32 +100,33 @@ std::vector<std::string> stored_hashes(const StoreNames& names) {
   return hashes;
 }
 
-MaybeError obstacle_of_older(const std::filesystem::path& folder) {
-  if (!results_files_in(folder).empty()) return {};
-  for (const std::string& name : list_folder(folder)) {
-    if (!part_in(name, "journal", ".jsonl")) continue;
-    return Error{
-        Error::Kind::conflict,
-        fmt::format("{} holds results of an earlier version of launchsafe ({}), which this one does not "
-                    "read; run the study anew into another folder",
-                    folder.string(), name)};
-  }
-  return {};
+void demand_none_of_older(const std::filesystem::path& folder) {
+  if (!results_files_in(folder).empty()) return;
+  for (const std::string& name : list_folder(folder))
+    if (part_in(name, "journal", ".jsonl"))
+      throw Error{
+          Error::Kind::conflict,
+          fmt::format("{} holds results of an earlier version of launchsafe ({}), which this one does not "
+                      "read; run the study anew into another folder",
+                      folder.string(), name)};
 }
 
 bool is_page(std::string_view content) { return content.starts_with(page_begin); }
 
-MaybeError obstacle_in(const StoreNames& names) {
-  struct stat status {};
-  if (::lstat(names.cases().c_str(), &status) == 0 && !S_ISDIR(status.st_mode))
-    return refusal(names.cases(), "is no folder");
-  if (MaybeError error = obstacle_of_older(names.folder)) return error;
-  if (MaybeError error = obstacle_among_cases(names)) return error;
-  if (MaybeError error = obstacle_before_first(names)) return error;
-  const auto is_status = [](std::string_view content) { return status_in(content).has_value(); };
-  if (MaybeError error = obstacle_in_place(names.status(), is_status)) return error;
-  if (MaybeError error = obstacle_in_place(names.page(), is_page)) return error;
-  return obstacle_in_results(names);
+void demand_free(const StoreNames& names) {
+  std::error_code failed;
+  const auto cases = std::filesystem::symlink_status(names.cases(), failed);
+  if (std::filesystem::exists(cases) && !std::filesystem::is_directory(cases))
+    throw refusal(names.cases(), "is no folder");
+  demand_none_of_older(names.folder);
+  demand_files_of_cases(names);
+  demand_nothing_before_first(names);
+  demand_place(names.status(), [](std::string_view content) { return status_in(content).has_value(); });
+  demand_place(names.page(), is_page);
+  const std::filesystem::path results = names.results();
+  demand_place(results, {});
+  demand_place(results.string() + "-journal", is_rollback_journal);
+  if (std::filesystem::exists(results, failed)) of_results(results, [&] { Database::demand_free(results); });
 }
 
 Error told_who_writes(const Error& error, const std::filesystem::path& results) {

@@ -9,11 +9,11 @@ namespace launchsafe::store {
 /// The hashes of what has the name of a case file in a store, in order.
 std::vector<std::string> stored_hashes(const StoreNames& names);
 
-/// What of a store's own names is taken by somebody else's files, or held by another process. Changes
+/// Throws what of a store's own names is taken by somebody else's files, or held by another process. Changes
 /// nothing.
-MaybeError obstacle_in(const StoreNames& names);
-/// A folder that an earlier version of the program stored its results in.
-MaybeError obstacle_of_older(const std::filesystem::path& folder);
+void demand_free(const StoreNames& names);
+/// Throws where an earlier version of the program stored its results in a folder.
+void demand_none_of_older(const std::filesystem::path& folder);
 /// The error, which says who writes where it is that somebody does.
 Error told_who_writes(const Error& error, const std::filesystem::path& results);
 /// What `use` gives, or throws like that, of a results file.

@@ -228,25 +228,11 @@ std::int64_t Database::number_of_text(const std::string& text) {
   if (text.empty()) return 0;
   constexpr std::size_t digits = 15;  // 60 bits: a positive number
   const std::int64_t number = std::stoll(sha256(text).substr(0, digits), nullptr, 16);
-  if (const auto known = texts_.find(number); known != texts_.end() && known->second == text) return number;
   run("INSERT OR IGNORE INTO stored_texts VALUES (?, ?)", {number, text});
-  texts_.insert_or_assign(number, text);
   return number;
 }
 
-std::string Database::text_of_number(std::int64_t number) {
-  if (number == 0) return {};
-  if (const auto known = texts_.find(number); known != texts_.end()) return known->second;
-  const auto found = rows("SELECT text FROM stored_texts WHERE number = ?", {number});
-  if (found.empty())
-    throw Error{Error::Kind::corrupt, fmt::format("{}: the text {} is missing", path_.string(), number)};
-  return texts_[number] = std::get<std::string>(found.front().front());
-}
-
-void Database::roll_back() {
-  texts_.clear();
-  try_to_run("ROLLBACK");
-}
+void Database::roll_back() { try_to_run("ROLLBACK"); }
 
 void Database::take_rows_of(const std::filesystem::path& other) {
   run("ATTACH ':memory:' AS other");

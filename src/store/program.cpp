@@ -98,9 +98,8 @@ std::string wait_for_end(pid_t process, const ProgramLimits& limits, const Descr
 bool end_group(pid_t process) {
   ::kill(-process, SIGKILL);
   int status = 0;
-  while (::waitpid(process, &status, 0) < 0) {
+  while (::waitpid(process, &status, 0) < 0)
     if (errno != EINTR) return false;
-  }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 

@@ -44,11 +44,6 @@ int version_in(const nlohmann::json& value) {
   return fits ? value.get<int>() : -1;
 }
 
-/// Whether it says of itself what only a manifest of ours says: its input and the SHA-256 of that.
-bool is_sound(const Manifest& manifest) {
-  return manifest.model_version >= 0 && manifest.input_sha256 == sha256(manifest.input_text);
-}
-
 /// Throws what the JSON library throws where a value is of another type, or where one is missing that every
 /// manifest has.
 StudyRecord record_from(const nlohmann::json& object) {
@@ -129,19 +124,17 @@ FileState state_of(const fs::path& folder, const StudyRecord& record, const std:
 }
 
 Result<StudyRecord> read_study_record(const fs::path& folder) {
-  const auto text = read_file((folder / manifest_name));
+  const auto text = read_file(folder / manifest_name);
   if (!text) return text.error();
-  const Error corrupt{Error::Kind::corrupt,
-                      fmt::format("{} is no manifest of a study", (folder / manifest_name).string())};
-  const auto object = nlohmann::json::parse(*text, nullptr, false);
-  if (!object.is_object()) return corrupt;
   try {
-    StudyRecord record = record_from(object);
-    if (!is_sound(record.manifest)) return corrupt;
-    return record;
-  } catch (const nlohmann::json::exception&) {
-    return corrupt;
+    StudyRecord record = record_from(nlohmann::json::parse(*text));
+    // What only a manifest of ours says of itself: its input and the SHA-256 of that.
+    const Manifest& manifest = record.manifest;
+    if (manifest.model_version >= 0 && manifest.input_sha256 == sha256(manifest.input_text)) return record;
+  } catch (const nlohmann::json::exception&) {  // no manifest either
   }
+  return Error{Error::Kind::corrupt,
+               fmt::format("{} is no manifest of a study", (folder / manifest_name).string())};
 }
 
 Result<StudyRecord> record_of_report(const fs::path& folder) {
@@ -182,30 +175,28 @@ Result<fs::path> set_aside(const fs::path& folder, const std::vector<std::string
 }
 
 Result<std::vector<std::string>> write_report_files(const fs::path& folder, StudyRecord record,
-                                                    const std::vector<TextFile>& files) {
-  const Result<StudyRecord> before = record_of_report(folder);
-  if (!before) return before.error();
+                                                    const std::vector<TextFile>& files) try {
+  const StudyRecord before = record_of_report(folder).or_throw();
   std::set<std::string> stays;
   for (const TextFile& file : files) {
     if (const auto present = read_file(folder / file.name); present && *present == file.text)
       stays.insert(file.name);
-    else if (state_of(folder, *before, file.name) == FileState::foreign)
+    else if (state_of(folder, before, file.name) == FileState::foreign)
       return refusal(folder / file.name, foreign_file);
   }
   std::vector<std::string> remarks, stale;
-  for (const std::string& name : before->names()) {
-    const FileState state = state_of(folder, *before, name);
+  for (const std::string& name : before.names()) {
+    const FileState state = state_of(folder, before, name);
     if (state == FileState::edited && !stays.contains(name)) {
-      const auto aside = move_to_numbered_name(folder / name, folder / (name + ".edited"));
-      if (!aside) return aside.error();
-      remarks.push_back("a file was edited since it was written; it is kept as " + aside->string());
+      const fs::path aside = move_to_numbered_name(folder / name, folder / (name + ".edited")).or_throw();
+      remarks.push_back("a file was edited since it was written; it is kept as " + aside.string());
     } else if (state == FileState::ours && std::ranges::find(files, name, &TextFile::name) == files.end()) {
       stale.push_back(name);
     }
   }
   std::vector<WrittenFile> written;
   for (const TextFile& file : files) written.push_back({file.name, sha256(file.text)});
-  record.unfinished = known_files({.manifest = {}, .files = written, .unfinished = known_files(*before)});
+  record.unfinished = known_files({.manifest = {}, .files = written, .unfinished = known_files(before)});
   record.files.clear();
   if (MaybeError error = write_study_record(folder, record)) return *error;
   for (const TextFile& file : files) {
@@ -213,14 +204,14 @@ Result<std::vector<std::string>> write_report_files(const fs::path& folder, Stud
     const IfExists if_exists = is_there(folder / file.name) ? IfExists::replace : IfExists::refuse;
     if (MaybeError error = write_file_atomically(folder / file.name, file.text, if_exists)) return *error;
   }
-  const Result<fs::path> aside = set_aside(folder, stale);
-  if (!aside) return aside.error();
-  if (!aside->empty())
-    remarks.push_back("files of the earlier report that the new one lacks moved to " + aside->string());
+  if (const fs::path aside = set_aside(folder, stale).or_throw(); !aside.empty())
+    remarks.push_back("files of the earlier report that the new one lacks moved to " + aside.string());
   record.files = std::move(written);
   record.unfinished.clear();
   if (MaybeError error = write_study_record(folder, record)) return *error;
   return remarks;
+} catch (const Error& error) {
+  return error;
 }
 
 Result<std::vector<TextFile>> read_as_written(const fs::path& folder, const std::vector<WrittenFile>& files) {

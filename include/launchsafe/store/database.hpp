@@ -46,7 +46,6 @@ class Database {
   /// Texts that repeat are stored once, in `stored_texts`; 0 stands for an empty one. The number follows from
   /// the text, so that it means the same in every file.
   std::int64_t number_of_text(const std::string& text);
-  std::string text_of_number(std::int64_t number);
 
   /// Takes the rows of another file: the newer ones of `stored_runs`, of which a result beats an attempt
   /// without one, and what it has more in the other `stored_` tables.
@@ -83,7 +82,6 @@ class Database {
   std::filesystem::path path_;
   Handle handle_;
   std::unordered_map<std::string, Statement> statements_;
-  std::unordered_map<std::int64_t, std::string> texts_;
 };
 
 /// Not a number is nothing, and -0 is 0: SQLite knows neither.
