@@ -10,32 +10,6 @@ namespace {
 
 constexpr double cubic_centimetre = 1e-6;  // m3
 
-/// Z at x = b0/V and d(Z/V)/d(1/V), which is the isothermal dp/drho over that of the ideal gas.
-struct Series {
-  double compressibility = 1.0, stiffness = 1.0;
-};
-
-Series series_of(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  const double reduced = temperature / gas.temperature;
-  const double second = reduced_second_virial(reduced);
-  const double x = gas.covolume / molar_volume;
-  double higher = 0.0, higher_slope = 0.0;
-  for (int n = 3; n <= terms; ++n) {
-    const double term = std::pow(n - 2.0, -n) * std::pow(x, n - 1);
-    higher += term;
-    higher_slope += n * term;
-  }
-  const double factor = second / std::pow(reduced, 0.25);
-  return {1.0 + second * x + factor * higher, 1.0 + 2.0 * second * x + factor * higher_slope};
-}
-
-VirialState state_of(const Series& series, double ideal_pressure) {
-  const double pressure = series.compressibility * ideal_pressure;
-  const bool valid = series.compressibility > 0.0 && series.stiffness > 0.0 && ideal_pressure > 0.0 &&
-                     std::isfinite(pressure);
-  return {series.compressibility, valid ? pressure : std::numeric_limits<double>::quiet_NaN(), valid};
-}
-
 /// The tables' argument goes with ln T and spans an interval about 0 that is shorter than 1.
 const double table_middle =
     0.5 * (std::log(ProductGas::lowest_temperature) + std::log(ProductGas::highest_temperature));
@@ -91,26 +65,12 @@ double reduced_second_virial(double reduced_temperature) {
 }
 
 double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  return series_of(gas, temperature, molar_volume, terms).compressibility;
-}
-
-VirialState virial_state(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  return state_of(series_of(gas, temperature, molar_volume, terms),
-                  gas_constant * temperature / molar_volume);
-}
-
-VirialState virial_state(const std::vector<GasComponent>& mixture, double temperature, double density,
-                         int terms) {
-  double amount = 0.0;  // mol/kg
-  for (const GasComponent& component : mixture) amount += component.amount;
-  const double molar_volume = 1.0 / (density * amount);
-  Series mixed{0.0, 0.0};
-  for (const GasComponent& component : mixture) {
-    const Series series = series_of(component.potential, temperature, molar_volume, terms);
-    mixed.compressibility += component.amount / amount * series.compressibility;
-    mixed.stiffness += component.amount / amount * series.stiffness;
-  }
-  return state_of(mixed, gas_constant * temperature / molar_volume);
+  const double reduced = temperature / gas.temperature;
+  const double second = reduced_second_virial(reduced);
+  const double x = gas.covolume / molar_volume;
+  double higher = 0.0;
+  for (int n = 3; n <= terms; ++n) higher += std::pow(n - 2.0, -n) * std::pow(x, n - 1);
+  return 1.0 + second * x + second / std::pow(reduced, 0.25) * higher;
 }
 
 double GasState::isentropic_modulus(double temperature, double volume) const {
@@ -158,7 +118,8 @@ GasState ProductGas::at(double temperature, double volume) const {
   state.energy = specific_heat_ * t - amount_ * gas_constant * t * t * slopes;
   state.energy_by_temperature = specific_heat_ - amount_ * gas_constant * t * (2.0 * slopes + t * bends);
   state.energy_by_volume = t * state.pressure_by_temperature - state.pressure;
-  state.valid = state.compressibility > 0.0 && stiffness > 0.0 && state.energy_by_temperature > 0.0;
+  state.valid = state.pressure > 0.0 && std::isfinite(state.pressure) && stiffness > 0.0 &&
+                state.energy_by_temperature > 0.0;
   return state;
 }
 

@@ -26,16 +26,27 @@ const ProductGas& products() {
 ProductGas ideal_gas() { return ProductGas({{{"point", 100.0, 0.0}, 30.0}}, 1200.0); }
 BurningMixture mixture() { return BurningMixture(UnreactedJwl{}, 1717.0, products(), tension_cutoff); }
 
+constexpr double amount = 30.447;  // mol per kg of the products
+/// Z of the products at a density (kg/m3): the mean over their moles.
+double compressibility_at(double temperature, double density) {
+  double mean = 0.0;
+  for (const GasComponent& gas : composition_b_gas())
+    mean +=
+        gas.amount / amount * virial_compressibility(gas.potential, temperature, 1.0 / (density * amount));
+  return mean;
+}
+
 TEST(ProductGas, PressureIsThatOfTheVirialSeries) {
   for (const double temperature : {250.0, 784.0, 2000.0, 6000.0})
     for (const double density : {1.0, 100.0, 600.0, 1700.0}) {
-      const VirialState series = virial_state(composition_b_gas(), temperature, density);
+      const double series = compressibility_at(temperature, density);
       const GasState gas = products().at(temperature, 1.0 / density);
-      EXPECT_NEAR(gas.compressibility, series.compressibility,
-                  1e-11 * (1.0 + std::abs(series.compressibility)))
+      EXPECT_NEAR(gas.compressibility, series, 1e-11 * (1.0 + std::abs(series)))
           << temperature << " " << density;
-      if (series.valid) {
-        EXPECT_NEAR(gas.pressure / series.pressure, 1.0, 1e-10);
+      const bool rises =
+          density * (1.0 + 1e-6) * compressibility_at(temperature, density * (1.0 + 1e-6)) > density * series;
+      if (series > 0.0 && rises) {
+        EXPECT_NEAR(gas.pressure / (series * gas_constant * temperature * density * amount), 1.0, 1e-10);
       } else {
         EXPECT_FALSE(gas.valid);
       }

@@ -130,9 +130,10 @@ void add_volume_of_charge_and_gases(Numbers& numbers) {
   for (const double pressure : {101325.0, 1e7, 1.4e8})
     numbers.push_back(
         {fmt::format("air at {} Pa", pressure), adiabatic_temperature(AirParameters{}, pressure)});
+  const ProductGas products(composition_b_gas(), 1780.0);
   for (const double temperature : {2500.0, 4000.0})
-    numbers.push_back({fmt::format("gas at {} K", temperature),
-                       virial_state(composition_b_gas(), temperature, 200.0).pressure});
+    numbers.push_back(
+        {fmt::format("gas at {} K", temperature), products.at(temperature, 1.0 / 200.0).pressure});
   KineticsParameters kinetics;
   kinetics.ignition_temperature = 519.445;
   for (const double temperature : {450.0, 525.0, 700.0}) {

@@ -29,15 +29,6 @@ struct GasComponent {
 /// 6.705 mol [D].
 std::vector<GasComponent> composition_b_gas();
 
-/// What the series says of a state. Where it is not valid the pressure is NaN, so that it cannot be used by
-/// mistake: Z <= 0, or a pressure that falls on compression (below the critical temperature that sets in
-/// before Z = 0, and no gas is like that: it condenses), or a state that is none.
-struct VirialState {
-  double compressibility = 0;  ///< Z = p V/(R T); kept also where it is not positive, to be reported
-  double pressure = 0;         ///< Pa
-  bool valid = false;          ///< Z > 0 and dp/drho > 0 at constant temperature
-};
-
 /// Reduced second virial coefficient of the Lennard-Jones potential at T* = T/theta > 0, summed until the
 /// terms vanish: B* = - sum_j 2^(j+1/2)/(4 j!) Gamma((2j-1)/4) T*^(-(2j+1)/4). Relative accuracy 1e-13 for T*
 /// >= 0.3 (cancellation is mild there); NaN for T* <= 0.
@@ -47,14 +38,6 @@ double reduced_second_virial(double reduced_temperature);
 /// x^(n-1), x = b0/V.
 double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume,
                               int terms = 3);
-
-/// One gas, with the pressure R T Z/V.
-VirialState virial_state(const LennardJones& gas, double temperature, double molar_volume, int terms = 3);
-
-/// A mixture at the density of the gas (kg/m3): the virial coefficients, and so Z, are linear in the mole
-/// fractions [A].
-VirialState virial_state(const std::vector<GasComponent>& mixture, double temperature, double density,
-                         int terms = 3);
 
 // The gas that a burnt charge turns into: that pressure with the internal energy that belongs to it,
 // tabulated over temperature so that a step of a burning particle costs no series.
@@ -68,17 +51,18 @@ struct GasState {
   double energy_by_temperature = 0;    ///< J/(kg K), the heat capacity at constant volume
   double energy_by_volume = 0;         ///< Pa: T dp/dT - p
   double compressibility = 0;          ///< Z
-  /// False outside the range of the law: Z <= 0, a pressure that falls on compression, a heat capacity that
-  /// is not positive, or a temperature outside of the table. Nothing of such a state may be used.
+  /// False outside the range of the law: Z <= 0, a pressure that falls on compression (below the critical
+  /// temperature that sets in before Z = 0, and no gas is like that: it condenses), a heat capacity that is
+  /// not positive, or a temperature outside of the table. Nothing of such a state may be used.
   bool valid = false;
   /// Bulk modulus at constant entropy, Pa, at the state's specific volume (m3/kg).
   double isentropic_modulus(double temperature, double volume) const;
 };
 
 /// A gas mixture with three terms of the virial series, p = (n R T/v) Z, Z = 1 + beta1 n/v + beta2 (n/v)^2
-/// with n in mol/kg, v in m3/kg and beta1, beta2 linear in the mole fractions as in `virial_state` [A]. Its
-/// energy is e = c_v T - n R T^2 (beta1' n/v + beta2' (n/v)^2/2), which makes pressure and energy one law:
-/// de/dv = T dp/dT - p at constant temperature. The heat capacity c_v of the thin gas is a constant [A].
+/// with n in mol/kg, v in m3/kg and beta1, beta2 linear in the mole fractions [A]. Its energy is e = c_v T -
+/// n R T^2 (beta1' n/v + beta2' (n/v)^2/2), which makes pressure and energy one law: de/dv = T dp/dT - p at
+/// constant temperature. The heat capacity c_v of the thin gas is a constant [A].
 class ProductGas {
  public:
   /// `specific_heat` in J/(kg K), > 0.
