@@ -65,9 +65,8 @@ KineticsParameters named_kinetics(const std::string& name) {
 }
 
 std::string name_of(const KineticsParameters& kinetics) {
-  for (const std::string name : {"comp-b", "printed"}) {
+  for (const std::string name : {"comp-b", "printed"})
     if (same_law(kinetics, named_kinetics(name))) return name;
-  }
   return "custom";
 }
 

@@ -61,20 +61,17 @@ Extrapolation finest_of(const Values& values, std::string reason, double order, 
 
 /// Every difference has the other sign than the one before.
 bool is_oscillating(const Values& values) {
-  for (std::size_t i = 2; i < values.size(); ++i) {
+  for (std::size_t i = 2; i < values.size(); ++i)
     if (!((values[i] - values[i - 1]) * (values[i - 1] - values[i - 2]) < 0.0)) return false;
-  }
   return values.size() > 2;
 }
 
 std::string reason_of_order(double order) {
   if (!(order > 0.0)) return "the values do not converge";
-  if (order < lowest_trusted_order) {
+  if (order < lowest_trusted_order)
     return "the observed order " + rounded(order) + " is below " + rounded(lowest_trusted_order);
-  }
-  if (!(order < formal_order + order_allowance)) {
+  if (!(order < formal_order + order_allowance))
     return "the observed order " + rounded(order) + " is above the formal one, " + rounded(formal_order);
-  }
   return {};
 }
 
@@ -105,9 +102,7 @@ Extrapolation from_three(const Values& values, const Values& sizes) {
   if (found->oscillating) return finest_of(values, "the values oscillate", found->order, widened);
 
   const std::string reason = reason_of_order(found->order);
-  if (found->order < lowest_trusted_order) {
-    return finest_of(values, reason, found->order, widened);
-  }
+  if (found->order < lowest_trusted_order) return finest_of(values, reason, found->order, widened);
   if (!reason.empty()) {
     // Too high to be believed: the formal order, and the factor that Roache (1998) asks for where the order
     // was not observed. By chance the two finest may lie close together, so the coarser pair is asked as
@@ -318,10 +313,9 @@ Extrapolation from_four_or_more(const Values& values, const Values& sizes) {
   }
   const double factor = reason.empty() ? trusted_safety_factor : cautious_safety_factor;
   const double uncertainty = uncertainty_of(*fit, values.front(), data_range, factor);
-  if (!reason.empty()) {
+  if (!reason.empty())
     return finest_of(values, reason, observed.order,
                      converges_badly ? std::max(uncertainty, widened) : uncertainty);
-  }
   return {.justified = true, .order = observed.order, .value = fit->limit, .uncertainty = uncertainty};
 }
 

@@ -87,9 +87,8 @@ std::uint64_t nested_scramble(std::uint32_t digits, std::uint64_t key) {
 }
 
 void fill_monte_carlo(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (std::size_t k = 0; k < values.size(); ++k)
     values[k] = open_unit(hashed(hashed(seed, k % dimensions), k / dimensions));
-  }
 }
 
 void fill_latin_hypercube(std::vector<double>& values, std::size_t dimensions, std::uint64_t seed) {

@@ -18,9 +18,8 @@ std::vector<double> finite_rows(std::size_t blocks, const std::vector<double>& o
   std::vector<double> rows;
   for (auto row = outputs.begin(); row != outputs.end(); row += static_cast<std::ptrdiff_t>(blocks)) {
     const auto end = row + static_cast<std::ptrdiff_t>(blocks);
-    if (std::all_of(row, end, [](double value) { return std::isfinite(value); })) {
+    if (std::all_of(row, end, [](double value) { return std::isfinite(value); }))
       rows.insert(rows.end(), row, end);
-    }
   }
   return rows;
 }
@@ -172,9 +171,7 @@ Estimate with_interval(double value, std::vector<double> replicates, std::size_t
 std::vector<double> SaltelliDesign::point(std::size_t block, std::size_t row) const {
   assert(block < blocks() && row < rows);
   const std::size_t columns = begins.back();
-  const std::vector<double>& source = block == block_b ? b : a;
-  const auto start = source.begin() + static_cast<std::ptrdiff_t>(row * columns);
-  std::vector<double> values(start, start + static_cast<std::ptrdiff_t>(columns));
+  std::vector<double> values = point_of_row(block == block_b ? b : a, row, columns);
   if (block > block_b)
     for (std::size_t i = begins[block - 2]; i < begins[block - 1]; ++i) values[i] = b[row * columns + i];
   return values;

@@ -12,16 +12,8 @@ constexpr Eigen::Index iterations_per_unknown = 4;
 /// Faces closer than this share of the scene's size coincide.
 constexpr double coincidence = 1e-9;
 
-/// Conductivity (W/(m K)) and specific heat (J/(kg K)) of a body.
-struct Thermal {
-  double conductivity, specific_heat;
-};
-Thermal thermal_of(const AnyBody& any) {
-  return std::visit(
-      [](const auto& body) {
-        return Thermal{body.law.heat_conductivity(), body.law.heat_capacity()};
-      },
-      any);
+materials::Law law_of(const AnyBody& any) {
+  return std::visit([](const auto& body) -> materials::Law { return body.law; }, any);
 }
 
 /// Calls f(number, slot) for every particle of a body; `next`: number of its first one, then of the next
@@ -53,7 +45,7 @@ class Network {
     Eigen::Index first = 0;
     for (const AnyBody& body : bodies) {
       const Lattice& lattice = particle_fields_of(body).lattice;
-      parts_.push_back({lattice, first, thermal_of(body).conductivity});
+      parts_.push_back({lattice, first, materials::heat_conductivity(law_of(body))});
       first += static_cast<Eigen::Index>(lattice.columns()) * lattice.rows();
     }
     for (const Part& part : parts_) link_inside(part);
@@ -158,20 +150,21 @@ Conduction::Conduction(const Simulation& simulation) {
   const scene::Extent extent = scene::extent_of(scene);
   Eigen::Index next = 0;
   for (const AnyBody& body : simulation.bodies()) {
-    const Thermal thermal = thermal_of(body);
+    const materials::Law law = law_of(body);
     const ParticleFields& p = particle_fields_of(body);
     const Lattice& lattice = p.lattice;
     const Eigen::Index first = next;
     for_each_particle(lattice, next, [&](Eigen::Index number, std::size_t slot) {
-      capacity_[number] = p.mass[slot] * thermal.specific_heat;
+      capacity_[number] = p.mass[slot] * materials::heat_capacity(law);
     });
     const bool at_base =
         std::abs(lattice.x_end() - extent.x_end) <= coincidence * (extent.x_end - extent.x_begin);
     for (int j = 0; at_base && j < lattice.rows(); ++j) {
       const auto row = static_cast<std::size_t>(j);
       const double area = network.axial_area(lattice.r_edges[row], lattice.r_edges[row + 1]);
-      base_.push_back({first + static_cast<Eigen::Index>(j + 1) * lattice.columns() - 1, area,
-                       thermal.conductivity * area / (0.5 * lattice.length_x(lattice.columns() - 1))});
+      base_.push_back(
+          {first + static_cast<Eigen::Index>(j + 1) * lattice.columns() - 1, area,
+           materials::heat_conductivity(law) * area / (0.5 * lattice.length_x(lattice.columns() - 1))});
     }
   }
 }

@@ -24,18 +24,19 @@ RowWeights row_weights(const Lattice& lattice, int j, double a, double b, bool a
   return w;
 }
 
-/// Divides rows, in order, into one contiguous group per thread of about equal work.
-std::vector<std::vector<std::pair<std::size_t, int>>> divided_among_threads(
-    const std::vector<std::pair<std::size_t, int>>& rows, const std::vector<double>& work, int threads) {
+/// Divides rows, in order, into one contiguous group per thread of about equal work; `work` by body.
+template <class Rows>
+std::vector<std::vector<Rows>> divided_among_threads(const std::vector<Rows>& all_rows,
+                                                     const std::vector<double>& work, int threads) {
   double all = 0.0;
-  for (const auto& [body, row] : rows) all += work[body];
-  std::vector<std::vector<std::pair<std::size_t, int>>> shares(static_cast<std::size_t>(threads));
+  for (const Rows& rows : all_rows) all += work[rows.body];
+  std::vector<std::vector<Rows>> shares(static_cast<std::size_t>(threads));
   double done = 0.0;
-  for (const auto& row : rows) {
-    const double middle = done + 0.5 * work[row.first];
-    done += work[row.first];
+  for (const Rows& rows : all_rows) {
+    const double middle = done + 0.5 * work[rows.body];
+    done += work[rows.body];
     const auto thread = static_cast<std::size_t>(middle / all * threads);
-    shares[std::min(thread, shares.size() - 1)].push_back(row);
+    shares[std::min(thread, shares.size() - 1)].push_back(rows);
   }
   return shares;
 }
@@ -112,7 +113,7 @@ TotalLagrangian::Part TotalLagrangian::make_part(const AnyBody& any, const Nodes
 }
 
 void TotalLagrangian::share_work() {
-  std::vector<std::pair<std::size_t, int>> particle_rows, node_rows;
+  std::vector<Rows> particle_rows, node_rows;
   std::vector<double> particle_work, node_work;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Lattice& lattice = particle_fields_of(bodies_[b]).lattice;
@@ -121,21 +122,14 @@ void TotalLagrangian::share_work() {
     particle_work.push_back(fields * lattice.padded_columns);
     node_work.push_back(static_cast<double>(nodes_[b].stride));
     // Rows of particles in one row of cells write the same nodes and stay together.
-    for (int j = 0; j < lattice.rows(); j += lattice.stride) particle_rows.emplace_back(b, j);
-    for (int j = 0; j < nodes_[b].rows; ++j) node_rows.emplace_back(b, j);
+    for (int j = 0; j < lattice.rows(); j += lattice.stride)
+      particle_rows.push_back({b, j, j + lattice.stride});
+    for (int j = 0; j < nodes_[b].rows; ++j) node_rows.push_back({b, j, j + 1});
     particle_totals_.emplace_back(static_cast<std::size_t>(lattice.rows()));
     node_totals_.emplace_back(static_cast<std::size_t>(nodes_[b].rows));
   }
-  const int threads = team_->threads();
-  for (const auto& share : divided_among_threads(particle_rows, particle_work, threads)) {
-    particle_rows_.emplace_back();
-    for (const auto& [b, j] : share)
-      particle_rows_.back().push_back({b, j, j + particle_fields_of(bodies_[b]).lattice.stride});
-  }
-  for (const auto& share : divided_among_threads(node_rows, node_work, threads)) {
-    node_rows_.emplace_back();
-    for (const auto& [b, j] : share) node_rows_.back().push_back({b, j, j + 1});
-  }
+  particle_rows_ = divided_among_threads(particle_rows, particle_work, team_->threads());
+  node_rows_ = divided_among_threads(node_rows, node_work, team_->threads());
 }
 
 void TotalLagrangian::load_across(const scene::ChamberFace& face) {

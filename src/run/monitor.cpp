@@ -69,25 +69,16 @@ const math::AlignedArray* field_of(const mpm::AnyBody& any, std::string_view nam
 EnergyBalance energy_of(const mpm::Simulation& simulation) {
   const double whole = whole_shell(simulation);
   const mpm::EnergyTotals& totals = simulation.energy();
-  EnergyBalance balance{totals.kinetic,
-                        totals.internal,
-                        totals.external,
-                        totals.body_force,
-                        totals.damping - totals.step_change,
-                        totals.contact,
-                        totals.plastic,
-                        totals.viscous,
-                        totals.crack,
-                        totals.hourglass};
+  EnergyBalance balance{totals.kinetic, totals.internal, totals.external, totals.body_force,
+                        totals.damping, totals.contact,  totals.plastic,  totals.viscous,
+                        totals.crack,   totals.hourglass};
+  balance.damping -= totals.step_change;
   for (const auto& term : energy_terms) balance.*term.member *= whole;
   return balance;
 }
 
 MonitorSample monitor_sample(const mpm::Simulation& simulation, double time_step) {
-  MonitorSample sample;
-  sample.time = simulation.time();
-  sample.time_step = time_step;
-  sample.energy = energy_of(simulation);
+  MonitorSample sample{.time = simulation.time(), .time_step = time_step, .energy = energy_of(simulation)};
   for (const mpm::AnyBody& body : simulation.bodies()) {
     sample.largest_plastic_strain =
         std::max(sample.largest_plastic_strain, largest_of(field_of(body, "plastic_strain")));

@@ -87,10 +87,9 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
   std::iota(all_stations.begin(), all_stations.end(), std::size_t{0});
   SkinHistory history;
   history.temperature.assign(trace.samples() * stations, model.initial_temperature);
-  for (std::size_t sample = 0; sample < trace.samples(); ++sample) {
+  for (std::size_t sample = 0; sample < trace.samples(); ++sample)
     history.air_temperature.push_back(
         materials::adiabatic_temperature(model.surface.air, intervals.pressure_at(sample)));
-  }
   std::vector<SkinPoint> points(stations, SkinPoint{model.initial_temperature});
   std::vector<bool> was_ignited(stations, false);
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {

@@ -1,7 +1,7 @@
 // Cost of a law's whole update as the step calls it, eight particles at a time; items are particles.
 #include "launchsafe/materials/laws.hpp"
 
-#include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/math/pack.hpp"
 
 #include <benchmark/benchmark.h>
 

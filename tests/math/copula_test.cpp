@@ -1,4 +1,4 @@
-#include "launchsafe/math/copula.hpp"
+#include "launchsafe/math/sampling.hpp"
 
 #include <gtest/gtest.h>
 

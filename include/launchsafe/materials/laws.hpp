@@ -43,22 +43,10 @@ inline std::size_t state_size(const Law& law) {
   return std::visit([](const auto& each) { return each.state.size(); }, law);
 }
 
-namespace detail {
-template <class Laws>
-struct ForEachLaw;
-template <class... Each>
-struct ForEachLaw<std::variant<Each...>> {
-  template <class F>
-  static void call(F&& f) {
-    (f(Each{}), ...);
-  }
-};
-}  // namespace detail
-
 /// Calls f with a default of every law there is, in their order.
 template <class F>
 void for_each_law(F&& f) {
-  detail::ForEachLaw<Law>::call(f);
+  boost::mp11::mp_for_each<Law>(f);
 }
 
 /// Whether a particle of the law carries a number of that name.

@@ -4,20 +4,16 @@
 
 #include "launchsafe/materials/unreacted_jwl.hpp"
 
+#include <boost/mp11/algorithm.hpp>
+
 namespace launchsafe::materials {
 
 using UnreactedEos = std::variant<UnreactedJwl>;
 
-namespace detail {
-template <class Laws>
-struct IsentropesOf;
-template <class... Each>
-struct IsentropesOf<std::variant<Each...>> {
-  using type = std::variant<typename Each::Isentrope...>;
-};
-}  // namespace detail
+template <class Eos>
+using IsentropeOf = typename Eos::Isentrope;
 /// Its pressure (Pa) at V = 1 + x, as a step computes it.
-using UnreactedIsentrope = detail::IsentropesOf<UnreactedEos>::type;
+using UnreactedIsentrope = boost::mp11::mp_transform<IsentropeOf, UnreactedEos>;
 
 inline UnreactedIsentrope isentrope_of(const UnreactedEos& eos) {
   return std::visit([](const auto& each) -> UnreactedIsentrope { return each.isentrope(); }, eos);

@@ -57,9 +57,8 @@ Real whole_power(Real x, int n) {
 template <class Real>
 Real power(Real x, double exponent) {
   const int whole = exponent >= 1.0 && exponent <= 64.0 ? static_cast<int>(exponent) : 0;
-  if (static_cast<double>(whole) < exponent || static_cast<double>(whole) > exponent) {
+  if (static_cast<double>(whole) < exponent || static_cast<double>(whole) > exponent)
     return math::pow(x, Real(exponent));
-  }
   return whole_power(x, whole);
 }
 

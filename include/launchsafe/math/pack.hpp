@@ -6,14 +6,21 @@
 // (any(mask))`.
 #pragma once
 
+#include <boost/align/aligned_allocator.hpp>
+
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace launchsafe::math {
+
+/// Arrays that start on a cache line, so that reading a Pack never straddles two.
+inline constexpr std::size_t cache_line = 64;
+using AlignedArray = std::vector<double, boost::alignment::aligned_allocator<double, cache_line>>;
 
 /// Doubles of a Pack: those of one register. Wider ones are compared and selected lane by lane by the
 /// compiler.

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "launchsafe/materials/burning_mixture.hpp"
-#include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 namespace launchsafe::mpm {
@@ -142,17 +142,8 @@ struct Body {
   math::Deviator<double> deviator(std::size_t slot) const { return Law::deviator(at(slot)); }
 };
 
-namespace detail {
-template <class Laws>
-struct BodiesOf;
-template <class... Law>
-struct BodiesOf<std::variant<Law...>> {
-  using type = std::variant<Body<Law>...>;
-};
-}  // namespace detail
-
 /// A body of any law.
-using AnyBody = detail::BodiesOf<materials::Law>::type;
+using AnyBody = boost::mp11::mp_transform<Body, materials::Law>;
 
 /// Particles that tile the body exactly, at rest and free of stress.
 AnyBody make_body(const scene::Scene& scene, int body);

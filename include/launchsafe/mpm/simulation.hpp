@@ -75,18 +75,12 @@ class Simulation {
   const std::vector<AnyBody>& bodies() const { return bodies_; }
   /// The bodies of one law, in the same order.
   template <class Law>
-  std::vector<std::reference_wrapper<Body<Law>>> bodies_of() {
-    std::vector<std::reference_wrapper<Body<Law>>> found;
-    for (AnyBody& body : bodies_)
-      if (auto* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
-    return found;
+  auto bodies_of() {
+    return listed<Law, Body<Law>>(bodies_);
   }
   template <class Law>
-  std::vector<std::reference_wrapper<const Body<Law>>> bodies_of() const {
-    std::vector<std::reference_wrapper<const Body<Law>>> found;
-    for (const AnyBody& body : bodies_)
-      if (const auto* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
-    return found;
+  auto bodies_of() const {
+    return listed<Law, const Body<Law>>(bodies_);
   }
   /// Calls f(particle fields) for every body, in the order of Scene::bodies.
   template <class F>
@@ -119,6 +113,14 @@ class Simulation {
   void apply_body_force(int body, double acceleration_x, double acceleration_r);
 
  private:
+  /// The bodies of a law, each as One.
+  template <class Law, class One, class Bodies>
+  static std::vector<std::reference_wrapper<One>> listed(Bodies& bodies) {
+    std::vector<std::reference_wrapper<One>> found;
+    for (auto& body : bodies)
+      if (One* one = std::get_if<Body<Law>>(&body)) found.emplace_back(*one);
+    return found;
+  }
   void add_to_energy(const StepTotals& totals, const StepInput& begin);
   double change_of_bulk(const BulkMotion& bulk, const StepInput& step);
   /// Of the frame, m/s2, under a pressure of the chamber (Pa).

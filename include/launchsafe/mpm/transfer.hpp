@@ -6,7 +6,7 @@
 // that is fixed.
 #pragma once
 
-#include "launchsafe/math/aligned_array.hpp"
+#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 namespace launchsafe::mpm {

@@ -2,7 +2,7 @@
 // computed.
 #pragma once
 
-#include "launchsafe/math/copula.hpp"
+#include "launchsafe/math/sampling.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"
