@@ -10,7 +10,6 @@
 #include <toml++/impl/version.h>
 #include <unistd.h>
 
-#include <array>
 #include <ctime>
 
 // Libraries of the modules above, known here by their headers alone.

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "launchsafe/materials/burning_mixture.hpp"
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 namespace launchsafe::mpm {

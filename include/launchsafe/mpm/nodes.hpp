@@ -1,7 +1,6 @@
 // Nodes of one body on the shared rectilinear lattice, and the tie of nodes that lie at one place.
 #pragma once
 
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 namespace launchsafe::mpm {

@@ -6,7 +6,6 @@
 // that is fixed.
 #pragma once
 
-#include "launchsafe/math/pack.hpp"
 #include "launchsafe/scene/mesh.hpp"
 
 namespace launchsafe::mpm {

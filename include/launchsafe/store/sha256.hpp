@@ -6,8 +6,7 @@
 
 namespace launchsafe::store {
 
-/// Digest of `bytes` as 64 lower-case hexadecimal digits. Throws std::runtime_error when libcrypto cannot (it
-/// lacks memory, or its configuration forbids SHA-256).
+/// Digest of `bytes` as 64 lower-case hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace launchsafe::store
