@@ -64,14 +64,19 @@ ClosingPoint with_share(ClosingPoint point, const StudyCase& input, const Closin
   return point;
 }
 
-/// Takes one more launch into a point: the hotter one counts, and one without a temperature leaves none.
+/// Takes one more launch into a point: one that ignites says enough, whatever another one lacks; else the
+/// hotter one counts, and one without a temperature leaves none.
 void join(const ClosingPoint& launch, ClosingPoint& point) {
   point.launches += launch.launches;
-  point.ignited = point.ignited || launch.ignited;
   point.at_most = larger_bound(point.at_most, launch.at_most);
   point.recorded = point.recorded && launch.recorded;
-  if (!point.unknown_for.empty()) return;
-  if (launch.unknown_for.empty() && launch.maximum_temperature <= point.maximum_temperature) return;
+  const bool counts =
+      launch.ignited != point.ignited
+          ? launch.ignited
+          : point.unknown_for.empty() &&
+                (!launch.unknown_for.empty() || !(launch.maximum_temperature <= point.maximum_temperature));
+  if (!counts) return;
+  point.ignited = launch.ignited;
   point.unknown_for = launch.unknown_for;
   point.maximum_temperature = launch.maximum_temperature;
   point.place = launch.place;

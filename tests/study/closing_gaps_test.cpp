@@ -291,6 +291,17 @@ TEST(ClosingGaps, OneReleaseThatIsNotKnownLeavesTheCornerUnknown) {
   EXPECT_TRUE(std::isinf(answers.front().upper));
 }
 
+TEST(ClosingGaps, ALaunchThatIgnitesIsToldBesideOnesThatAreNotKnown) {
+  const auto answers = answers_of([](const Launch& launch) {
+    if (launch.surface.roughness > 5e-6 || launch.gap < 1.5e-4) return 400.0;
+    return launch.surface.release < 9e-3 ? std::numeric_limits<double>::quiet_NaN() : 600.0;
+  });
+  const ClosingPoint& corner = *answers.back().at(2e-4);
+  EXPECT_TRUE(corner.ignited);
+  EXPECT_EQ(corner.maximum_temperature, 600.0);
+  EXPECT_EQ(corner.unknown_for, "");
+}
+
 TEST(ClosingGaps, ALaunchThatSomethingWarnsOfLeavesItsGapUnknown) {
   const auto answers = answers_of(closing_study(), [](const CaseRun& asked) {
     FinishedRun run = launch_of(asked, 400.0);
