@@ -226,6 +226,7 @@ SurrogateRecord surrogate_record(const SensitivityResult& result) {
     record.outputs.push_back(output.fit ? *output.fit : unfitted(result, output));
     if (!output.fit || is_by_fit(result.study.study)) record.outputs.back().reason = output.reason;
   }
+  predict_from_sound_launches(record, result.answers);
   return record;
 }
 

@@ -248,8 +248,8 @@ std::string samples_text(const SensitivityResult& result) {
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
-    if (gap->fit && gap->fit->reason.empty() && gap->reason.empty()) {
-      const study::SurrogateRecord record = surrogate_record(result);
+    const study::SurrogateRecord record = gap->fit ? surrogate_record(result) : study::SurrogateRecord{};
+    if (gap->reason.empty() && record.predicted(report::quantity::critical_gap.name) != nullptr) {
       const study::PredictedIgnitions of = ignitions_of(study::drawn_critical_gaps(record), record.gap);
       facts["fit"] = {{"draws", of.draws},
                       {"predicted", of.predicted},
@@ -257,7 +257,7 @@ std::string samples_text(const SensitivityResult& result) {
                       {"uncovered", of.uncovered}};
     }
     for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
-      facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
+      if (!sample.values.empty()) facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
   }
   return said("sensitivity.samples", facts).front();
 }

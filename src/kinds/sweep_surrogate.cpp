@@ -190,6 +190,17 @@ std::string gap_reason(const std::vector<CaseAnswer>& answers, std::string other
   return fmt::format("{} (the first without a number: {})", otherwise, gap_remark(*first));
 }
 
+void predict_from_sound_launches(SurrogateRecord& record, const std::vector<CaseAnswer>& answers) {
+  const auto has_warnings = [](const CaseAnswer& answer) { return !answer.validity_warnings.empty(); };
+  const auto unsound = std::ranges::count_if(answers, has_warnings);
+  if (unsound == 0) return;
+  const CaseAnswer& first = *std::ranges::find_if(answers, has_warnings);
+  for (SurrogateOutput& output : record.outputs)
+    if (output.reason.empty())
+      output.reason = fmt::format("{} of {} launches have validity warnings, such as: {}", unsound,
+                                  answers.size(), first.validity_warnings.front());
+}
+
 std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, const StudyFile& study) {
   return {{"surrogate.json", to_json_text(record)}, {"ask.html", ask_page(record, study)}};
 }
@@ -241,9 +252,11 @@ SurrogateRecord sweep_surrogate(const CriticalGapResult& result) {
   for (std::size_t gap = 0; gap < study.study.gaps.size(); ++gap)
     fit_output(record, record.outputs.emplace_back(temperature_output(result, gap)));
   SurrogateOutput& critical = record.outputs.emplace_back(critical_gap_output(result));
-  if (!critical.reason.empty()) return record;
-  fit_output(record, critical);
-  critical.reason = gap_reason(result.answers, critical.reason);
+  if (critical.reason.empty()) {
+    fit_output(record, critical);
+    critical.reason = gap_reason(result.answers, critical.reason);
+  }
+  predict_from_sound_launches(record, result.answers);
   return record;
 }
 

@@ -45,6 +45,20 @@ TEST(Sweep, AFitOverItsCasesIsHeldAgainstThoseBetweenOthers) {
   EXPECT_NE(std::ranges::find(written.files, "ask.html", &report::TextFile::name), written.files.end());
 }
 
+TEST(Sweep, NothingIsPredictedFromLaunchesWithValidityWarnings) {
+  StudyOptions options;
+  options.runners = synthetic_runners();
+  CriticalGapResult result =
+      run_critical_gap(sweep_of("0, 0.02 cm", nine_by_eight(), "0.2 cm", {}, asks_fit), options);
+  result.answers[5].validity_warnings = {"its stations are thinner than a cell"};
+  const auto record = fit_in(report_of(result));
+  ASSERT_TRUE(record) << record.error().message();
+  for (const SurrogateOutput& output : record->outputs)
+    EXPECT_EQ(output.reason,
+              "1 of 72 launches have validity warnings, such as: its stations are thinner than a cell")
+        << output.name;
+}
+
 TEST(Sweep, CriticalGapsThatAreBoundsAreNotFitted) {
   StudyOptions options;
   options.runners = synthetic_runners();

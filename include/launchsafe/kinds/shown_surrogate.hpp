@@ -17,6 +17,10 @@ report::Quantities<study::SurrogateOutput> fit_quantities();
 /// them that is no number is none; empty where there is no such reason.
 std::string gap_reason(const std::vector<study::CaseAnswer>& answers, std::string otherwise = {});
 
+/// Predicts nothing where launches behind a fit have validity warnings: what they do is not known.
+void predict_from_sound_launches(study::SurrogateRecord& record,
+                                 const std::vector<study::CaseAnswer>& answers);
+
 /// surrogate.json, and ask.html, which answers from the same fit. `study` has its inputs as axes.
 std::vector<report::TextFile> surrogate_files(const study::SurrogateRecord& record,
                                               const study::StudyFile& study);
