@@ -130,12 +130,15 @@ void check_matrix(StudyFile& study) {
     const auto& stated = settings_of<SensitivitySettings>(study).stated;
     std::size_t entry = stated.size() - 1;
     while (std::ranges::find(names, stated[entry].one) == names.end()) --entry;
-    refuse_at(study, study_key(entry, "coefficient"),
-              fmt::format("correlations of {} whose matrix has an eigenvalue of {:.2g}",
-                          fmt::join(names, ", "), eigenvalue),
-              fmt::format("eigenvalues of at least {:g}: coefficients nearer to 0, or one input in place of "
-                          "those that follow from each other; what is not stated is 0",
-                          least));
+    refuse_at(
+        study, study_key(entry, "coefficient"),
+        fmt::format("correlations of {} that contradict each other, or leave next to nothing of an input "
+                    "to itself: the smallest eigenvalue of their matrix is {:.2g}",
+                    fmt::join(names, ", "), eigenvalue),
+        fmt::format("a smallest eigenvalue of at least {0:g} (of two inputs: a coefficient from -{1:g} to "
+                    "{1:g}): coefficients nearer to 0, or one input in place of those that follow from "
+                    "each other; what is not stated is 0",
+                    least, 1.0 - least));
   }
 }
 

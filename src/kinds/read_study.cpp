@@ -178,10 +178,8 @@ SceneFile read_named_scene(const std::string& name, const std::filesystem::path&
   const std::filesystem::path path = folder / name;
   std::error_code status;
   if (std::filesystem::exists(path, status)) return taken(scene::read_scene(path));
-  const auto missing = scene::read_text_file(path);
   throw error_at(place, key, fmt::format("\"{}\", which does not exist", name),
-                 "a scene file, by its path from the study file's folder",
-                 missing ? std::string{} : missing.error().suggestion);
+                 "a scene file, by its path from the study file's folder", scene::nearest_file(folder, name));
 }
 
 study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,

@@ -147,7 +147,7 @@ void check_reason(const std::string& text, const Place& place, const std::string
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (is_in_words(text) && !has_invisible(text) && std::ranges::none_of(text, is_control)) return;
   throw error_at(
-      place, key, fmt::format("a reason of {} characters", text.size()),
+      place, key, fmt::format("\"{}\"", text),
       fmt::format(
           "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",
           fewest_letters));

@@ -79,20 +79,6 @@ struct Close {
   }
 };
 
-/// The nearest name in the folder of a file that does not exist, in quotation marks; empty for none.
-std::string nearest_file(const std::filesystem::path& file) {
-  std::error_code failure;
-  std::vector<std::string> names;
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  for (std::filesystem::directory_iterator entry(folder, failure), end; !failure && entry != end;
-       entry.increment(failure)) {
-    names.push_back(entry->path().filename().string());
-  }
-  std::ranges::sort(names);
-  const std::string near = nearest_of(file.filename().string(), names);
-  return near.empty() ? near : in_quotes((file.parent_path() / near).string());
-}
-
 /// What a path leads to that is no regular file.
 std::string_view kind_of(const struct stat& status) {
   if (S_ISDIR(status.st_mode)) return "a folder";
@@ -247,8 +233,23 @@ Expected<std::string> read_text_file(const std::filesystem::path& file, std::siz
   auto text = read_regular_file(file, largest);
   if (text || !text.error().file_missing) return text;
   InputError error = text.error();
-  error.suggestion = quotable(nearest_file(file), longest_quoted);
+  error.suggestion = nearest_file({}, file);
   return error;
+}
+
+std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  std::error_code failure;
+  std::vector<std::string> names;
+  const auto beside = folder / name.parent_path();
+  for (std::filesystem::directory_iterator entry(beside.empty() ? "." : beside, failure), end;
+       !failure && entry != end; entry.increment(failure)) {
+    names.push_back(entry->path().filename().string());
+  }
+  std::ranges::sort(names);
+  if (std::ranges::binary_search(names, name.filename().string()))
+    return {};  // it is there, as something else
+  const std::string near = nearest_of(name.filename().string(), names);
+  return near.empty() ? near : quotable(in_quotes((name.parent_path() / near).string()), longest_quoted);
 }
 
 InputContent content_of(const toml::table& root) {

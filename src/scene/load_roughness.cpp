@@ -196,7 +196,7 @@ std::string roughness_text(const Load& load) {
   text += fmt::format(": {} of the elastic friction heat is that of noise",
                       percent(roughness / (1.0 + roughness)));
   const auto window = suggested_smoothing(load);
-  if (!window) return text;
+  if (!window || ring_of(load)) return text;  // of a ring its own period is the window
   const Load smoothed = averaged(load, *window);
   return text + fmt::format("; load.smoothing = \"{}\" leaves {:.4f} and takes {} from the peak",
                             time_text(*window), load_roughness(smoothed),

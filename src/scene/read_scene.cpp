@@ -31,12 +31,10 @@ void read_curve_file(SceneFile& file) {
   if (load.curve_file.empty()) return;
   const std::filesystem::path path = file.folder / load.curve_file;
   std::error_code status;
-  if (!std::filesystem::exists(path, status)) {
-    const auto missing = read_text_file(path);
+  if (!std::filesystem::exists(path, status))
     throw fault_at(file, "load.curve", fmt::format("\"{}\", which does not exist", load.curve_file),
                    "a CSV file, by its path from the scene file's folder",
-                   missing ? std::string{} : missing.error().suggestion);
-  }
+                   nearest_file(file.folder, load.curve_file));
   PressureCurve curve = read_pressure_curve(path).or_throw();
   load.curve_time = std::move(curve.time);
   load.curve_pressure = std::move(curve.pressure);
@@ -165,7 +163,7 @@ void read_own_materials(const toml::table& table, SceneFile& file, std::vector<N
                      fmt::format("\"{}\", which cannot be read", named),
                      "a TOML file with tables [material.NAME] and [contact.NAME], by its path from the "
                      "scene file's folder",
-                     text.error().suggestion);
+                     nearest_file(file.folder, named));
     const toml::table content = parse_toml(*text, path.string()).or_throw();
     check_material_tables(content, path.string());
     add(content, path.string());

@@ -79,7 +79,7 @@ TEST(CorrelatedInputs, TheConstantsOfACalibrationHaveTheCovarianceOfItsRecord) {
 
 TEST(CorrelatedInputs, FaultsOfACalibrationAsInputNameFileLineKeyFoundAndAllowed) {
   expect_input_error("calibration = \"nowhere.json\"",
-                     {5, "vary.calibration", "cannot be read", "load_fitted = true"});
+                     {5, "vary.calibration", "does not exist", "load_fitted = true"});
   expect_input_error("calibration = 3", {5, "vary.calibration", "3", "a text"});
   expect_input_error("calibration = \"a.json\"\nrange = \"1 to 2 K\"", {6, "vary.range", "unknown"});
   const std::string width = input("key = \"load.width\"\ndistribution = \"uniform\"\nrange = \"2 to 3 ms\"");
@@ -224,13 +224,13 @@ TEST(CorrelatedInputs, FaultsOfCorrelationsNameFileLineKeyFoundAndAllowed) {
   expect_error_in(sensitivity_start + "correlation = 3\n" + peak, {4, "correlation", "3", "[[correlation]]"});
   // 0.9 and 0.9 leave the third 0.62 at least.
   const std::string chain = correlation(pair, "0.9") + correlation("\"load.peak\", \"crack_radius\"", "0.9");
-  expect_fault(chain + correlation("\"initial_temperature\", \"crack_radius\"", "0.6"),
-               {25, "correlation.coefficient",
-                "load.peak, initial_temperature, charge.crack_radius whose matrix has an eigenvalue of -0",
-                "at least 0.01"});
+  expect_fault(
+      chain + correlation("\"initial_temperature\", \"crack_radius\"", "0.6"),
+      {25, "correlation.coefficient",
+       "load.peak, initial_temperature, charge.crack_radius that contradict each other", "at least 0.01"});
   // Two inputs have eigenvalues of 1 - 0.99 and 1 + 0.99.
   expect_fault(correlation(pair, "-0.991"),
-               {19, "correlation.coefficient", "an eigenvalue of 0.009", "at least 0.01"});
+               {19, "correlation.coefficient", "of their matrix is 0.009", "from -0.99 to 0.99"});
   EXPECT_TRUE(parse_here(sensitivity_start + peak + initial + crack + correlation(pair, "-0.99")));
   EXPECT_TRUE(parse_here(sensitivity_start + peak + initial + crack + chain +
                          correlation("\"initial_temperature\", \"crack_radius\"", "0.7")));

@@ -152,8 +152,7 @@ TEST(ReadStudy, AnUncertaintyThatIsStatedByHandNeedsItsSourceInWords) {
     expect_error(key + " = {}", key, "without a source", "in words");
     expect_error(key + " = { value = \"2 K\" }", key + ".value", "without a source", key + " = {");
     expect_error(key + " = { because = \"for a test\" }", key + ".because", "without a value", key + " = {");
-    expect_error(key + " = { value = \"2 K\", because = \"x\" }", key + ".because", "1 characters",
-                 "in words");
+    expect_error(key + " = { value = \"2 K\", because = \"x\" }", key + ".because", "\"x\"", "in words");
     expect_error(key + " = { value = \"2 K\", becuase = \"for a test\" }", key + ".becuase", "unknown key");
   }
 }

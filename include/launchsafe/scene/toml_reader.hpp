@@ -55,6 +55,9 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
 /// The same of a file that a user named: in the place of a missing one the nearest name in its folder is
 /// suggested.
 Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input);
+/// What to suggest in the place of a file that does not exist, named by its path from a folder: such a path
+/// with the nearest name there is beside it, in quotation marks; empty for none.
+std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name);
 
 /// One value of a table, checked against its key.
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file);
