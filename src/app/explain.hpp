@@ -29,6 +29,8 @@ Json plausibility_json(const scene::Scene& scene);
 std::string rings_text(const scene::Load& load, const scene::Scene& shell);
 /// The same in SI, with all modes; null without rings.
 Json rings_json(const scene::Load& load, const scene::Scene& shell);
+/// What of a launch a load does not cover, for which no verdict stands; empty for none.
+std::string uncovered_text(const scene::Load& load);
 
 /// Totals, then a row for each of the first mechanical runs. `folder` holds the store that the rate was
 /// learned from, if any. `begin`: when the study begins, whose end is told then.

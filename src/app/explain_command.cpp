@@ -144,12 +144,7 @@ ExitCode explain_study(const path& place, Console& console) {
   console.remarks(file.scene.notes);
   const Forecast forecast =
       study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
-  const std::vector<std::string> lines = plausibility_lines(file);
-  Json object = forecast_json(file, forecast);
-  object["implausible"] = lines;
-  return console.done(forecast_text(file, forecast, {}) +
-                          checks_text(lines, study::acceptances_of(file), file.scene.scene.accepted),
-                      object);
+  return console.done(forecast_text(file, forecast, {}), forecast_json(file, forecast));
 }
 
 /// What of these options makes no sense together; empty for nothing.
@@ -200,7 +195,8 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
     facts["end"] = report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin);
   for (const auto& [key, value] : file.overrides)
     facts["overrides"].push_back(fmt::format("{:<19} {}", key, value));
-  return told("forecast.txt", facts);
+  return told("forecast.txt", facts) +
+         checks_text(facts["implausible"], study::acceptances_of(file), scene.accepted);
 }
 
 Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
@@ -231,6 +227,7 @@ Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
           {"disk_bytes", forecast.disk},
           {"predicted_time_s", forecast.time},
           {"predicted_time_of_coupled_runs_s", forecast.confirmation_time},
+          {"implausible", plausibility_lines(file)},
           {"runs", report::json_rows(run_table(forecast.runs))}};
 }
 

@@ -1,5 +1,6 @@
 #include "explain.hpp"
 #include "launchsafe/run/axial_modes.hpp"
+#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/scene/chamber.hpp"
 #include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/mesh.hpp"
@@ -168,11 +169,18 @@ Json rings_json(const scene::Load& load, const scene::Scene& shell) {
   return {{"rings", rings_json}, {"axial_modes", modes_json}};
 }
 
+std::string uncovered_text(const scene::Load& load) {
+  const std::vector<std::string> uncovered = run::uncovered_load(load);
+  if (uncovered.empty()) return {};
+  return fmt::format("\nNot covered: every verdict under this load is INDETERMINATE\n  {}\n",
+                     fmt::join(uncovered, "\n  "));
+}
+
 std::string scene_text(const scene::Scene& scene, double update_rate) {
   std::string text =
       scene::to_text(scene::make_plan(scene), scene, update_rate) + "\nGrid\n" +
       indented(report::to_text(interval_table(scene)) + "\n" + report::to_text(body_table(scene)));
-  text += rings_text(scene.load, scene);
+  text += rings_text(scene.load, scene) + uncovered_text(scene.load);
   if (scene.output.asks_for_snapshots())
     text += fmt::format("\nSnapshots\n  {}\n", run::to_text(run::snapshot_size(scene)));
   if (const auto refusal = run::out_of_reach(scene, reach_here()))
@@ -207,7 +215,8 @@ Json load_json(const scene::Scene& scene) {
           {"stated_peak_pa", history.stated_peak()},
           {"smoothing_s", load.smoothing},
           {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
-          {"roughness", scene::load_roughness(load)}};
+          {"roughness", scene::load_roughness(load)},
+          {"uncovered", run::uncovered_load(load)}};
 }
 
 Json plausibility_json(const scene::Scene& scene) {

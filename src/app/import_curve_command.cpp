@@ -89,7 +89,8 @@ Json json_of(const Import& import) {
           {"peak_MPa", 1e-6 * cleaned.peak},
           {"peak_time_ms", 1e3 * cleaned.peak_time},
           {"end_ms", 1e3 * cleaned.curve.time.back()},
-          {"roughness", scene::load_roughness(import.load)}};
+          {"roughness", scene::load_roughness(import.load)},
+          {"uncovered", run::uncovered_load(import.load)}};
 }
 
 /// The curve and its picture, beside each other. A curve is whole without its picture.
@@ -126,6 +127,7 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   const std::string done = what_was_done(arguments, import, store::sha256(text));
   console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
   if (shell) console.print_text(rings_text(import.load, shell->scene));
+  console.print_text(uncovered_text(import.load));
   Json json = json_of(import);
   if (shell) json["rings_of_the_record"] = rings_json(import.load, shell->scene);
   console.print_json(json);
