@@ -158,6 +158,7 @@ Plot model_form_plot(const ModelForm& form) {
       series.style = Style::dashed_line;
       series.colour = grey;
     } else {
+      if (coloured == grey) ++coloured;
       series.colour = coloured++;
     }
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {

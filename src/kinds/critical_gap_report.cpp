@@ -136,6 +136,7 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.details) {
     Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update({{"why", text_of(outcome.critical.reason)},
+                {"by_reservoir", !outcome.input.closing},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
     lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());
@@ -207,6 +208,11 @@ void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, P
     line.add(shown_gap(gap), fitted.intercept + fitted.slope * shown_gap(gap));
 }
 
+/// What a picture adds to SAFE where no gap that closes was looked at: it is shown beside other studies too.
+std::string by_whose_air(const CaseOutcome& outcome) {
+  return outcome.input.closing ? "" : " by a reservoir of air";
+}
+
 /// The only case, in a colour for each verdict.
 void add_only_case(const CaseOutcome& outcome, Plot& plot) {
   constexpr int grey = 7, green = 2, orange = 4, vermilion = 1;
@@ -215,8 +221,8 @@ void add_only_case(const CaseOutcome& outcome, Plot& plot) {
     series.colour = colour;
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   };
-  for (const auto& [verdict, colour] : {std::pair{Verdict::safe, green}, {Verdict::indeterminate, orange}})
-    add(inert_series(outcome, study::to_string(verdict), verdict), colour);
+  add(inert_series(outcome, "SAFE" + by_whose_air(outcome), Verdict::safe), green);
+  add(inert_series(outcome, study::to_string(Verdict::indeterminate), Verdict::indeterminate), orange);
   add(ignited_series(outcome), vermilion);
 }
 
@@ -248,7 +254,8 @@ void cut_above(double ignition, Plot& plot) {
 std::string finding_of(const CaseOutcome& outcome) {
   const double safe = study::largest_safe_gap(outcome.verdicts);
   return fmt::format("Critical gap {}; {}", reads_as(outcome.critical),
-                     std::isfinite(safe) ? "of the computed gaps SAFE up to " + centimetres(safe)
+                     std::isfinite(safe) ? fmt::format("computed gaps SAFE up to {}{}", centimetres(safe),
+                                                       by_whose_air(outcome))
                                          : "none of the computed gaps is SAFE");
 }
 

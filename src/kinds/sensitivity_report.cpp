@@ -382,9 +382,10 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
   const auto order =
       study::places_by(shown.size(), [&](std::size_t i) { return -output.sobol.inputs[i].total.value; });
   Plot plot;
+  const double largest = output.sobol.inputs[order.front()].total.value;
   plot.title =
-      fmt::format("{} makes {} % of the variance of {}", report::plain_words(shown[order.front()].name),
-                  report::fixed(100.0 * output.sobol.inputs[order.front()].total.value, 0),
+      fmt::format("{} makes {} of the variance of {}", report::plain_words(shown[order.front()].name),
+                  largest > 1.0 ? "all, within sampling error," : report::fixed(100.0 * largest, 0) + " %",
                   shown_output(output.output).phrase + at_gap(study, output.output));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);

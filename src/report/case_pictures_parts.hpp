@@ -20,7 +20,7 @@ Plot time_plot(const DrawnCase& drawn, std::string title, std::string quantity);
 /// Pressures of chamber and charge's bottom against time.
 Plot load_plot(const DrawnCase& drawn);
 /// Values of a quantity against times, all in SI.
-Series time_series(const char* label, const std::vector<double>& time, const std::vector<double>& values,
+Series time_series(std::string label, const std::vector<double>& time, const std::vector<double>& values,
                    const Column& quantity);
 
 /// Values in SI in the unit of a quantity.

@@ -121,7 +121,10 @@ Measured measured(double value, double minus, double plus) {
 std::optional<Measured> measured_gap(double value, double at_least, double at_most) {
   const double minus = value - at_least, plus = at_most - value;
   if (!std::isfinite(minus) || !std::isfinite(plus) || !(std::max(minus, plus) > 0.0)) return std::nullopt;
-  return measured(value, minus, plus);
+  Measured shown = measured(value, minus, plus);
+  // No gap is below 0, though the value was cut.
+  if (at_least >= 0.0) shown.minus = std::min(shown.minus, shown.value);
+  return shown;
 }
 
 std::string allowed_text(double value, int decimals) {

@@ -390,10 +390,11 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
     if (&study == evidence.find(study.tells)) facts[study.tells] = tables;
     if (&study == &main) facts["main"] = std::move(tables);
   }
-  for (const std::string& name :
-       {tells::launch, tells::sweep, tells::models, tells::accuracy, tells::sensitivity, tells::stability})
-    if (!facts.contains(name)) facts["missing"] = true;
   facts["scene"] = scene_facts(main);
+  for (const std::string& name : {tells::launch, tells::sweep, tells::models, tells::accuracy,
+                                  tells::sensitivity, tells::stability, tells::closing})
+    if (!facts.contains(name) && !(name == tells::closing && facts["scene"]["closes"]))
+      facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion,

@@ -251,8 +251,8 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   if (facts["cases"] == 0) facts["is"]["planned"] = true;
   if (state == State::running) add_estimate(facts, writers, not_seen, now);
   facts["failures"] = failures_of(writers);
-  facts["largest_critical_gap_cm"] = largest;
   facts["critical_gaps"] = gaps_of(writers);
+  facts["largest_critical_gap_cm"] = facts["critical_gaps"].empty() ? Row() : Row(largest);
   if (!facts["critical_gaps"].empty()) facts["smallest"] = facts["critical_gaps"].front();
   return facts;
 }

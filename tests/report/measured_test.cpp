@@ -24,6 +24,8 @@ TEST(Measured, AValueHasTheDigitsOfItsUncertainty) {
 TEST(Measured, SharesWithASignMakeItAsymmetric) {
   EXPECT_EQ(measured(0.0395, 0.012, 0.005).text("cm"), "0.039 +0.006 −0.012 cm");
   EXPECT_EQ(measured(0.152, 0.083, 0.054).text("cm"), "0.152 +0.054 −0.083 cm");
+  // No gap is below 0, though the value was cut.
+  EXPECT_EQ(measured_gap(0.0439, 0.0, 0.1)->text("cm"), "0.043 +0.057 −0.043 cm");
 }
 
 TEST(Measured, RoundingNeverAllowsMoreThanWasComputed) {

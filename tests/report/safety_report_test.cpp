@@ -262,7 +262,7 @@ TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOth
   EXPECT_TRUE(has(page, "the base takes heat): no ignition up to 0.075 cm."));
   EXPECT_TRUE(has(page, "**Both models of the gap"));
   EXPECT_TRUE(has(page, "The critical gap is 0.038")) << "A is the main study, whichever comes first";
-  EXPECT_TRUE(has(file_of({closing}, "report.md"), "No computed gap has the verdict SAFE"));
+  EXPECT_TRUE(has(file_of({closing}, "report.md"), "no computed gap has the verdict SAFE"));
 }
 
 // Issue 34: SAFE only where the reservoir is SAFE and the worst corner of a gap that closes does not ignite.
@@ -297,7 +297,7 @@ TEST_F(SafetyReport, NoGapIsSafeBesideASweepOfGapsThatCloseAlone) {
   const path reservoir = shipped("critical_gap_155mm"), sweep = shipped("closing_sweep_155mm");
   const std::string page = file_of({reservoir, sweep}, "report.md");
   EXPECT_TRUE(has(page, "where the gap closes it is not SAFE: B"));
-  EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE"));
+  EXPECT_TRUE(has(page, "no computed gap has the verdict SAFE"));
   EXPECT_TRUE(has(page, "what they call SAFE is so in this report only where its table says so too"));
 }
 

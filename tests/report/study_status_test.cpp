@@ -56,7 +56,7 @@ TEST_F(StudyStatus, SaysHowFarARunningStudyIsAndThatItsEndIsAnEstimate) {
   cases         10 of 24 done, 3 failed, 14 left; 2 runs at work (launches)
   time left     about 10 min 00 s, until about 12:10: an estimate from the runs so far
   stored        5 runs, 2.5 MB
-  critical gap  0.03 cm (250 MPa) to 0.05 cm in 2 cases
+  critical gap  of 2 cases: smallest 0.03 cm (250 MPa), largest 0.05 cm
                 (of ignition alone, without uncertainty: preliminary, no verdict)
   failed        2 cases: timed out: it took long
   failed        1 case: the run failed: <memory>
