@@ -1,5 +1,4 @@
-#include "launchsafe/report/gap_criterion.hpp"
-
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 
 #include <regex>

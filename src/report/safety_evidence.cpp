@@ -1,14 +1,13 @@
 // What a safety report rests on: the folders of studies, read and held against what they say of themselves,
 // and against each other.
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/report/safety_report.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "launchsafe/study/closing_gaps.hpp"
 
 namespace launchsafe::report {
-namespace safety {
 namespace {
 
 using std::filesystem::path;
@@ -221,14 +220,14 @@ double bound_of(const CaseEvidence& judged) {
 
 /// But for round-off and the widths of their brackets, which what ignites without a gap has not.
 bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
-  double slack = 1e-6;  // cm
-  for (const CaseEvidence* each : {&a, &b}) {
-    const double width = number_of(*each->critical, "critical_gap_upper_cm") -
-                         number_of(*each->critical, "critical_gap_lower_cm");
-    if (std::isfinite(width)) slack += width;
-  }
+  constexpr double round_off = 1e-6;  // cm
+  const auto width = [](const Row& row) {
+    const double cm = number_of(row, "critical_gap_upper_cm") - number_of(row, "critical_gap_lower_cm");
+    return std::isfinite(cm) ? cm : 0.0;
+  };
   const double first = bound_of(a), second = bound_of(b);
-  return std::abs(first - second) <= slack || (std::isnan(first) && std::isnan(second));
+  return std::abs(first - second) <= round_off + width(*a.critical) + width(*b.critical) ||
+         (std::isnan(first) && std::isnan(second));
 }
 
 /// Whether two cases are of one launch, computed with the same numerics, or may be: that of a scene which
@@ -376,10 +375,9 @@ const StudyEvidence* held_against(const SafetyEvidence& evidence) {
   const StudyEvidence* launch = evidence.find(tells::launch);
   if (launch == nullptr || closes(*launch)) return nullptr;
   if (const StudyEvidence* closing = evidence.find(tells::closing)) return closing;
-  const auto sweep = std::ranges::find_if(evidence.studies, [](const StudyEvidence& study) {
-    return study.tells == tells::sweep && closes(study);
-  });
-  return sweep == evidence.studies.end() ? nullptr : &*sweep;
+  for (const StudyEvidence& study : evidence.studies)
+    if (study.tells == tells::sweep && closes(study)) return &study;
+  return nullptr;
 }
 
 double own_value(const StudyEvidence& study, const std::string& key) {
@@ -392,16 +390,8 @@ double CaseEvidence::value(const std::string& key) const {
   return found != changes.end() ? std::get<double>(found->value) : own_value(*study, key);
 }
 
-}  // namespace safety
-
 std::string StudyEvidence::command() const {
   return fmt::format("launchsafe study {} -o DIR", record.study.empty() ? "STUDY.toml" : record.study);
-}
-
-const Row& StudyEvidence::rows(const std::string& table) const {
-  static const Row none = Row::array();
-  const auto found = study.find(table);
-  return found != study.end() && found->is_array() ? *found : none;
 }
 
 const StudyEvidence* SafetyEvidence::find(const std::string& what) const {
@@ -419,15 +409,15 @@ const StudyEvidence& SafetyEvidence::main() const {
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders) try {
   SafetyEvidence evidence;
   for (const std::filesystem::path& folder : folders)
-    evidence.studies.push_back(safety::read_study(folder, evidence.studies.size()));
+    evidence.studies.push_back(read_study(folder, evidence.studies.size()));
   // A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
   if (evidence.find(tells::launch) == nullptr)
     for (StudyEvidence& study : evidence.studies)
       if (study.tells == tells::closing) study.tells = tells::launch;
-  safety::compare_studies(evidence);
-  safety::check_agreement(evidence);
-  safety::read_stored_runs(evidence);
-  safety::hold_against_closing_gaps(evidence);
+  compare_studies(evidence);
+  check_agreement(evidence);
+  read_stored_runs(evidence);
+  hold_against_closing_gaps(evidence);
   return evidence;
 } catch (const store::Error& error) {
   return error;

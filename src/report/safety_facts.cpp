@@ -8,7 +8,6 @@
 #include "launchsafe/study/verdict.hpp"
 
 namespace launchsafe::report {
-namespace safety {
 namespace {
 
 /// Verdict rows that page one holds.
@@ -65,7 +64,7 @@ std::vector<const Row*> shown_gaps(const Row& own) {
   std::vector<const Row*> shown = rows("verdicts where verdict SAFE largest gap_cm");
   auto next = rows("verdicts where verdict UNSAFE smallest gap_cm");
   if (next.empty() && !shown.empty()) next = rows("verdicts where verdict INDETERMINATE smallest gap_cm");
-  std::ranges::move(next, std::back_inserter(shown));
+  shown.insert(shown.end(), next.begin(), next.end());
   return shown.empty() ? rows("verdicts first 1") : shown;
 }
 
@@ -90,10 +89,7 @@ Row scene_facts(const StudyEvidence& study) {
             {"curve_points", scene.load.curve_time.size()},
             {"curve_file", scene.load.curve_file},
             {"smoothing_ms", in(millisecond, scene.load.smoothing)},
-            {"inputs", inputs_of(study.scene)},
-            {"held", Row::array()},
-            {"bodies", Row::array()},
-            {"left_out", Row::array()}};
+            {"inputs", inputs_of(study.scene)}};
   for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
     facts["held"].push_back(each.body + ": " + each.condition);
   for (const scene::Body& body : scene.bodies)
@@ -163,26 +159,24 @@ Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
   return {};
 }
 
-/// Whether the main study took the record that a study wrote: by its digest, or by a bound that its cases
-/// took from one.
-std::string record_text(const StudyEvidence& main, const StudyEvidence& study) {
-  if (study.tells != tells::models && study.tells != tells::accuracy) return {};
-  const bool used = std::ranges::any_of(study.record.files, [&](const store::WrittenFile& file) {
-    return main.record.manifest.input_text.find(file.sha256) != std::string::npos;
-  });
-  return used || !setting_of(main, study).is_null() ? "yes" : "no";
-}
-
 /// Of a study, without its tables: its manifest, but for its input, and what else is told of it.
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
   Row facts = store::to_json(study.record);
+  // The record that it wrote is the main study's by its digest, or by a bound that the cases took from it.
+  const bool has_record = study.tells == tells::models || study.tells == tells::accuracy;
+  const bool is_used = !setting_of(main, study).is_null() ||
+                       std::ranges::any_of(study.record.files, [&](const store::WrittenFile& file) {
+                         return main.record.manifest.input_text.find(file.sha256) != std::string::npos;
+                       });
   facts.erase("input");
   facts.update({{"label", study.label},
                 {"kind", study.kind},
                 {"command", study.command()},
                 {"scene_title", study.scene.scene.title},
                 {"finished", study.finished()},
-                {"record_used", record_text(main, study)},
+                {"record_used", !has_record ? ""
+                                : is_used   ? "yes"
+                                            : "no"},
                 {"own_scenes", study.tells == tells::stability},
                 {"all_differences", Row::array()},
                 {"differences", Row::array()},  // what a scene writes out changes no number
@@ -195,20 +189,7 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
   return facts;
 }
 
-/// Whether a study is of the main one's launch: numerics may differ, and what it varies itself.
-bool is_of_same_launch(const StudyEvidence& study) {
-  return std::ranges::none_of(study.differences, [&](const study::Difference& each) {
-    const auto varies = [&](const Row& input) { return text_of(input, "scene_key") == each.key.name; };
-    return is_of_launch(each) && !each.key.name.starts_with("numerics.") &&
-           std::ranges::none_of(study.rows("inputs"), varies);
-  });
-}
-
 // --- cases ---
-
-bool is_value(const CaseEvidence& judged) {
-  return text_of(*judged.critical, "critical_gap_kind") == "value";
-}
 
 /// Whether complete coupled runs on both sides of a case's critical gap do what is expected of them.
 bool is_confirmed(const CaseEvidence& judged) {
@@ -222,41 +203,44 @@ bool is_confirmed(const CaseEvidence& judged) {
 }
 
 /// Whether a sensitivity study draws its inputs about the launch of a case: that has values in the middle
-/// half of what was drawn of each. Peaks about another one say nothing of it, nor do launches of an earlier
-/// program, which counted those with validity warnings as sound.
+/// half of what was drawn of each, and all else but numerics is the same. Peaks about another one say nothing
+/// of it, nor do launches of an earlier program, which counted those with validity warnings as sound.
 bool is_drawn_about(const CaseEvidence& judged, const StudyEvidence& drawn) {
+  const Row& inputs = drawn.rows("inputs");
+  const auto makes_another = [&](const study::Difference& each) {
+    const auto varies = [&](const Row& input) { return text_of(input, "scene_key") == each.key.name; };
+    return is_of_launch(each) && !each.key.name.starts_with("numerics.") &&
+           std::ranges::none_of(inputs, varies);
+  };
+  const auto is_about = [&](const Row& input) {
+    const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
+    if (!key) return false;
+    const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
+    std::vector<double> values;
+    for (const Row& row : drawn.rows("evaluations")) values.push_back(number_of(row, text_of(input, "key")));
+    std::ranges::sort(values);
+    const double own = judged.value(key->name) * shown_value(1.0, form);
+    return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
+  };
   return found_in(drawn.study, "ignition").contains("sound") &&
-         std::ranges::all_of(drawn.rows("inputs"), [&](const Row& input) {
-           const auto key = scene::describe_key(drawn.scene, text_of(input, "scene_key"), {});
-           if (!key) return false;
-           const keys::Form form{.dimension = key->dimension, .unit = text_of(input, "unit")};
-           std::vector<double> values;
-           for (const Row& row : drawn.rows("evaluations"))
-             values.push_back(number_of(row, text_of(input, "key")));
-           std::ranges::sort(values);
-           const double own = judged.value(key->name) * shown_value(1.0, form);
-           return !values.empty() && own >= values[values.size() / 4] && own <= values[values.size() * 3 / 4];
-         });
+         std::ranges::none_of(drawn.differences, makes_another) && std::ranges::all_of(inputs, is_about);
 }
 
-/// Upper end of the probability that a gap (cm) ignites, by the launches that the sensitivity study drew at
-/// one at least as wide; nothing of another launch, where one of them failed, or where the spread of the main
-/// study's inputs is assumed.
-double most_probable(double gap, const CaseEvidence& judged, const StudyEvidence* drawn) {
-  if (drawn == nullptr || !is_of_same_launch(*drawn) || !is_drawn_about(judged, *drawn) || !judged.is_own() ||
-      found_in(judged.study->study, "assumed").contains("input_uncertainty") ||
-      number_of(drawn->study, "failed") != 0.0 ||  // which may be those that ignite
-      !(gap <= number_of(drawn->study, "gap_cm")))
-    return study::not_a_number;
-  return number_of(found_in(drawn->study, "ignition"), "probability_to");
-}
-
-/// The row of a verdict, with how far its gap is from the critical one.
-Row with_distance(const CaseEvidence& judged, Row row) {
-  if (!is_value(judged)) return row;
-  const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
-  row["distance_cm"] = lower - number_of(row, "gap_cm");
-  row["distance_uncertainty_cm"] = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
+/// The row of a verdict with what a criterion may be of besides: how far its gap is from the critical one,
+/// and the upper end of the probability that it ignites, by the launches that the sensitivity study drew
+/// about the case at a gap at least as wide. No probability where one of them failed, which may be those that
+/// ignite, or where the spread of the main study's inputs is assumed.
+Row with_measures(const CaseEvidence& judged, Row row, const StudyEvidence* drawn) {
+  const double gap = number_of(row, "gap_cm");
+  if (text_of(*judged.critical, "critical_gap_kind") == "value") {
+    const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
+    row["distance_cm"] = lower - gap;
+    row["distance_uncertainty_cm"] = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
+  }
+  const bool is_known = drawn != nullptr && judged.is_own() &&
+                        !found_in(judged.study->study, "assumed").contains("input_uncertainty") &&
+                        number_of(drawn->study, "failed") == 0.0 && gap <= number_of(drawn->study, "gap_cm");
+  row["probability"] = is_known ? found_in(drawn->study, "ignition.probability_to") : Row();
   return row;
 }
 
@@ -267,10 +251,7 @@ Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& c
   Row smallest;
   for (const CaseEvidence& each : cases) {
     std::vector<Row> verdicts;
-    for (const Row* row : each.verdicts) {
-      verdicts.push_back(with_distance(each, *row));
-      verdicts.back()["probability"] = most_probable(number_of(*row, "gap_cm"), each, drawn);
-    }
+    for (const Row* row : each.verdicts) verdicts.push_back(with_measures(each, *row, drawn));
     const std::optional<double> largest = largest_gap_under(criterion, std::move(verdicts));
     if (!largest) return {};
     if (smallest.is_null() || *largest < smallest.get<double>()) smallest = *largest;
@@ -298,7 +279,7 @@ Row told_case(const CaseEvidence& judged) {
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
 /// no margin, nor is anything after ignition, when T max is that of the burning skin.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
-  Row row = with_distance(judged, verdict);
+  Row row = with_measures(judged, verdict, nullptr);
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
                known = is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
@@ -322,10 +303,9 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
 
 /// The case of the scene's own launch, or else the one with the smallest critical gap, or the first.
 const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
-  const auto own = std::ranges::find_if(cases, &CaseEvidence::is_own);
-  if (own != cases.end()) return *own;
   return *std::ranges::min_element(cases, {}, [](const CaseEvidence& each) {
-    return is_value(each) ? number_of(*each.critical, "critical_gap_cm") : HUGE_VAL;
+    const double gap = number_of(*each.critical, "critical_gap_cm");
+    return each.is_own() ? -HUGE_VAL : std::isnan(gap) ? HUGE_VAL : gap;
   });
 }
 
@@ -334,15 +314,13 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
 /// What the study answers over all cases, and what a criterion recommends.
 Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
               const std::optional<GapCriterion>& criterion, const StudyEvidence* drawn) {
-  Row answer{{"study", study.label},
-             {"finished", study.finished()},
-             {"criterion", criterion ? Row(criterion->text) : Row()},
-             {"criterion_source", criterion ? Row(criterion->source) : Row()},
-             {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
-             {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
-             {"cases", Row::array()}};
-  for (const CaseEvidence& each : cases) answer["cases"].push_back(told_case(each));
-  return answer;
+  return {{"study", study.label},
+          {"finished", study.finished()},
+          {"criterion", criterion ? Row(criterion->text) : Row()},
+          {"criterion_source", criterion ? Row(criterion->source) : Row()},
+          {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
+          {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
+          {"cases", study::of_each(cases, told_case)}};
 }
 
 /// "300", or of a sweep over it "219 to 344": K, what the verdicts hold for.
@@ -397,14 +375,15 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
       facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion,
-                              evidence.find(tells::sensitivity));
+  const StudyEvidence* drawn = evidence.find(tells::sensitivity);
+  if (drawn != nullptr) {
+    facts["same_launch"] = !cases.empty() && is_drawn_about(own_case(cases), *drawn);
+    if (facts["same_launch"] == false) drawn = nullptr;
+  }
+  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion, drawn);
   if (of_launch) add_launch(evidence, cases, all);
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
-  if (const StudyEvidence* sensitivity = evidence.find(tells::sensitivity))
-    facts["same_launch"] =
-        is_of_same_launch(*sensitivity) && !cases.empty() && is_drawn_about(own_case(cases), *sensitivity);
   if (const StudyEvidence* closing = held_against(evidence)) facts["held_against"] = closing->label;
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
   std::set<std::string> models;  // under which ignition is not excluded
@@ -419,7 +398,6 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
 }
 
 }  // namespace
-}  // namespace safety
 
 PageTemplates built_in_templates() {
   PageTemplates templates{built_in_html, built_in_markdown, {}};
@@ -431,7 +409,7 @@ store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
                                                  const std::optional<GapCriterion>& criterion,
                                                  const PageTemplates& templates, const DocumentHead& document,
                                                  const DrawingLimits& limits) try {
-  const PageFacts facts = safety::facts_of(evidence, criterion);
+  const PageFacts facts = facts_of(evidence, criterion);
   return render_page(texts_in(built_in_texts, "texts"), facts, templates,
                      {{"format", "launchsafe safety report 3"},
                       {"title", evidence.main().title},

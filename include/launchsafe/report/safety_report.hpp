@@ -2,7 +2,7 @@
 // what was selected from them; and templates, which say what is said of them, where and in which digits.
 #pragma once
 
-#include "launchsafe/report/gap_criterion.hpp"
+#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report {
@@ -33,7 +33,7 @@ struct StudyEvidence {
   /// That makes it again, or goes on with it.
   std::string command() const;
   /// The rows of a table of study.json; none where it has no such table.
-  const Row& rows(const std::string& table) const;
+  const Row& rows(const std::string& table) const { return found_in(study, table); }
 };
 
 /// The stored run of a case, with the gaps that are in it as warm as their verdicts say.
@@ -52,8 +52,6 @@ struct SafetyEvidence {
   /// the first.
   const StudyEvidence& main() const;
 };
-
-namespace safety {
 
 /// One case of a study that gives verdicts.
 struct CaseEvidence {
@@ -83,14 +81,42 @@ bool is_of_launch(const study::Difference& difference);
 /// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 
-}  // namespace safety
-
 /// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
 /// message each: no study there, a file that was edited or is missing, a model version other than this
 /// program's or another study's, a damaged case, verdicts without the code of their reason as an earlier
 /// program wrote them, a SAFE that its own numbers or its stored run contradict, two studies of a kind that
 /// tell the same, studies of different shells, studies that bound the critical gap of one launch differently.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
+
+// The criterion under which a user recommends a largest gap. It comes from the user; none is built in.
+
+/// Conditions that a gap must meet besides the verdict SAFE.
+struct GapCriterion {
+  struct Condition {
+    const char* of;              ///< member of a verdict's row
+    const char* unit = nullptr;  ///< another, an uncertainty; null: K, cm
+    double limit = 1.0;          ///< in that unit
+    bool at_most = false;        ///< else at least
+  };
+  std::string text;    ///< as the user wrote it, on one line
+  std::string source;  ///< who asks for it, likewise
+  std::vector<Condition> conditions;
+
+  /// A row of a verdict table, with distance_cm to the critical gap and distance_uncertainty_cm where that is
+  /// a value, and with the upper end, of 95 %, of the probability that the gap ignites where one is shown.
+  /// What a row lacks meets no condition.
+  bool met_by(const Row& verdict) const;
+};
+
+/// Reads "T max <= 450 K", "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1
+/// uncertainty", "probability <= 0.05", or several of them with "and" between, with blanks or without.
+/// Margins are in K, distances are those to the critical gap in cm (or mm). Numbers must be positive; one
+/// uncertainty is part of SAFE already, so fewer are refused. Errors: any other text, no source.
+scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
+
+/// cm: the largest computed gap that meets the criterion together with every smaller computed one. Only gaps
+/// that were computed count: nothing is interpolated.
+std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts);
 
 /// The templates of safety reports that are built in.
 PageTemplates built_in_templates();
