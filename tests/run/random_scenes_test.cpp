@@ -40,7 +40,9 @@ std::string random_shell() {
   const double nose = between(4.0, 40.0), charge = between(10.0, 120.0), base = between(4.0, 40.0);
   const double bore = between(8.0, 60.0), wall = between(2.0, 20.0);
   const double bottom = nose + charge, end = bottom + base, radius = bore + wall;
-  const double cell = std::max(end, radius) / between(8.0, 16.0);
+  // No body may be thinner than half a cell.
+  const double thinnest = std::min({nose, charge, base, bore, wall});
+  const double cell = std::min(std::max(end, radius) / between(8.0, 16.0), 2.0 * thinnest);
   return fmt::format(
       "numerics.cell_size = \"{} mm\"\n"
       "body = [\n"
@@ -53,8 +55,8 @@ std::string random_shell() {
       "  {{ name = \"G1\", x = \"{} mm\", r = \"{} mm\" }},\n"
       "  {{ name = \"G2\", x = \"{} mm\", r = \"{} mm\" }},\n"
       "]\n",
-      std::min({cell, 2.0 * wall, 2.0 * nose, 2.0 * base}), nose, radius, nose, bottom, bore, nose, bottom,
-      bore, radius, bottom, end, radius, bottom - 0.5, 0.9 * bore, bottom - 0.5, 0.1 * bore);
+      cell, nose, radius, nose, bottom, bore, nose, bottom, bore, radius, bottom, end, radius, bottom - 0.5,
+      0.9 * bore, bottom - 0.5, 0.1 * bore);
 }
 
 /// Laws within what is plausible for steels and explosives.
