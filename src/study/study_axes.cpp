@@ -110,10 +110,10 @@ std::string read_named_file(const StudyFile& study, const std::filesystem::path&
                             const std::string& key, const std::string& name, const std::string& wanted) {
   auto text = scene::read_text_file(folder / name);
   if (text) return std::move(*text);
-  refuse_at(study, key,
-            fmt::format("\"{}\", which {}", name,
-                        text.error().file_missing ? "does not exist" : "cannot be read"),
-            wanted + ", by its path from the study file's folder", scene::nearest_file(folder, name));
+  refuse_at(
+      study, key,
+      fmt::format("\"{}\", which {}", name, text.error().file_missing ? "does not exist" : "cannot be read"),
+      wanted + ", by its path from the study file's folder", scene::nearest_file(folder, name));
 }
 
 std::vector<Leaf> leaves_as_written(const toml::table& table) {
