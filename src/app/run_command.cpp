@@ -138,9 +138,8 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   object["closing"] = report::json_rows(report::closing_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::json_rows(report::interface_table(mechanics));
-  object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
-                        {"tension_cutoff", mechanics.limiters.tension_cutoff},
-                        {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
+  for (const run::Limiter& each : run::limiters)
+    object["limiters"][each.name] = mechanics.limiters.*each.member;
   for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;
   object["timing"] = {{"particles", mechanics.particles},
                       {"steps", mechanics.steps},
@@ -178,7 +177,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
                 {"end", scene::end_text(scene)},
                 {"measured", scene::measured_load_text(scene.load)},
                 {"completed", mechanics.status == run::RunStatus::completed},
-                {"limited", report::acted(mechanics.limiters)},
+                {"limited", mechanics.limiters.acted()},
                 {"simulated", scene::time_text(mechanics.end_time)},
                 {"masses", masses},
                 {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},

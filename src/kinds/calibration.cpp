@@ -8,7 +8,7 @@ using materials::KineticsParameters, scene::FrictionClosure;
 /// A load belongs to the closure that it was fitted with.
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
   if (settings_of<CalibrationSettings>(study).load_fitted) return {study.scene.scene.surface.friction};
-  return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
+  return {materials::all_closures.begin(), materials::all_closures.end()};
 }
 
 std::vector<KineticsParameters> kinetics_of(const StudyFile& study) {
@@ -114,7 +114,7 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
                   study::to_string(own.closure), 1e3 * mesh);
 }
 
-/// What the misfits and the meshes say of the two closures with the scene's own kinetics.
+/// What the misfits and the meshes say of the closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, own = result.study.scene.scene.numerics.cell_size;
@@ -123,25 +123,26 @@ void recommend(CalibrationResult& result) {
       result.runs, [own](const CalibrationRun& run) { return run.input.cell_size == own; });
   const double mesh = has_own ? own : finest;
   if (result.load) return recommend_own(result, kinetics, mesh);
-  const auto row_of_closure = [&](FrictionClosure closure) {
-    return &result.rows[row_place(result, finest, closure, kinetics)];
-  };
-  const CalibrationRow* total = row_of_closure(FrictionClosure::total_strain_rate);
-  const CalibrationRow* inelastic = row_of_closure(FrictionClosure::inelastic);
-  if (!std::isfinite(total->root_mean_square) || !std::isfinite(inelastic->root_mean_square)) {
+  // The one that the scene has (if it has one) is first, and stays so unless the misfits separate it from the
+  // best.
+  std::vector<const CalibrationRow*> rows;
+  for (const FrictionClosure closure : materials::all_closures) {
+    if (closure == FrictionClosure::none) continue;
+    const CalibrationRow& row = result.rows[row_place(result, finest, closure, kinetics)];
+    rows.insert(closure == result.study.scene.scene.surface.friction ? rows.begin() : rows.end(), &row);
+  }
+  const auto rms = [](const CalibrationRow* row) { return row->root_mean_square; };
+  if (!std::ranges::all_of(rows, [](double misfit) { return std::isfinite(misfit); }, rms)) {
     result.reason =
-        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
+        "no closure is recommended: not all could be calibrated on the finest mesh and compared with "
         "temperatures that nothing was fitted to";
     return;
   }
-  const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
-  const bool separates = gain > distinguishable_rms;
-  // Where the misfits do not separate the closures, the scene keeps the one it has (if it has one).
-  const bool keep_inelastic = result.study.scene.scene.surface.friction == FrictionClosure::inelastic;
-  const bool choose_inelastic =
-      separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
-  const CalibrationRow* better = choose_inelastic ? inelastic : total;
-  const CalibrationRow* other = choose_inelastic ? total : inelastic;
+  const auto best = std::ranges::min_element(rows, {}, rms);
+  if (rms(rows.front()) - rms(*best) > distinguishable_rms) std::iter_swap(rows.begin(), best);
+  const CalibrationRow* better = rows.front();
+  const CalibrationRow* other = *std::min_element(
+      rows.begin() + 1, rows.end(), [&](auto* a, auto* b) { return rms(a) < rms(b); });
   const auto change_with = [&](const CalibrationRow* row) {
     return change_of(result, row->closure, kinetics);
   };
@@ -156,7 +157,7 @@ void recommend(CalibrationResult& result) {
                         {"better", facts_of(better)},
                         {"other", facts_of(other)},
                         {"converge", std::isfinite(change_with(better) + change_with(other))},
-                        {"separates", separates},
+                        {"separates", std::abs(rms(better) - rms(other)) > distinguishable_rms},
                         {"distinguishable_K", distinguishable_rms}})
                       .front();
   const std::size_t chosen = row_place(result, mesh, better->closure, kinetics);

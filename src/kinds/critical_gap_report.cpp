@@ -82,7 +82,7 @@ Row counts_json(const CriticalGapResult& result) {
   std::map<Verdict, std::size_t> verdicts;
   std::size_t limited = 0;
   for (const CaseAnswer& answer : result.answers) {
-    limited += report::acted(answer.run.limiters) ? 1 : 0;
+    limited += answer.run.limiters.acted() ? 1 : 0;
     ++kinds[answer.critical.kind];
     for (const GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
   }

@@ -351,8 +351,4 @@ std::string used_for(const study::Reference& published) {
   return to_string(published.selection ? chosen_by : held_out);
 }
 
-bool acted(const run::LimiterCounts& limiters) {
-  return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
-}
-
 }  // namespace launchsafe::report

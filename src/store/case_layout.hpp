@@ -103,7 +103,7 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
       column(archive, "mass", mechanics.masses, &run::MaterialMass::mass, {"kg", "mass"});
     });
     archive.group("limiters", "How often limiters acted",
-                  [&] { lay_out_members(archive, mechanics.limiters, run::stored_limiters); });
+                  [&] { lay_out_members(archive, mechanics.limiters, run::limiters); });
     if (is_there(archive, "interfaces"))
       list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
            [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });

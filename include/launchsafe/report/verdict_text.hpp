@@ -53,7 +53,4 @@ std::string friction_remark(const study::StudyFile& study);
 /// What the uncertainty of a margin is made of, as a sentence.
 std::string uncertainty_remark(const study::StudyFile& study);
 
-/// Whether any limiter acted.
-bool acted(const run::LimiterCounts& limiters);
-
 }  // namespace launchsafe::report
