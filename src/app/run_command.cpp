@@ -3,14 +3,8 @@
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "output_folder.hpp"
 
 namespace launchsafe::app {
 namespace {
@@ -35,20 +29,14 @@ struct GapRow {
 };
 
 std::vector<GapRow> rows_of(const run::CaseResult& result) {
-  const std::vector<trace::Station>& stations = result.mechanics.trace.stations;
-  const auto name_of = [&](std::size_t station) {
-    return station < stations.size() ? stations[station].name : "";
-  };
-  const auto peak_of = [&](const surface::Maximum& maximum) {
-    return study::Peak{maximum.temperature, maximum.time, name_of(maximum.station)};
-  };
+  const trace::BottomTrace& trace = result.mechanics.trace;
   std::vector<GapRow> rows;
   for (const run::GapResult& gap : result.gaps) {
     GapRow& row = rows.emplace_back(GapRow{&gap});
-    if (!stations.empty()) row.at_stations = peak_of(gap.at_stations);
-    if (std::ranges::any_of(stations, &trace::Station::observation)) row.at_points = peak_of(gap.at_points);
-    if (const auto& ignition = gap.skin.ignition)
-      row.ignition = {ignition->cause, ignition->time, name_of(ignition->station), ignition->chemical_share};
+    if (!trace.stations.empty()) row.at_stations = study::peak_of(gap.at_stations, trace);
+    if (std::ranges::any_of(trace.stations, &trace::Station::observation))
+      row.at_points = study::peak_of(gap.at_points, trace);
+    row.ignition = study::named(gap.skin.ignition, trace);
   }
   return rows;
 }

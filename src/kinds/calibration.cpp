@@ -38,7 +38,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
 CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
                       const KineticsParameters& kinetics, const CalibrationTargets& targets) {
   CalibrationRow row;
-  row.cell_size = run.input.cell_size;
+  row.cell_size = run.input.cell_size();
   row.closure = closure;
   row.kinetics = kinetics.name;
   row.calibratable = closure != FrictionClosure::none;
@@ -71,7 +71,7 @@ std::size_t row_place(const CalibrationResult& result, double cell_size, Frictio
 
 /// Finest and coarsest mesh that were run, m.
 std::pair<double, double> mesh_range(const CalibrationResult& result) {
-  const auto cell = [](const CalibrationRun& run) { return run.input.cell_size; };
+  const auto cell = [](const CalibrationRun& run) { return run.input.cell_size(); };
   const auto [finest, coarsest] = std::ranges::minmax_element(result.runs, {}, cell);
   return {cell(*finest), cell(*coarsest)};
 }
@@ -120,7 +120,7 @@ void recommend(CalibrationResult& result) {
   const double finest = mesh_range(result).first, own = result.study.scene.scene.numerics.cell_size;
   // The mesh that the scene's constants belong to: its own where it was run, else the finest.
   const bool has_own = std::ranges::any_of(
-      result.runs, [own](const CalibrationRun& run) { return run.input.cell_size == own; });
+      result.runs, [own](const CalibrationRun& run) { return run.input.cell_size() == own; });
   const double mesh = has_own ? own : finest;
   if (result.load) return recommend_own(result, kinetics, mesh);
   // The one that the scene has (if it has one) is first, and stays so unless the misfits separate it from the
@@ -132,7 +132,8 @@ void recommend(CalibrationResult& result) {
     rows.insert(closure == result.study.scene.scene.surface.friction ? rows.begin() : rows.end(), &row);
   }
   const auto rms = [](const CalibrationRow* row) { return row->root_mean_square; };
-  if (!std::ranges::all_of(rows, [](double misfit) { return std::isfinite(misfit); }, rms)) {
+  if (!std::ranges::all_of(
+          rows, [](double misfit) { return std::isfinite(misfit); }, rms)) {
     result.reason =
         "no closure is recommended: not all could be calibrated on the finest mesh and compared with "
         "temperatures that nothing was fitted to";
@@ -141,8 +142,8 @@ void recommend(CalibrationResult& result) {
   const auto best = std::ranges::min_element(rows, {}, rms);
   if (rms(rows.front()) - rms(*best) > distinguishable_rms) std::iter_swap(rows.begin(), best);
   const CalibrationRow* better = rows.front();
-  const CalibrationRow* other = *std::min_element(
-      rows.begin() + 1, rows.end(), [&](auto* a, auto* b) { return rms(a) < rms(b); });
+  const CalibrationRow* other =
+      *std::min_element(rows.begin() + 1, rows.end(), [&](auto* a, auto* b) { return rms(a) < rms(b); });
   const auto change_with = [&](const CalibrationRow* row) {
     return change_of(result, row->closure, kinetics);
   };
@@ -190,16 +191,16 @@ double largest_change(const std::vector<double>& a, const std::vector<double>& b
 const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bool finer) {
   const CalibrationRun* next = nullptr;
   for (const CalibrationRun& run : result.runs) {
-    const double cell = run.input.cell_size;
+    const double cell = run.input.cell_size();
     if (!run.failure.empty() || cell == mesh || (cell < mesh) != finer) continue;
-    if (next == nullptr || (cell < next->input.cell_size) != finer) next = &run;
+    if (next == nullptr || (cell < next->input.cell_size()) != finer) next = &run;
   }
   return next;
 }
 
 const CalibrationRun& run_of(const CalibrationResult& result, const CalibrationRow& row) {
   return *std::ranges::find(result.runs, row.cell_size,
-                            [](const CalibrationRun& run) { return run.input.cell_size; });
+                            [](const CalibrationRun& run) { return run.input.cell_size(); });
 }
 
 void compare_stations(CalibrationResult& result) {

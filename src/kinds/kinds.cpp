@@ -1,5 +1,5 @@
 // The table of kinds, and what several kinds share.
-#include "answer_tables.hpp"
+#include "study_keys.hpp"
 
 #include <fnmatch.h>
 

@@ -1,12 +1,8 @@
-#include "launchsafe/report/verdict_text.hpp"
-
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/run_cases.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::report {
 namespace {

@@ -1,7 +1,6 @@
 // Which physics a scene needs, and what of the scene its mechanics depends on.
 #include "launchsafe/scene/plan.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <span>

@@ -180,8 +180,7 @@ std::vector<Key<Surface>> friction_keys() {
                "Files may still say \"literal\" for the total strain rate.",
                words, &Surface::friction) |
           formerly({"literal", "total strain rate"}) |
-          plausibly(plausible,
-                    "without friction heat the published temperatures are missed by 80 K",
+          plausibly(plausible, "without friction heat the published temperatures are missed by 80 K",
                     Role{ActsOn::heat, Part::model}),
       number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
                  "Crack spacing over the thickness of the sliding layer: factor on the friction heat.",

@@ -1,7 +1,5 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace launchsafe::study {
 namespace {
 

@@ -1,6 +1,5 @@
 #include "launchsafe/scene/plan.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,8 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
-#include "launchsafe/surface/air_energy.hpp"
-#include "launchsafe/surface/film.hpp"
+#include "launchsafe/surface/skin.hpp"
 
 #include <map>
 #include <memory>
@@ -159,11 +158,12 @@ struct Limiter : Stored<std::uint64_t LimiterCounts::*> {
   const char* words;  ///< for people
 };
 inline constexpr std::array limiters{
-    Limiter{{"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
-            "crack bound"},
-    Limiter{{"tension_cutoff", &LimiterCounts::tension_cutoff, "1",
-             "particles that reached the tension cut-off"},
-            "tension cut-off"},
+    Limiter{
+        {"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
+        "crack bound"},
+    Limiter{
+        {"tension_cutoff", &LimiterCounts::tension_cutoff, "1", "particles that reached the tension cut-off"},
+        "tension cut-off"},
     Limiter{{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1", "particles at the guarded Hugoniot pole"},
             "Hugoniot guard"}};
 static_assert(sizeof(LimiterCounts) == limiters.size() * sizeof(std::uint64_t));
