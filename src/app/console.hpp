@@ -5,8 +5,6 @@
 
 #include "launchsafe/kinds/kind.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace launchsafe::app {
 
 using Json = nlohmann::ordered_json;
@@ -136,7 +134,7 @@ std::string shell_quoted(std::string_view word);
 std::string shell_command(const std::vector<std::string>& words);
 
 // What --help says below the options, what commands print for people, and files that launchsafe init and emit
-// write, as they are in the source. Names in double braces stand for values; see report/page_texts.hpp.
+// write, as they are in the source. Names in double braces stand for values; see report/report.hpp.
 
 /// By command, "run.txt"; "launchsafe.txt" is that of all.
 const std::map<std::string, std::string>& help_texts();

@@ -1,14 +1,9 @@
 // launchsafe emit: the scripts that run a study on a Slurm cluster: an array of shards, the merge behind it,
 // and what submits both.
 #include "common_options.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/study/forecast.hpp"
-#include "output_folder.hpp"
 
 #include <boost/algorithm/string.hpp>
 
-#include <numeric>
 #include <ranges>
 
 namespace launchsafe::app {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/study/forecast.hpp"
 
 namespace launchsafe::app {
 

@@ -1,14 +1,11 @@
 // launchsafe explain: what would be computed, and at what cost.
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/study_status.hpp"
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "output_folder.hpp"
+#include "launchsafe/report/study_text.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::app {
 namespace {

@@ -1,7 +1,6 @@
 // What launchsafe explains of itself: the keys of its files, what editors take, and materials with every
 // number and where it comes from.
 #include "explain.hpp"
-#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/report/case_tables.hpp"
 
 namespace launchsafe::app {

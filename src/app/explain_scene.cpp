@@ -1,9 +1,4 @@
 #include "explain.hpp"
-#include "launchsafe/run/axial_modes.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 #include <sstream>

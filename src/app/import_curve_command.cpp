@@ -1,9 +1,6 @@
 // launchsafe import-curve: what a pressure gauge recorded as a curve that scenes take.
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "output_folder.hpp"
 
 namespace launchsafe::app {
 namespace {

@@ -1,9 +1,6 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "output_folder.hpp"
 
 namespace launchsafe::app {
 namespace {

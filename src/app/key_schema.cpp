@@ -1,5 +1,4 @@
 #include "explain.hpp"
-#include "launchsafe/kinds/read_study.hpp"
 
 #include <regex>
 

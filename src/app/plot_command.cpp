@@ -1,9 +1,6 @@
 // launchsafe plot: pictures of one case, or their numbers.
 #include "common_options.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "output_folder.hpp"
+#include "launchsafe/report/case_tables.hpp"
 
 #include <boost/algorithm/string.hpp>
 

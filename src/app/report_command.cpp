@@ -1,8 +1,6 @@
 // launchsafe report: what leaves the engineer's desk, of studies that were run.
 #include "common_options.hpp"
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "output_folder.hpp"
 
 #include <unistd.h>
 

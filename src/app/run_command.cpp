@@ -3,14 +3,8 @@
 #include "explain.hpp"
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/report/verdict_text.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "output_folder.hpp"
 
 namespace launchsafe::app {
 namespace {
@@ -35,20 +29,14 @@ struct GapRow {
 };
 
 std::vector<GapRow> rows_of(const run::CaseResult& result) {
-  const std::vector<trace::Station>& stations = result.mechanics.trace.stations;
-  const auto name_of = [&](std::size_t station) {
-    return station < stations.size() ? stations[station].name : "";
-  };
-  const auto peak_of = [&](const surface::Maximum& maximum) {
-    return study::Peak{maximum.temperature, maximum.time, name_of(maximum.station)};
-  };
+  const trace::BottomTrace& trace = result.mechanics.trace;
   std::vector<GapRow> rows;
   for (const run::GapResult& gap : result.gaps) {
     GapRow& row = rows.emplace_back(GapRow{&gap});
-    if (!stations.empty()) row.at_stations = peak_of(gap.at_stations);
-    if (std::ranges::any_of(stations, &trace::Station::observation)) row.at_points = peak_of(gap.at_points);
-    if (const auto& ignition = gap.skin.ignition)
-      row.ignition = {ignition->cause, ignition->time, name_of(ignition->station), ignition->chemical_share};
+    if (!trace.stations.empty()) row.at_stations = study::peak_of(gap.at_stations, trace);
+    if (std::ranges::any_of(trace.stations, &trace::Station::observation))
+      row.at_points = study::peak_of(gap.at_points, trace);
+    row.ignition = study::named(gap.skin.ignition, trace);
   }
   return rows;
 }
@@ -138,9 +126,8 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   object["closing"] = report::json_rows(report::closing_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::json_rows(report::interface_table(mechanics));
-  object["limiters"] = {{"crack_at_bound", mechanics.limiters.crack_at_bound},
-                        {"tension_cutoff", mechanics.limiters.tension_cutoff},
-                        {"hugoniot_guard", mechanics.limiters.hugoniot_guard}};
+  for (const run::Limiter& each : run::limiters)
+    object["limiters"][each.name] = mechanics.limiters.*each.member;
   for (const run::MaterialMass& each : mechanics.masses) object["mass"][each.material + "_kg"] = each.mass;
   object["timing"] = {{"particles", mechanics.particles},
                       {"steps", mechanics.steps},
@@ -178,7 +165,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
                 {"end", scene::end_text(scene)},
                 {"measured", scene::measured_load_text(scene.load)},
                 {"completed", mechanics.status == run::RunStatus::completed},
-                {"limited", report::acted(mechanics.limiters)},
+                {"limited", mechanics.limiters.acted()},
                 {"simulated", scene::time_text(mechanics.end_time)},
                 {"masses", masses},
                 {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},

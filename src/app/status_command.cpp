@@ -1,6 +1,6 @@
 // launchsafe status: how far studies are, from what their writers tell in status files.
 #include "common_options.hpp"
-#include "launchsafe/report/study_status.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <unistd.h>
 

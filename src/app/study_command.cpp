@@ -2,9 +2,6 @@
 // cost. And launchsafe merge: the shards of a study as one.
 #include "common_options.hpp"
 #include "explain.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/study_text.hpp"
-#include "output_folder.hpp"
 #include "study_watch.hpp"
 
 namespace launchsafe::app {

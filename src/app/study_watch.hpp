@@ -2,7 +2,7 @@
 #pragma once
 
 #include "console.hpp"
-#include "launchsafe/report/study_status.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <unistd.h>
 

@@ -1,8 +1,7 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include "answer_tables.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,6 +1,6 @@
 // A study of kind accuracy as a file: reference meshes, settings, variants, and the cases that follow.
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {

@@ -1,6 +1,6 @@
 // The answer, the picture, the page and the files of an accuracy study.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,6 +1,6 @@
 // The tables of an accuracy study.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

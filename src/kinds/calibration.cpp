@@ -8,7 +8,7 @@ using materials::KineticsParameters, scene::FrictionClosure;
 /// A load belongs to the closure that it was fitted with.
 std::vector<FrictionClosure> closures_of(const StudyFile& study) {
   if (settings_of<CalibrationSettings>(study).load_fitted) return {study.scene.scene.surface.friction};
-  return {FrictionClosure::total_strain_rate, FrictionClosure::inelastic, FrictionClosure::none};
+  return {materials::all_closures.begin(), materials::all_closures.end()};
 }
 
 std::vector<KineticsParameters> kinetics_of(const StudyFile& study) {
@@ -38,7 +38,7 @@ void run_meshes(CalibrationResult& result, const StudyOptions& options) {
 CalibrationRow row_of(const StudyFile& study, const CalibrationRun& run, FrictionClosure closure,
                       const KineticsParameters& kinetics, const CalibrationTargets& targets) {
   CalibrationRow row;
-  row.cell_size = run.input.cell_size;
+  row.cell_size = run.input.cell_size();
   row.closure = closure;
   row.kinetics = kinetics.name;
   row.calibratable = closure != FrictionClosure::none;
@@ -71,7 +71,7 @@ std::size_t row_place(const CalibrationResult& result, double cell_size, Frictio
 
 /// Finest and coarsest mesh that were run, m.
 std::pair<double, double> mesh_range(const CalibrationResult& result) {
-  const auto cell = [](const CalibrationRun& run) { return run.input.cell_size; };
+  const auto cell = [](const CalibrationRun& run) { return run.input.cell_size(); };
   const auto [finest, coarsest] = std::ranges::minmax_element(result.runs, {}, cell);
   return {cell(*finest), cell(*coarsest)};
 }
@@ -114,34 +114,36 @@ void recommend_own(CalibrationResult& result, const std::string& kinetics, doubl
                   study::to_string(own.closure), 1e3 * mesh);
 }
 
-/// What the misfits and the meshes say of the two closures with the scene's own kinetics.
+/// What the misfits and the meshes say of the closures with the scene's own kinetics.
 void recommend(CalibrationResult& result) {
   const std::string kinetics = result.study.scene.scene.charge().kinetics.name;
   const double finest = mesh_range(result).first, own = result.study.scene.scene.numerics.cell_size;
   // The mesh that the scene's constants belong to: its own where it was run, else the finest.
   const bool has_own = std::ranges::any_of(
-      result.runs, [own](const CalibrationRun& run) { return run.input.cell_size == own; });
+      result.runs, [own](const CalibrationRun& run) { return run.input.cell_size() == own; });
   const double mesh = has_own ? own : finest;
   if (result.load) return recommend_own(result, kinetics, mesh);
-  const auto row_of_closure = [&](FrictionClosure closure) {
-    return &result.rows[row_place(result, finest, closure, kinetics)];
-  };
-  const CalibrationRow* total = row_of_closure(FrictionClosure::total_strain_rate);
-  const CalibrationRow* inelastic = row_of_closure(FrictionClosure::inelastic);
-  if (!std::isfinite(total->root_mean_square) || !std::isfinite(inelastic->root_mean_square)) {
+  // The one that the scene has (if it has one) is first, and stays so unless the misfits separate it from the
+  // best.
+  std::vector<const CalibrationRow*> rows;
+  for (const FrictionClosure closure : materials::all_closures) {
+    if (closure == FrictionClosure::none) continue;
+    const CalibrationRow& row = result.rows[row_place(result, finest, closure, kinetics)];
+    rows.insert(closure == result.study.scene.scene.surface.friction ? rows.begin() : rows.end(), &row);
+  }
+  const auto rms = [](const CalibrationRow* row) { return row->root_mean_square; };
+  if (!std::ranges::all_of(
+          rows, [](double misfit) { return std::isfinite(misfit); }, rms)) {
     result.reason =
-        "no closure is recommended: not both could be calibrated on the finest mesh and compared with "
+        "no closure is recommended: not all could be calibrated on the finest mesh and compared with "
         "temperatures that nothing was fitted to";
     return;
   }
-  const double gain = std::abs(total->root_mean_square - inelastic->root_mean_square);
-  const bool separates = gain > distinguishable_rms;
-  // Where the misfits do not separate the closures, the scene keeps the one it has (if it has one).
-  const bool keep_inelastic = result.study.scene.scene.surface.friction == FrictionClosure::inelastic;
-  const bool choose_inelastic =
-      separates ? inelastic->root_mean_square < total->root_mean_square : keep_inelastic;
-  const CalibrationRow* better = choose_inelastic ? inelastic : total;
-  const CalibrationRow* other = choose_inelastic ? total : inelastic;
+  const auto best = std::ranges::min_element(rows, {}, rms);
+  if (rms(rows.front()) - rms(*best) > distinguishable_rms) std::iter_swap(rows.begin(), best);
+  const CalibrationRow* better = rows.front();
+  const CalibrationRow* other =
+      *std::min_element(rows.begin() + 1, rows.end(), [&](auto* a, auto* b) { return rms(a) < rms(b); });
   const auto change_with = [&](const CalibrationRow* row) {
     return change_of(result, row->closure, kinetics);
   };
@@ -156,7 +158,7 @@ void recommend(CalibrationResult& result) {
                         {"better", facts_of(better)},
                         {"other", facts_of(other)},
                         {"converge", std::isfinite(change_with(better) + change_with(other))},
-                        {"separates", separates},
+                        {"separates", std::abs(rms(better) - rms(other)) > distinguishable_rms},
                         {"distinguishable_K", distinguishable_rms}})
                       .front();
   const std::size_t chosen = row_place(result, mesh, better->closure, kinetics);
@@ -189,16 +191,16 @@ double largest_change(const std::vector<double>& a, const std::vector<double>& b
 const CalibrationRun* neighbour(const CalibrationResult& result, double mesh, bool finer) {
   const CalibrationRun* next = nullptr;
   for (const CalibrationRun& run : result.runs) {
-    const double cell = run.input.cell_size;
+    const double cell = run.input.cell_size();
     if (!run.failure.empty() || cell == mesh || (cell < mesh) != finer) continue;
-    if (next == nullptr || (cell < next->input.cell_size) != finer) next = &run;
+    if (next == nullptr || (cell < next->input.cell_size()) != finer) next = &run;
   }
   return next;
 }
 
 const CalibrationRun& run_of(const CalibrationResult& result, const CalibrationRow& row) {
   return *std::ranges::find(result.runs, row.cell_size,
-                            [](const CalibrationRun& run) { return run.input.cell_size; });
+                            [](const CalibrationRun& run) { return run.input.cell_size(); });
 }
 
 void compare_stations(CalibrationResult& result) {

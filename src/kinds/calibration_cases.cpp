@@ -1,6 +1,5 @@
 // A study of kind calibration as a file: its keys, its cases, and which published rows it fits to.
 #include "calibration_parts.hpp"
-#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 
@@ -201,7 +200,7 @@ void make_calibration_cases(const StudySource& source, StudyFile& study) {
   calibration_targets(study);
   make_factorial(study);
   for (std::size_t i = 0; i < study.cases.size(); ++i)
-    study.cases.relabel(i, fmt::format("{:.6g} mm", 1e3 * study.cases[i].cell_size));
+    study.cases.relabel(i, fmt::format("{:.6g} mm", 1e3 * study.cases[i].cell_size()));
 }
 
 /// Of the launches that a result has in `runs`.

@@ -1,6 +1,5 @@
 // The fits of a calibration: constants on one trace, and the load with them.
 #include "calibration_parts.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 

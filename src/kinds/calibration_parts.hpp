@@ -2,8 +2,8 @@
 // that meets, with localisation and exchange time, what is published of the calibrated rows.
 #pragma once
 
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/calibration.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -7,10 +7,6 @@ using study::Use;
 
 namespace {
 
-std::string name_of(const BottomTrace& trace, const surface::Maximum& maximum) {
-  return maximum.station < trace.stations.size() ? trace.stations[maximum.station].name : std::string{};
-}
-
 double root_mean_square_of(const std::vector<double>& misfits) {
   return std::sqrt(math::sum_of_squares(misfits) / static_cast<double>(misfits.size()));  // NaN of none
 }
@@ -66,11 +62,11 @@ struct RowComparison {
     // T1 was set so that this gap ignites: when it does is not held out.
     add("ignition time", history.ignition ? history.ignition->time : not_a_number, reference.ignition_time,
         {.temperature = false, .in_seconds = true, .use = Use::chosen_by});
-    place("T max", name_of(trace, maximum), reference.ignited() ? std::string{} : reference.point);
+    place("T max", trace.name_of(maximum.station), reference.ignited() ? std::string{} : reference.point);
     if (reference.ignited())
       place("first ignition", history.ignition ? trace.stations[history.ignition->station].name : "none",
             reference.point);
-    place("T" + at_early, name_of(trace, early), reference.early_point);
+    place("T" + at_early, trace.name_of(early.station), reference.early_point);
     if (reference.selection && reference.gap == 0.0) add_places();
   }
 

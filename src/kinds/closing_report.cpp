@@ -1,6 +1,5 @@
 // What a critical-gap study tells of gaps that close, beside the reservoir.
 #include "critical_gap_tables.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,5 +1,4 @@
-#include "answer_tables.hpp"
-#include "launchsafe/kinds/comparison.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,8 +1,5 @@
 #include "critical_gap_tables.hpp"
-#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
-#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

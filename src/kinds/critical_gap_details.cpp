@@ -1,8 +1,6 @@
 // What a critical-gap study in detail has besides: coupled runs, answers on other terms, causes, fits, runs.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/report/case_tables.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/launch_end.hpp"
 
 namespace launchsafe::kinds {
 

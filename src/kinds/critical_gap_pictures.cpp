@@ -1,6 +1,6 @@
 // The pictures of a critical-gap study that varies something: the critical gap over one or two axes.
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,8 +1,6 @@
 // The answer, the page, the picture of T max and the files of a critical-gap study.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/surface/ignition_boundary.hpp"
 
 namespace launchsafe::kinds {
 
@@ -30,7 +28,7 @@ Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_f
     const StudyCase& input = result.study.cases[i];
     const CaseAnswer& answer = result.answers[i];
     if (input.coordinates.size() <= axis || !answer.completed()) continue;
-    if (below_flaw && input.crack_radius >= input.flaw_size) continue;
+    if (below_flaw && input.strength().initial_crack_radius >= input.strength().flaw_size) continue;
     std::vector<double> others = input.coordinates;
     effect.values.include(others[axis]);
     others[axis] = 0.0;
@@ -82,7 +80,7 @@ Row counts_json(const CriticalGapResult& result) {
   std::map<Verdict, std::size_t> verdicts;
   std::size_t limited = 0;
   for (const CaseAnswer& answer : result.answers) {
-    limited += report::acted(answer.run.limiters) ? 1 : 0;
+    limited += answer.run.limiters.acted() ? 1 : 0;
     ++kinds[answer.critical.kind];
     for (const GapVerdict& row : answer.verdicts) ++verdicts[row.judgement.verdict];
   }

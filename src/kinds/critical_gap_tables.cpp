@@ -20,9 +20,10 @@ struct JudgedGap {
 Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
   Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch;
   const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
-  const std::pair<Column, double> fixed_values[] = {{quantity::peak_pressure, first.peak_pressure},
-                                                    {quantity::crack_radius, first.crack_radius},
-                                                    {quantity::flaw_size, first.flaw_size}};
+  const std::pair<Column, double> fixed_values[] = {
+      {quantity::peak_pressure, first.peak_pressure},
+      {quantity::crack_radius, first.strength().initial_crack_radius},
+      {quantity::flaw_size, first.strength().flaw_size}};
   for (const auto& [column, value] : fixed_values) {
     if (const auto* axis = keys::find_named(axes, column.name))
       launch.push_back(*axis);

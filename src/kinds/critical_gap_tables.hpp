@@ -1,9 +1,9 @@
 // What the sources of a critical-gap study share.
 #pragma once
 
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/surrogate.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,5 +1,5 @@
 // The table of kinds, and what several kinds share.
-#include "answer_tables.hpp"
+#include "study_keys.hpp"
 
 #include <fnmatch.h>
 
@@ -63,11 +63,8 @@ std::string limited_text(const std::vector<CaseAnswer>& answers, const std::stri
   std::int64_t limited = 0;
   run::LimiterCounts all;
   for (const CaseAnswer& answer : answers) {
-    const run::LimiterCounts& own = answer.run.limiters;
-    limited += report::acted(own) ? 1 : 0;
-    all.crack_at_bound += own.crack_at_bound;
-    all.tension_cutoff += own.tension_cutoff;
-    all.hugoniot_guard += own.hugoniot_guard;
+    limited += answer.run.limiters.acted() ? 1 : 0;
+    all += answer.run.limiters;
   }
   if (limited == 0) return {};
   return fmt::format("Limiters acted in {} ({} particle steps in all), whose results rest on them too.",

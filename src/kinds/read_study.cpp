@@ -1,5 +1,4 @@
-#include "launchsafe/kinds/read_study.hpp"
-
+#include "launchsafe/kinds/kind.hpp"
 #include "study_keys.hpp"
 
 #include <regex>

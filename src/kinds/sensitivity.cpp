@@ -1,6 +1,5 @@
 #include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
-#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -3,8 +3,8 @@
 // draws from the distributions of the inputs; the mixed ones are made for differences.
 #pragma once
 
-#include "answer_tables.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,8 +1,7 @@
 // What stress cases come to: held, degraded, caught or WRONG, by which rules; and how that is told.
 #include "launchsafe/kinds/stability.hpp"
 
-#include "answer_tables.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
+#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 namespace {

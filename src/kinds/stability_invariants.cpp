@@ -2,8 +2,6 @@
 #include "launchsafe/kinds/stability.hpp"
 #include "launchsafe/materials/vlw.hpp"
 
-#include <numeric>
-
 namespace launchsafe::kinds {
 namespace {
 

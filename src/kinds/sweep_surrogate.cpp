@@ -1,6 +1,5 @@
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
-#include "study_keys.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,6 +1,5 @@
 // What resists forces: the inertia of particles, and the masses and inertia of nodes that follow.
 #include "launchsafe/mpm/total_lagrangian.hpp"
-#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::mpm {
 

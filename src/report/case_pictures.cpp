@@ -1,8 +1,5 @@
-#include "launchsafe/report/case_pictures.hpp"
-
 #include "case_pictures_parts.hpp"
 
-#include <numeric>
 #include <ranges>
 
 namespace launchsafe::report {

@@ -1,6 +1,6 @@
 // Fields over the section of a shell, from the snapshots of a case.
 #include "case_pictures_parts.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::report::detail {
 namespace {

@@ -1,7 +1,7 @@
 // The kinds of pictures of one case, and what their pictures have in common.
 #pragma once
 
-#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 
 namespace launchsafe::report::detail {

@@ -1,16 +1,14 @@
 #include "launchsafe/report/case_tables.hpp"
 
 #include "case_pictures_parts.hpp"
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/study_text.hpp"
 
-#include <numeric>
 #include <span>
 
 namespace launchsafe::report {
 namespace {
 
-using keys::fixed, keys::scientific, keys::text;
+using keys::fixed, keys::text;
 
 // --- faces that slide ---
 

@@ -1,5 +1,4 @@
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
 
 #include <regex>
 #include <sstream>

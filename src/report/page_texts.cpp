@@ -1,7 +1,4 @@
-#include "launchsafe/report/page_texts.hpp"
-
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/report/report.hpp"
 
 #include <boost/algorithm/string/finder.hpp>
 #include <boost/algorithm/string/iter_find.hpp>

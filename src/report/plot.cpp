@@ -1,11 +1,8 @@
 #include "launchsafe/report/plot.hpp"
 
-#include "gnuplot_text.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/table.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace launchsafe::report {
 namespace {

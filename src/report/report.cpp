@@ -1,8 +1,8 @@
 #include "launchsafe/report/report.hpp"
 
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::report {
 namespace {

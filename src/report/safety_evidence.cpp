@@ -2,10 +2,7 @@
 // and against each other.
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/run/run_case.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::report {
 namespace {

@@ -1,9 +1,7 @@
 // What a safety report tells: rows of studies, what was selected from them, and what was computed besides.
-#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/verdict.hpp"
 
@@ -328,7 +326,7 @@ std::string temperature_text(const StudyEvidence& main, const std::vector<CaseEv
   std::set<double> all;
   for (const CaseEvidence& each : cases) all.insert(each.value("initial_temperature"));
   if (all.empty()) all = {main.scene.scene.initial_temperature};
-  return fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + fixed(*all.rbegin(), 0) : "");
+  return report::fixed(*all.begin(), 0) + (all.size() > 1 ? " to " + report::fixed(*all.rbegin(), 0) : "");
 }
 
 /// Of the cases of a launch, one of them in detail. Few verdicts stand on page one, and of many the cases.

@@ -1,6 +1,4 @@
-#include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/report/number.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::report {

@@ -1,6 +1,4 @@
-#include "launchsafe/report/study_status.hpp"
-
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <fmt/chrono.h>
 #include <kainjow/mustache.hpp>

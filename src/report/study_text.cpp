@@ -1,8 +1,6 @@
 #include "launchsafe/report/study_text.hpp"
 
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
 
 namespace launchsafe::report {
 namespace {

@@ -1,12 +1,8 @@
-#include "launchsafe/report/verdict_text.hpp"
-
-#include "launchsafe/report/page_texts.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
-#include "launchsafe/study/run_cases.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::report {
 namespace {
@@ -349,10 +345,6 @@ std::string used_for(const study::Reference& published) {
   // That a gap ignites is what the ignition temperature is fitted to.
   if (published.calibrated || published.ignited()) return to_string(fitted);
   return to_string(published.selection ? chosen_by : held_out);
-}
-
-bool acted(const run::LimiterCounts& limiters) {
-  return limiters.crack_at_bound + limiters.tension_cutoff + limiters.hugoniot_guard > 0;
 }
 
 }  // namespace launchsafe::report

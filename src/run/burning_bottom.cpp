@@ -1,6 +1,6 @@
 #include "burning_bottom.hpp"
 
-#include "launchsafe/scene/named_material.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 
 namespace launchsafe::run {
 namespace {

@@ -15,12 +15,15 @@ std::string to_string(RunStatus status) {
   return words.at(static_cast<std::size_t>(status));
 }
 
-std::string to_string(const LimiterCounts& limiters) {
+LimiterCounts& LimiterCounts::operator+=(const LimiterCounts& other) {
+  for (const Limiter& each : limiters) this->*each.member += other.*each.member;
+  return *this;
+}
+
+std::string to_string(const LimiterCounts& counts) {
   std::vector<std::string> acted;
-  for (const auto& [name, count] : {std::pair{"crack bound", limiters.crack_at_bound},
-                                    std::pair{"tension cut-off", limiters.tension_cutoff},
-                                    std::pair{"Hugoniot guard", limiters.hugoniot_guard}})
-    if (count > 0) acted.push_back(fmt::format("{} {}", name, count));
+  for (const Limiter& each : limiters)
+    if (counts.*each.member > 0) acted.push_back(fmt::format("{} {}", each.words, counts.*each.member));
   return fmt::format("{}", fmt::join(acted, ", "));
 }
 

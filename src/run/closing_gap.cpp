@@ -1,4 +1,4 @@
-#include "closing_gap.hpp"
+#include "burning_bottom.hpp"
 
 namespace launchsafe::run {
 namespace {

@@ -1,6 +1,6 @@
 // Whether a simulation covers the launch that its load states.
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <fmt/format.h>
 

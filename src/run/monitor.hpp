@@ -1,5 +1,5 @@
 // Watches a running simulation: energy balance, extremes, whether it can still be believed, and how long a
-// time step may be, from theory.
+// time step may be, from theory; and takes snapshots, fields at one instant.
 #pragma once
 
 #include "launchsafe/mpm/simulation.hpp"
@@ -51,5 +51,58 @@ double proved_time_step_factor(const scene::Scene& scene);
 /// "; the time step factor 0.8 is above 0.577, up to which ...": what a run that broke must say of its steps;
 /// empty where they are proved stable.
 std::string step_remark(const scene::Scene& scene);
+
+/// Fields of all particles, where the stations' part of the charge's bottom is, and the faces that can slide.
+Snapshot take_snapshot(const mpm::Simulation& simulation, const std::vector<trace::Station>& stations);
+
+/// Adds the skin of a gap, as it was on the trace: linear between its samples but where a station ignites,
+/// which is a jump. There it is that of the sample before, and of the first station from its ignition on that
+/// of the sample after. `ignition_temperature` in K.
+void add_skin(Snapshot& shot, const GapResult& gap, const trace::BottomTrace& trace,
+              double ignition_temperature);
+
+/// Snapshots at the times and events that a scene asks for.
+///
+/// One at a time is the state at the end of the step that reaches it, and so is the one at the largest
+/// chamber pressure, whose time is known beforehand. Growth of cracks, yield and slip are looked for at the
+/// samples of the trace: of the first two the state at the first sample that has them is kept, and of the
+/// slip that at the sample with the largest, which is known at the end. Ignition and the end of burning are
+/// told by the run.
+class SnapshotTaker {
+ public:
+  using Take = std::function<Snapshot()>;
+  explicit SnapshotTaker(const scene::Scene& scene);
+
+  /// Whether one of a time is due; then `take_due` is to be called.
+  bool is_due(double time) const { return next_ < due_.size() && due_[next_].time - time <= tolerance_; }
+  void take_due(double time, const Take& take);
+  /// At a sample of the trace.
+  void look_for_events(const mpm::Simulation& simulation, const Take& take);
+  /// An event has happened; only its first time counts.
+  void take_event(scene::Event event, const Take& take);
+  /// Nothing is left that has a time.
+  bool done() const { return next_ == due_.size(); }
+
+  /// All of them in order of time, one of each instant.
+  std::vector<Snapshot> finish();
+
+ private:
+  struct Due {
+    double time;  ///< s
+    std::optional<scene::Event> event;
+  };
+  bool wants(scene::Event event) const;
+  void keep(Snapshot shot, std::vector<scene::Event> events);
+
+  std::vector<Due> due_;  ///< in order of time
+  std::size_t next_ = 0;
+  double tolerance_;                                    ///< s, round-off of times
+  std::vector<scene::Event> wanted_;                    ///< not taken yet
+  double largest_slip_ = 0;                             ///< m
+  std::vector<std::shared_ptr<const Snapshot>> taken_;  ///< shared with the checkpoints of the run
+};
+
+/// Snapshots in order of time, and one with the events of all where several are of one instant.
+void merge_instants(std::vector<Snapshot>& snapshots);
 
 }  // namespace launchsafe::run

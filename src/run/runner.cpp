@@ -1,7 +1,5 @@
 #include "runner.hpp"
 
-#include "launchsafe/scene/launch_end.hpp"
-
 #include <fmt/format.h>
 
 #include <ctime>

@@ -2,10 +2,8 @@
 #pragma once
 
 #include "burning_bottom.hpp"
-#include "closing_gap.hpp"
 #include "launchsafe/run/run_case.hpp"
 #include "monitor.hpp"
-#include "snapshot.hpp"
 
 #include <chrono>
 

@@ -1,5 +1,3 @@
-#include "snapshot.hpp"
-
 #include "charge_heat.hpp"
 #include "monitor.hpp"
 

@@ -1,7 +1,5 @@
-#include "launchsafe/run/validity_warnings.hpp"
-
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,4 @@
-#include "input_text.hpp"
-#include "launchsafe/scene/plausibility.hpp"
+#include "scene_file.hpp"
 
 #include <set>
 

@@ -1,6 +1,5 @@
-#include "launchsafe/scene/chamber.hpp"
-
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/load.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <tuple>

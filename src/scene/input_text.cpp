@@ -1,18 +1,13 @@
 // Text of input: whole files, the one place where they are read; what no reader may see in them, and what
 // they are of; and messages on what is wrong in them.
-#include "input_text.hpp"
-
-#include "launchsafe/scene/toml_reader.hpp"
+#include "scene_file.hpp"
 
 #include <boost/locale/utf.hpp>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <cctype>
 #include <cerrno>
-#include <cstring>
 #include <memory>
 #include <system_error>
 

@@ -1,6 +1,5 @@
 // The tables [interface.NAME] and [contact.NAME] of a file: how bodies hold the charge.
 
-#include "input_text.hpp"
 #include "scene_file.hpp"
 
 namespace launchsafe::scene {

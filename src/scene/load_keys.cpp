@@ -1,7 +1,6 @@
 // The keys of a load, and what it must satisfy beyond the range of each: a measured curve, what stands beside
 // it, and its end.
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "scene_file.hpp"
 
 #include <iterator>

@@ -1,6 +1,4 @@
-#include "launchsafe/scene/load_roughness.hpp"
-
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <complex>

@@ -1,5 +1,4 @@
 // Files of materials and contacts, those that ship, decompositions of explosives, and where values come from.
-#include "input_text.hpp"
 #include "scene_file.hpp"
 
 #include <cstdio>

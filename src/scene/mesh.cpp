@@ -1,4 +1,4 @@
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 #include <fmt/format.h>
 

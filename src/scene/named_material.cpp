@@ -1,5 +1,4 @@
 // The tables [material.NAME] of a file, and a scene whose bodies are of these.
-#include "input_text.hpp"
 #include "scene_file.hpp"
 
 #include <set>

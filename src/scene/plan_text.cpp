@@ -1,8 +1,5 @@
 // The plan as people read it.
-#include "launchsafe/scene/chamber.hpp"
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 

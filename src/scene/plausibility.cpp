@@ -1,7 +1,5 @@
 // What is plausible of keys, and of quantities that follow from several of them.
-#include "launchsafe/scene/plausibility.hpp"
-
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 

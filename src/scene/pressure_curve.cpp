@@ -1,10 +1,5 @@
-#include "launchsafe/scene/pressure_curve.hpp"
-
-#include "input_text.hpp"
-#include "launchsafe/scene/toml_reader.hpp"
-
-#include <cctype>
-#include <cmath>
+#include "launchsafe/scene/load.hpp"
+#include "scene_file.hpp"
 
 namespace launchsafe::scene {
 namespace {

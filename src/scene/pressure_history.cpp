@@ -1,7 +1,6 @@
 // The chamber pressure over time, an analytic shape or a measured curve, smoothed where the scene asks for
 // it; how it drives the projectile, and when it is over.
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 // clang-format off

@@ -1,10 +1,8 @@
 #include "launchsafe/scene/quantity.hpp"
 
-#include "input_text.hpp"
+#include "scene_file.hpp"
 
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
 namespace launchsafe::scene {

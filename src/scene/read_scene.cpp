@@ -1,10 +1,8 @@
 
 #include "launchsafe/scene/read_scene.hpp"
 
-#include "input_text.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
 #include "scene_file.hpp"
 
 namespace launchsafe::scene {

@@ -1,6 +1,6 @@
 #include "launchsafe/scene/scene.hpp"
 
-#include "launchsafe/scene/chamber.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,4 @@
 
-#include "input_text.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "scene_file.hpp"
 
 namespace launchsafe::scene {

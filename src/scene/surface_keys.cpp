@@ -167,24 +167,20 @@ std::vector<Key<materials::AirParameters>> air_keys() {
   };
 }
 
-std::vector<std::pair<std::string, FrictionClosure>> closure_words() {
-  std::vector<std::pair<std::string, FrictionClosure>> words;
-  for (std::size_t row = 0; row <= materials::friction_closures.size(); ++row) {
-    const auto closure = static_cast<FrictionClosure>(row);
-    words.emplace_back(word_of(closure), closure);
-  }
-  return words;
-}
-
 std::vector<Key<Surface>> friction_keys() {
+  std::vector<std::pair<std::string, FrictionClosure>> words;
+  std::vector<std::string> plausible;
+  for (const FrictionClosure closure : materials::all_closures) {
+    words.emplace_back(word_of(closure), closure);
+    if (closure != FrictionClosure::none) plausible.emplace_back(word_of(closure));
+  }
   return {
       word_key("closure", Standing::assumed,
                "Which strain rate the sliding friction acts on: total, inelastic or none. "
                "Files may still say \"literal\" for the total strain rate.",
-               closure_words(), &Surface::friction) |
+               words, &Surface::friction) |
           formerly({"literal", "total strain rate"}) |
-          plausibly(std::vector<std::string>{"total strain rate", "inelastic"},
-                    "without friction heat the published temperatures are missed by 80 K",
+          plausibly(plausible, "without friction heat the published temperatures are missed by 80 K",
                     Role{ActsOn::heat, Part::model}),
       number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,
                  "Crack spacing over the thickness of the sliding layer: factor on the friction heat.",

@@ -19,9 +19,8 @@
 
 #include "launchsafe/scene/toml_reader.hpp"
 
-#include "input_text.hpp"
+#include "scene_file.hpp"
 
-#include <cmath>
 #include <sstream>
 
 namespace launchsafe::scene {

@@ -1,5 +1,4 @@
 // What a scene must satisfy beyond the range of each key, before anything is computed.
-#include "input_text.hpp"
 #include "scene_file.hpp"
 
 #include <set>

@@ -1,4 +1,4 @@
-#include "launchsafe/scene/chamber.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "scene_file.hpp"
 
 namespace launchsafe::scene {

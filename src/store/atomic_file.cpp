@@ -1,11 +1,7 @@
-#include "launchsafe/store/atomic_file.hpp"
-
 #include "launchsafe/scene/toml_reader.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 
 #include <cerrno>
 #include <random>

@@ -3,8 +3,6 @@
 #include "case_layout.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
 #include <charconv>

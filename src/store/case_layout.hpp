@@ -2,7 +2,7 @@
 // those of snapshot_layout.hpp do.
 #pragma once
 
-#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/case_file.hpp"
 #include "snapshot_layout.hpp"
 
 namespace launchsafe::store {
@@ -103,7 +103,7 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
       column(archive, "mass", mechanics.masses, &run::MaterialMass::mass, {"kg", "mass"});
     });
     archive.group("limiters", "How often limiters acted",
-                  [&] { lay_out_members(archive, mechanics.limiters, run::stored_limiters); });
+                  [&] { lay_out_members(archive, mechanics.limiters, run::limiters); });
     if (is_there(archive, "interfaces"))
       list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
            [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });
@@ -119,10 +119,8 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
 template <class Archive>
 void lay_out_station(Archive& archive, auto& station, const trace::BottomTrace& trace) {
   archive.value("station", station, {"1", "index of the station"});
-  if constexpr (!Archive::reading) {
-    const std::string name = station < trace.stations.size() ? trace.stations[station].name : "";
-    archive.value("station_name", name, {"none", "name of the station"});
-  }
+  if constexpr (!Archive::reading)
+    archive.value("station_name", trace.name_of(station), {"none", "name of the station"});
 }
 
 template <class Archive>

@@ -1,9 +1,6 @@
 #include "launchsafe/store/case_store.hpp"
 
 #include "case_store_files.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 
 #include <cassert>
 #include <cerrno>

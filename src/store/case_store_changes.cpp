@@ -1,6 +1,4 @@
 #include "case_store_files.hpp"
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/store_status.hpp"
 
 #include <cerrno>
 

@@ -1,9 +1,5 @@
 #include "case_store_files.hpp"
 
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/store_status.hpp"
-
 namespace launchsafe::store {
 namespace {
 

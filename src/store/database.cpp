@@ -1,7 +1,5 @@
 #include "launchsafe/store/database.hpp"
 
-#include "launchsafe/store/atomic_file.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
 
 #include <sqlite3.h>

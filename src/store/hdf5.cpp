@@ -1,7 +1,6 @@
 #include "launchsafe/store/hdf5.hpp"
 
 #include <algorithm>
-#include <atomic>
 
 namespace launchsafe::store {
 namespace {

@@ -1,4 +1,4 @@
-#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/case_file.hpp"
 
 #include <Eigen/src/Core/util/Macros.h>
 #include <boost/version.hpp>
@@ -20,8 +20,6 @@
 #include <CLI/Version.hpp>
 #endif
 
-#include "launchsafe/run/case_result.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "launchsafe/version.hpp"
 
 namespace launchsafe::store {

@@ -1,7 +1,7 @@
 // Files by descriptor: what the standard library's streams cannot say, such as when bytes are on disk.
 #pragma once
 
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>

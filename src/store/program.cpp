@@ -1,5 +1,3 @@
-#include "launchsafe/store/program.hpp"
-
 #include "posix_file.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #define OPENSSL_API_COMPAT 10101  // of the functions that load no providers, which takes a millisecond
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <fmt/format.h>
 #include <openssl/sha.h>

@@ -1,11 +1,7 @@
 #include "launchsafe/store/study_record.hpp"
 
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_store.hpp"
-#include "launchsafe/store/sha256.hpp"
 #include "posix_file.hpp"
-
-#include <nlohmann/json.hpp>
 
 namespace launchsafe::store {
 namespace {

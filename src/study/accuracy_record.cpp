@@ -1,9 +1,7 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
-#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/study/study_cases.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::study {
 namespace {

@@ -2,8 +2,6 @@
 #include "launchsafe/study/record_reader.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 
 namespace launchsafe::study {

@@ -1,7 +1,6 @@
 #include "launchsafe/study/case_answer.hpp"
 
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
 #include "launchsafe/version.hpp"
 
 #include <tbb/parallel_for.h>

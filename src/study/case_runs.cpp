@@ -1,8 +1,6 @@
 // Which runs the cases of a study need, which they share, and how they are divided over shards.
-#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
-#include "launchsafe/study/run_cases.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <tbb/parallel_for.h>
 

@@ -1,9 +1,6 @@
-#include "launchsafe/study/case_uncertainty.hpp"
-
-#include "launchsafe/scene/launch_end.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/mesh.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <ranges>
 

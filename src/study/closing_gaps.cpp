@@ -1,6 +1,3 @@
-#include "launchsafe/study/closing_gaps.hpp"
-
-#include "launchsafe/run/validity_warnings.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::study {

@@ -1,7 +1,6 @@
 // The terms on which a gap that closes is looked at.
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::study {
 namespace {

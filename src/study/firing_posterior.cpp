@@ -1,10 +1,9 @@
-#include "launchsafe/study/firing_posterior.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/tools/roots.hpp>
 
 #include <cassert>
-#include <numeric>
 
 namespace launchsafe::study {
 namespace {

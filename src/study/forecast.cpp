@@ -1,11 +1,8 @@
-#include "launchsafe/study/forecast.hpp"
-
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 #include <tbb/parallel_for.h>
 
-#include <numeric>
 #include <sstream>
 
 namespace launchsafe::study {

@@ -1,28 +1,9 @@
-#include "launchsafe/run/axial_modes.hpp"
-#include "launchsafe/run/validity_warnings.hpp"
-#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/closing_gaps.hpp"
 
 namespace launchsafe::study {
 namespace {
 
 using trace::BottomTrace;
-
-std::string name_of(const BottomTrace& trace, std::size_t station) {
-  return station < trace.stations.size() ? trace.stations[station].name : std::string{};
-}
-
-Peak peak_of(const surface::Maximum& maximum, const BottomTrace& trace) {
-  return {maximum.temperature, maximum.time, name_of(trace, maximum.station)};
-}
-
-std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignition,
-                                   const BottomTrace& trace) {
-  if (!ignition) return std::nullopt;
-  return NamedIgnition{ignition->cause, ignition->time, name_of(trace, ignition->station),
-                       ignition->chemical_share};
-}
 
 /// What a tolerance ten times wider changes, K.
 double integration_error(const surface::SkinModel& model, const BottomTrace& trace,
@@ -236,6 +217,17 @@ void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
 }
 
 }  // namespace
+
+Peak peak_of(const surface::Maximum& maximum, const BottomTrace& trace) {
+  return {maximum.temperature, maximum.time, trace.name_of(maximum.station)};
+}
+
+std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignition,
+                                   const BottomTrace& trace) {
+  if (!ignition) return std::nullopt;
+  return NamedIgnition{ignition->cause, ignition->time, trace.name_of(ignition->station),
+                       ignition->chemical_share};
+}
 
 void attach_references(const Study& study, const StudyCase& input, std::vector<GapVerdict>& rows) {
   if (!input.own_conditions) return;

@@ -1,9 +1,5 @@
-#include "launchsafe/study/model_form.hpp"
-
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
-
-#include <fmt/format.h>
 
 namespace launchsafe::study {
 namespace {

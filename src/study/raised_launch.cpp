@@ -1,6 +1,5 @@
 // A launch on other terms than those of its verdicts: with one cause of uncertainty at an end of its range,
 // with air that conserves energy, and going on for longer.
-#include "launchsafe/scene/launch_end.hpp"
 #include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::study {

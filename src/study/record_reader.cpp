@@ -1,9 +1,7 @@
 #include "launchsafe/study/record_reader.hpp"
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/store/sha256.hpp"
-
-#include <fmt/format.h>
+#include "launchsafe/store/file.hpp"
 
 #include <set>
 

@@ -1,6 +1,5 @@
 #include "launchsafe/study/run_cases.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::study {

@@ -1,7 +1,5 @@
 #include "launchsafe/study/case_answer.hpp"
 
-#include <nlohmann/json.hpp>
-
 namespace launchsafe::study {
 namespace {
 
@@ -96,7 +94,7 @@ void describe(Values& values, GapVerdict& row) {
 }
 
 void describe(Values& values, GapShare& share) {
-  values.choice(share.kind, last_share_kind);
+  values.choice(share.kind, ShareKind::accepted);
   values.amounts(share.raised, share.lowered);
 }
 
@@ -117,10 +115,9 @@ void describe(Values& values, CriticalGap& gap) {
 
 void describe(Values& values, CaseAnswer& answer) {
   values.add(answer.failure, answer.friction_rise);
-  run::LimiterCounts& limiters = answer.run.limiters;
   values.choice(answer.run.status, run::last_status);
-  values.amounts(answer.run.steps, answer.run.particles, answer.run.energy_drift, limiters.crack_at_bound,
-                 limiters.tension_cutoff, limiters.hugoniot_guard);
+  values.amounts(answer.run.steps, answer.run.particles, answer.run.energy_drift);
+  for (const run::Limiter& each : run::limiters) values.amounts(answer.run.limiters.*each.member);
   values.add(answer.runs, answer.validity_warnings, answer.critical, answer.verdicts);
 }
 

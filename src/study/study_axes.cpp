@@ -1,8 +1,6 @@
 // The scene keys that a study varies, what is wrong with a study and where, and the limits that it cites.
 #include "launchsafe/study/study_cases.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::study {
 namespace {
 
@@ -62,8 +60,7 @@ std::vector<std::size_t> nearest_cases(const StudyFile& study, std::size_t count
     if (distance < least - slack) nearest = of_own_defect = {};
     least = std::min(least, distance);
     nearest.push_back(i);
-    if (each.crack_radius == own.initial_crack_radius && each.flaw_size == own.flaw_size)
-      of_own_defect.push_back(i);
+    if (each.has_defect(own)) of_own_defect.push_back(i);
   }
   return of_own_defect.empty() ? nearest : of_own_defect;
 }

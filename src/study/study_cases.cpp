@@ -1,9 +1,7 @@
 #include "launchsafe/study/study_cases.hpp"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <atomic>
 #include <cassert>
 
 namespace launchsafe::study {
@@ -67,8 +65,7 @@ bool is_own(const Start& start, const StudyCase& made) {
   for (std::size_t i = 0; i < made.coordinates.size(); ++i)
     if (start.condition[i] && made.coordinates[i] != number_in(start.scene, start.axes[i].key.name))
       return false;
-  return made.peak_pressure == start.peak && made.crack_radius == own.initial_crack_radius &&
-         made.flaw_size == own.flaw_size;
+  return made.peak_pressure == start.peak && made.has_defect(own);
 }
 
 StudyCase varied_case(const Start& start, std::vector<double> coordinates, SceneFile scene) {
@@ -103,8 +100,8 @@ std::string case_label(const Study& study, const StudyCase& made) {
     return std::ranges::find(named_axes(), axis.name, &NamedAxis::name) != named_axes().end();
   });
   if (of_launch)
-    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure, 1e6 * made.crack_radius,
-                       1e3 * made.flaw_size);
+    return fmt::format("{:.6g} MPa, {:.6g} µm, {:.6g} mm", 1e-6 * made.peak_pressure,
+                       1e6 * made.strength().initial_crack_radius, 1e3 * made.strength().flaw_size);
   std::string text;
   for (std::size_t i = 0; i < study.axes.size(); ++i)
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", study.axes[i].name,
@@ -184,9 +181,6 @@ StudyCase case_of(std::string label, SceneFile scene) {
   StudyCase made;
   made.label = std::move(label);
   made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
-  made.crack_radius = s.charge().strength.initial_crack_radius;
-  made.flaw_size = s.charge().strength.flaw_size;
-  made.cell_size = s.numerics.cell_size;
   made.own_conditions = false;
   made.scene = std::move(scene);
   scene::Surface& surface = made.scene.scene.surface;

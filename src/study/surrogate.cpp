@@ -2,8 +2,6 @@
 
 #include "launchsafe/study/record_reader.hpp"
 
-#include <fmt/format.h>
-
 namespace launchsafe::study {
 namespace {
 

@@ -1,5 +1,5 @@
 // What `launchsafe explain` says of the grid of a scene, and its picture.
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "program.hpp"
 

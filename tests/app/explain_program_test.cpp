@@ -1,5 +1,4 @@
 // What launchsafe explains of itself: keys and schemas.
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "program.hpp"
 

@@ -1,5 +1,5 @@
 // launchsafe report as a user meets it: of studies that ran, failed or were interrupted, and of bad input.
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 #include "stored_page.hpp"
 #include "stored_study.hpp"
 

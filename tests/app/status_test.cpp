@@ -1,5 +1,5 @@
 // launchsafe status, the page of a folder, and the end of a study at a time of the day.
-#include "launchsafe/store/store_status.hpp"
+#include "launchsafe/store/case_store.hpp"
 #include "stored_study.hpp"
 
 #include <ctime>

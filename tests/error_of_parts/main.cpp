@@ -1,7 +1,6 @@
 // Error, order of convergence and processor time of the parts with exact solutions:
 //   error_of_parts FOLDER
 // writes parts.md, parts.csv and, where gnuplot is installed, parts.svg.
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/plot.hpp"
 #include "launchsafe/report/table.hpp"
 #include "series.hpp"

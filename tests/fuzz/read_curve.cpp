@@ -1,8 +1,7 @@
 // Pressure curves from any bytes. Whatever is read must be a curve, must read back the same from any other
 // way of writing it, and must be a pressure at any time, smoothed or not; whatever is not must say why.
 #include "fuzz_input.hpp"
-#include "launchsafe/scene/load_roughness.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,8 @@
 #include "launchsafe/scene/read_scene.hpp"
 
 #include "fuzz_input.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

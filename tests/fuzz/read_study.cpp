@@ -2,9 +2,8 @@
 // scene.toml, and that of an accuracy record, accuracy.json. Whatever is read must have cases fit to be
 // computed; whatever is not must say why. "@scene" in the record stands for that scene as the program
 // writes it, which no fuzzer guesses; such a record gets the digest of its content, too.
-#include "launchsafe/kinds/read_study.hpp"
-
 #include "fuzz_input.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "record_text.hpp"
 
 #include <cmath>

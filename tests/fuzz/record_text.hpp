@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/scene/read_scene.hpp"
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <nlohmann/json.hpp>
 

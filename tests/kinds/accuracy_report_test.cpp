@@ -1,5 +1,5 @@
 #include "launchsafe/kinds/accuracy.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/accuracy.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

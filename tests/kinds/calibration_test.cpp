@@ -113,6 +113,17 @@ TEST(Calibration, ARunawayGivesNoIgnitionTemperature) {
   EXPECT_FALSE(result.recommended_row.has_value());
 }
 
+TEST(Calibration, EveryClosureHasARow) {
+  const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
+  const CalibrationResult result =
+      run_calibration(study_of(calibration_text + published({951.0, 4.2e-4, 0}, trace) + synthetic_constants),
+                      synthetic_options());
+  std::vector<scene::FrictionClosure> closures;
+  for (const CalibrationRow& row : result.rows) closures.push_back(row.closure);
+  const auto& all = materials::all_closures;
+  EXPECT_EQ(closures, std::vector<scene::FrictionClosure>(all.begin(), all.end()));
+}
+
 TEST(Calibration, AFailedMeshIsItsOwnFailure) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
   StudyOptions options = synthetic_options(2);

@@ -1,7 +1,6 @@
 // Edits of a scene or of its pressure curve: one that makes an indeterminate verdict SAFE does so through a
 // plausible value that is printed beside the verdict.
-#include "launchsafe/scene/plausibility.hpp"
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/record_domain.hpp"

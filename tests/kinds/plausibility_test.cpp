@@ -1,10 +1,9 @@
 // Values that no launch has: their verdicts have a validity warning, unless scene or study says why they are
 // meant.
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>

@@ -5,7 +5,6 @@
 #include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/kinds/read_study.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "study/synthetic_launch.hpp"

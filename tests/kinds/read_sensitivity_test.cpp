@@ -1,7 +1,7 @@
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "sensitivity_files.hpp"
 #include "study/read_error.hpp"
 

@@ -1,4 +1,4 @@
-#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "study/read_error.hpp"
 

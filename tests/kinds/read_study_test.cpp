@@ -1,6 +1,5 @@
-#include "launchsafe/kinds/read_study.hpp"
-
 #include "launchsafe/kinds/critical_gap.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "study/read_error.hpp"
 #include "study/synthetic_launch.hpp"
 
@@ -58,7 +57,7 @@ TEST(ReadStudy, TheShippedStudiesAreValid) {
   ASSERT_TRUE(calibration) << calibration.error().message();
   EXPECT_EQ(calibration->study.kind.name, kinds::traits_of("calibration").name);
   ASSERT_EQ(calibration->cases.size(), 3u);
-  EXPECT_EQ(calibration->cases[1].cell_size, 2.5e-3);
+  EXPECT_EQ(calibration->cases[1].cell_size(), 2.5e-3);
   EXPECT_EQ(calibration->cases[1].scene.scene.numerics.cell_size, 2.5e-3);
 }
 

@@ -1,6 +1,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/read_error.hpp"
 
@@ -64,9 +64,9 @@ TEST(ReadVary, MakesTheProductOfTheAxesInTheOrderWritten) {
   EXPECT_EQ(second.label, "peak_pressure 400 MPa, flaw_size 0.1 cm, load.steepness 1.4, crack_radius 30 µm");
   EXPECT_EQ(second.coordinates, (std::vector<double>{400e6, 1e-3, 1.4, 30e-6}));
   EXPECT_EQ(second.peak_pressure, 400e6);
-  EXPECT_EQ(second.flaw_size, 1e-3);
-  EXPECT_EQ(second.crack_radius, 30e-6);
-  EXPECT_EQ(second.cell_size, study.scene.scene.numerics.cell_size);
+  EXPECT_EQ(second.strength().flaw_size, 1e-3);
+  EXPECT_EQ(second.strength().initial_crack_radius, 30e-6);
+  EXPECT_EQ(second.cell_size(), study.scene.scene.numerics.cell_size);
   const scene::Scene& last = study.cases.back().scene.scene;
   EXPECT_EQ(last.load.peak, 496e6);
   EXPECT_EQ(last.charge().strength.flaw_size, 2e-3);

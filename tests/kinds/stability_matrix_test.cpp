@@ -1,5 +1,5 @@
 // The shipped tables, computed for real: the small one, the large one in another form, and a copy.
-#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/stability.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"

@@ -1,7 +1,7 @@
 // What stress cases come to, on runs made by hand: one study of all of them, computed once.
 #include "launchsafe/kinds/stability.hpp"
 
-#include "launchsafe/study/forecast.hpp"
+#include "launchsafe/study/run_cases.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // The pages, tables and JSON of studies on a launch in closed form.
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/table.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

@@ -110,8 +110,8 @@ TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
   kinds::CriticalGapResult result = made_sweep();
   result.study.cases.complete_with([](study::StudyCase& made) {
     made.peak_pressure = made.coordinates[0];
-    made.crack_radius = made.coordinates[1];
-    made.flaw_size = 1e-3;
+    made.scene.scene.charge().strength.initial_crack_radius = made.coordinates[1];
+    made.scene.scene.charge().strength.flaw_size = 1e-3;
   });
   result.study.study.cited_limits = {{0.38e-3, 500e6, "tests"}, {0.381e-3, 506e6, "a simulated pressure"}};
   const auto rows = json_rows(cited_limit_table(result));

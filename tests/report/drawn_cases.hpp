@@ -1,9 +1,9 @@
 // Small launches whose pictures tests look at.
 #pragma once
 
-#include "launchsafe/report/case_pictures.hpp"
+#include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "report/gnuplot.hpp"
 
 #include <gtest/gtest.h>

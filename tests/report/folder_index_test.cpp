@@ -1,5 +1,5 @@
 // The page that leads to all reports of a folder.
-#include "launchsafe/report/page_texts.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "report_folder.hpp"
 

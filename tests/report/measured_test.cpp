@@ -1,4 +1,4 @@
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "launchsafe/report/page_texts.hpp"
-
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/report/report.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <gtest/gtest.h>
 

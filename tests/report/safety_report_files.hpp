@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/report/safety_report.hpp"
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 #include "store/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include "launchsafe/report/case_pictures.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/report/case_tables.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "report/gnuplot.hpp"
 

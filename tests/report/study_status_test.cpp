@@ -1,4 +1,4 @@
-#include "launchsafe/report/study_status.hpp"
+#include "launchsafe/report/study_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 // The frequencies of a shell against those of rods in a row, and rings against what launches with them came
 // to.
-#include "launchsafe/run/axial_modes.hpp"
-
 #include "launchsafe/materials/laws.hpp"
+#include "launchsafe/run/cost.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

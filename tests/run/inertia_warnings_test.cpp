@@ -1,4 +1,4 @@
-#include "launchsafe/run/validity_warnings.hpp"
+#include "launchsafe/run/run_case.hpp"
 #include "run/sound_run.hpp"
 
 #include <cmath>

@@ -1,7 +1,6 @@
 // Snapshots: which instants they are of, and what they hold beside the fields of the particles.
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/quantity.hpp"
 #include "launchsafe/scene/read_scene.hpp"

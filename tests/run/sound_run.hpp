@@ -2,7 +2,7 @@
 #pragma once
 
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What stations read from particles whose state is made by hand.
 #include "../../src/run/charge_heat.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

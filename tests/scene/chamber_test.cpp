@@ -1,5 +1,4 @@
-#include "launchsafe/scene/chamber.hpp"
-
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

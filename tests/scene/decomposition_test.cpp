@@ -1,5 +1,4 @@
 // Decompositions whose numbers belong together, and the one that a flame lives on.
-#include "launchsafe/scene/named_material.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // What the fuzzers of tests/fuzz found, made small.
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 

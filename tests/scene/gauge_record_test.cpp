@@ -1,6 +1,6 @@
 // Records of pressure gauges, and what is made of them. Expected numbers are those that the records were made
 // with.
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // Interfaces in scene files: read, written back, refused.
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,8 +1,6 @@
 // When a launch is over: analytic loads and measured curves, with and without a muzzle exit.
-#include "launchsafe/scene/launch_end.hpp"
-
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene_text.hpp"
 

@@ -1,4 +1,4 @@
-#include "launchsafe/scene/load_roughness.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,6 @@
 // Materials as data: their tables, files and shipped ones, where their numbers come from, and what bodies
 // make of their names.
-#include "launchsafe/scene/named_material.hpp"
-
 #include "launchsafe/scene/plan.hpp"
-#include "launchsafe/scene/plausibility.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 

@@ -1,6 +1,5 @@
 #include "launchsafe/scene/plan.hpp"
 
-#include "launchsafe/scene/mesh.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
@@ -168,16 +167,6 @@ TEST(Plan, TellsByHowMuchACoolChargePartsFromItsBase) {
   scene.surface.model = GapModel::closing;
   EXPECT_NE(to_text(make_plan(scene), scene, 1e7).find("parts from the base by 24 µm a kelvin"),
             std::string::npos);
-}
-
-// A straight line's change within a window is its slope times the window.
-TEST(LargestChanges, OfStraightLinesAreTheirSlopesTimesTheWindow) {
-  Load load;
-  load.curve_time = {0.0, 10e-3, 30e-3};
-  load.curve_pressure = {0.0, 100e6, 0.0};
-  const LargestChanges changes = largest_changes(load, 1e-3);
-  EXPECT_NEAR(changes.rise, 10e6, 1e-3);
-  EXPECT_NEAR(changes.fall, 5e6, 1e-3);
 }
 
 }  // namespace

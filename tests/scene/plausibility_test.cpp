@@ -1,7 +1,6 @@
-#include "launchsafe/scene/plausibility.hpp"
-
-#include "launchsafe/scene/launch_end.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "launchsafe/scene/pressure_curve.hpp"
+#include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "store/temporary_folder.hpp"
 

@@ -1,6 +1,5 @@
-#include "launchsafe/store/atomic_file.hpp"
-
 #include "child_process.hpp"
+#include "launchsafe/store/file.hpp"
 #include "temporary_folder.hpp"
 
 #include <sys/stat.h>

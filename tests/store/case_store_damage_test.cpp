@@ -1,7 +1,7 @@
 // What becomes of case files that are not what their records say.
 #include "child_process.hpp"
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 

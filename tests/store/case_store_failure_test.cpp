@@ -1,6 +1,6 @@
 // What is left of a store when the disk is full or the process is killed.
 #include "child_process.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 

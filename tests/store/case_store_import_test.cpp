@@ -1,5 +1,5 @@
 // Taking over what another folder holds.
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 

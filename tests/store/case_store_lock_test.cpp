@@ -1,6 +1,6 @@
 // Who may write at the same time.
 #include "child_process.hpp"
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "store_fixture.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "launchsafe/store/case_store.hpp"
 
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 

@@ -1,5 +1,5 @@
 // A store in a folder where somebody else's files have the names that it needs: nothing is changed.
-#include "launchsafe/store/atomic_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "store_fixture.hpp"
 
 #include <gtest/gtest.h>

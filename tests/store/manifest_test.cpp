@@ -1,6 +1,5 @@
-#include "launchsafe/store/manifest.hpp"
-
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/case_file.hpp"
+#include "launchsafe/store/file.hpp"
 #include "launchsafe/version.hpp"
 
 #include <gtest/gtest.h>

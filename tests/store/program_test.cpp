@@ -1,6 +1,6 @@
 // A program that is called: what it is given, and what it leaves. That it is ended in time is tested where
 // pictures are drawn.
-#include "launchsafe/store/program.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <gtest/gtest.h>
 

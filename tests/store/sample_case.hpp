@@ -3,7 +3,7 @@
 
 #include "launchsafe/run/case_result.hpp"
 #include "launchsafe/scene/scene.hpp"
-#include "launchsafe/store/manifest.hpp"
+#include "launchsafe/store/case_file.hpp"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
 #include "launchsafe/store/study_record.hpp"
 
-#include "launchsafe/store/atomic_file.hpp"
 #include "launchsafe/store/case_file.hpp"
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 #include "sample_case.hpp"
 #include "temporary_folder.hpp"
 

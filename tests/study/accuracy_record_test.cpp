@@ -1,7 +1,7 @@
 #include "launchsafe/study/accuracy_record.hpp"
 
-#include "launchsafe/kinds/read_study.hpp"
-#include "launchsafe/study/case_uncertainty.hpp"
+#include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/record_domain.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/made_record.hpp"

@@ -1,7 +1,6 @@
 #include "launchsafe/scene/read_scene.hpp"
 #include "launchsafe/scene/toml_reader.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/firing_posterior.hpp"
 #include "launchsafe/study/record_domain.hpp"
 
 #include <gtest/gtest.h>

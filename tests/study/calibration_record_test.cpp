@@ -1,7 +1,7 @@
 #include "launchsafe/study/calibration_record.hpp"
 
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 // The shares of a verdict's uncertainty, and the validity warnings of a calibration outside its domain, on a
 // launch in closed form.
-#include "launchsafe/study/case_uncertainty.hpp"
-
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/record_domain.hpp"

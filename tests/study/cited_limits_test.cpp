@@ -97,7 +97,8 @@ TEST(CitedLimits, ABoundHasNoDifference) {
 TEST(CitedLimits, ABoundBelowEveryNumberStandsBesideTheLimit) {
   StudyFile study = four_cases();
   for (std::size_t i = 0; i < study.cases.size(); ++i)  // none has the scene's own defect
-    change_case(study, i, [](StudyCase& each) { each.crack_radius *= 2.0; });
+    change_case(study, i,
+                [](StudyCase& each) { each.scene.scene.charge().strength.initial_crack_radius *= 2.0; });
   const CriticalGap known = value(3.8e-4);
   CriticalGap ignites, unknown;
   ignites.kind = CriticalGapKind::all_ignite;

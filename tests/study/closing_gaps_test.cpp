@@ -1,7 +1,6 @@
 // The search for the gap that ignites where it closes, on launches that a closed form stands for.
-#include "launchsafe/study/closing_gaps.hpp"
-
 #include "launchsafe/scene/plan.hpp"
+#include "launchsafe/study/case_answer.hpp"
 #include "synthetic_launch.hpp"
 
 #include <gtest/gtest.h>

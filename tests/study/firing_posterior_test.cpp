@@ -1,7 +1,6 @@
-#include "launchsafe/study/firing_posterior.hpp"
-
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/math/statistics.hpp"
+#include "launchsafe/study/calibration_record.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // A record whose bounds are known in closed form, of the 155 mm shell as shipped.
 #pragma once
 
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "study/read_error.hpp"
 

@@ -1,7 +1,6 @@
-#include "launchsafe/study/model_form.hpp"
-
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/record_domain.hpp"
 #include "study/synthetic_launch.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 #include <gtest/gtest.h>
 

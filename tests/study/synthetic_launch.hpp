@@ -1,9 +1,9 @@
 // A launch in closed form in place of the mechanics, so that studies run in milliseconds.
 #pragma once
 
-#include "launchsafe/kinds/read_study.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/run/run_case.hpp"
-#include "launchsafe/study/options.hpp"
+#include "launchsafe/study/run_cases.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // What the skin takes from the air against what compression can supply to it.
-#include "launchsafe/surface/air_energy.hpp"
-
+#include "launchsafe/surface/skin.hpp"
 #include "plain_model.hpp"
 
 #include <gtest/gtest.h>

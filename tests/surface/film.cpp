@@ -1,8 +1,7 @@
 // The film of air against closed forms, its orders of convergence, its ledger, and launches.
-#include "launchsafe/surface/film.hpp"
-
 #include "launchsafe/materials/ideal_gas.hpp"
 #include "launchsafe/surface/film_station.hpp"
+#include "launchsafe/surface/skin.hpp"
 #include "plain_model.hpp"
 
 #include <gtest/gtest.h>

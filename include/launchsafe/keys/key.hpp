@@ -74,7 +74,7 @@ inline Limits above_to(double lowest, double highest) {
 }
 
 /// What a key is expected to hold: a value that is allowed but not plausible makes every verdict that rests
-/// on it indeterminate, with a validity warning (scene/plausibility.hpp).
+/// on it indeterminate, with a validity warning (scene/read_scene.hpp).
 struct Plausible {
   Limits limits = {};    ///< SI; of a list those of every number, of a range those of its width
   bool or_zero = false;  ///< 0 too, where it stands for "none"

@@ -4,7 +4,6 @@
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/math/sensitivity.hpp"
 #include "launchsafe/study/calibration_record.hpp"
-#include "launchsafe/study/run_cases.hpp"
 
 namespace launchsafe::kinds {
 

@@ -1,5 +1,6 @@
 // Friction closures: which strain of the charge the sliding of its layers is (paper Eq. 39). A new one is an
-// enumerator and a row here; scene files, traces, case files and reports take it from the table.
+// enumerator and a row here; scene files, traces, case files, calibrations and reports take it from the
+// table.
 #pragma once
 
 #include "launchsafe/math/deviator.hpp"
@@ -33,6 +34,13 @@ inline constexpr std::array friction_closures{
                        [](const SlidingStep& step) { return math::equivalent_strain(step.inelastic); }},
 };
 static_assert(friction_closures.size() == static_cast<std::size_t>(FrictionClosure::none));
+
+/// All of them, `none` last.
+inline constexpr auto all_closures = [] {
+  std::array<FrictionClosure, friction_closures.size() + 1> all{};
+  for (std::size_t row = 0; row < all.size(); ++row) all[row] = static_cast<FrictionClosure>(row);
+  return all;
+}();
 
 /// The word of a closure: that of its row, or "none".
 constexpr std::string_view word_of(FrictionClosure closure) {

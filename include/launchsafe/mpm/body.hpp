@@ -6,7 +6,7 @@
 #pragma once
 
 #include "launchsafe/materials/burning_mixture.hpp"
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::mpm {
 

@@ -1,7 +1,7 @@
 // Nodes of one body on the shared rectilinear lattice, and the tie of nodes that lie at one place.
 #pragma once
 
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::mpm {
 

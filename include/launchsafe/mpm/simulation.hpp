@@ -3,7 +3,6 @@
 
 #include "launchsafe/mpm/total_lagrangian.hpp"
 #include "launchsafe/mpm/updated_lagrangian.hpp"
-#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::mpm {
 

@@ -12,7 +12,7 @@
 #include "launchsafe/mpm/body.hpp"
 #include "launchsafe/mpm/contact.hpp"
 #include "launchsafe/mpm/team.hpp"
-#include "launchsafe/scene/chamber.hpp"
+#include "launchsafe/scene/load.hpp"
 
 #include <memory>
 

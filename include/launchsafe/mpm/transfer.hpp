@@ -6,7 +6,7 @@
 // that is fixed.
 #pragma once
 
-#include "launchsafe/scene/mesh.hpp"
+#include "launchsafe/scene/plan.hpp"
 
 namespace launchsafe::mpm {
 

@@ -1,7 +1,6 @@
 // The quantities that several tables hold: each is described here and nowhere else.
 #pragma once
 
-#include "launchsafe/report/number.hpp"
 #include "launchsafe/report/table.hpp"
 
 namespace launchsafe::report {

@@ -2,7 +2,7 @@
 // what was selected from them; and templates, which say what is said of them, where and in which digits.
 #pragma once
 
-#include "launchsafe/report/page_texts.hpp"
+#include "launchsafe/report/report.hpp"
 #include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report {

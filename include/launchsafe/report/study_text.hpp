@@ -1,12 +1,11 @@
 // Text and files that the reports of all studies share, and the scene keys that a study varies, as people and
-// programs read them: one unit for all values of a key.
+// programs read them: one unit for all values of a key; verdicts and critical gaps; and how far a study is.
 #pragma once
 
 #include "launchsafe/report/report.hpp"
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_file.hpp"
+#include "launchsafe/study/verdict.hpp"
 
-#include <nlohmann/json.hpp>
+#include <ctime>
 
 namespace launchsafe::report {
 
@@ -58,5 +57,83 @@ nlohmann::ordered_json axes_json(const study::Study& study);
 /// Rows have a line each and are never objects in memory, as large sweeps would take too much of it.
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members);
+
+// --- verdicts and critical gaps as cells and sentences, the same in every study that judges gaps ---
+
+/// From T max to the energy of the air: what is known of one gap of one case.
+Quantities<study::GapVerdict> verdict_quantities(const study::Study& study);
+
+/// Kind, value and bracket of a critical gap, and how it reads.
+Quantities<study::CriticalGap> critical_gap_quantities();
+/// Those and the bounds of it, of a kind that finds them.
+Quantities<study::CriticalGap> bounded_gap_quantities();
+
+/// A case with its critical gap, however the study keeps it.
+struct NamedGap {
+  std::string label;
+  const study::CriticalGap* gap;
+};
+
+/// What every table of verdicts must say: an uncertainty that is assumed or stated by hand, a charge off the
+/// grid lines.
+std::vector<std::string> mesh_notes(const study::StudyFile& study);
+/// What temperatures are read over.
+std::string station_note(const study::StudyFile& study);
+
+/// What the published highest temperature of a gap was used for.
+std::string used_for(const study::Reference& published);
+
+/// The value in m, NaN for anything that is none: a bound never passes for a value.
+double value_of(const study::CriticalGap& gap);
+/// cm: the value between its bounds; nothing where it is none, or one of them is not known.
+std::optional<Measured> measured_gap(const study::CriticalGap& gap);
+/// "0.039 ± 0.010 cm", or six digits of the value where its bounds are not known.
+std::string measured_text(const study::CriticalGap& gap);
+/// What makes critical gaps uncertain, cause by cause.
+Table gap_share_table(const std::vector<NamedGap>& cases);
+/// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
+std::string reads_as(const study::CriticalGap& gap);
+
+std::vector<Column> cited_limit_columns();
+/// The study's cited limits beside the critical gaps of its cases, which are in their order; without rows
+/// where it cites none.
+Table cited_limit_table(const study::StudyFile& study,
+                        const std::vector<const study::CriticalGap*>& critical);
+
+/// On what the absolute value of a critical gap rests.
+std::string friction_remark(const study::StudyFile& study);
+
+/// What the uncertainty of a margin is made of, as a sentence.
+std::string uncertainty_remark(const study::StudyFile& study);
+
+// --- how far a study is, from what its writers tell in their status files: as facts, as text, and as the
+// page index.html of its folder ---
+
+/// What a writer tells of its progress: members of its status file.
+Row progress_row(const study::Progress& progress);
+
+/// The same as a line of a terminal of so many columns.
+std::string progress_line(const study::Progress& progress, std::time_t now, std::size_t width);
+
+/// The local time of day, such as "05:40"; with the day before it where that is another one than now's.
+std::string clock_time(std::time_t time, std::time_t now);
+
+/// When the local clock shows "06:00" next after `now`, s since the epoch; nothing for what is no time of
+/// day.
+std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t now);
+
+/// What the snapshots of a study, at least one, say at a time: its state, cases, times, what is stored,
+/// failures by their reason, preliminary critical gaps, and a row for every writer. A writer that told
+/// nothing for two minutes counts as one that was killed. `folder` is how it is called. Values that a damaged
+/// file lacks are 0.
+Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
+                 std::time_t now);
+
+/// Of these facts: for a terminal, and the page. `files`: names of reports that are there, to be linked.
+std::string status_text(const Row& facts);
+std::string status_page(Row facts, const std::vector<std::string>& files);
+
+/// Whether it pays to look again: a writer is at work.
+bool is_running(const Row& facts);
 
 }  // namespace launchsafe::report

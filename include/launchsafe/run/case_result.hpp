@@ -1,8 +1,7 @@
 // What one case came to: the mechanics once, and a skin history for every gap.
 #pragma once
 
-#include "launchsafe/surface/air_energy.hpp"
-#include "launchsafe/surface/film.hpp"
+#include "launchsafe/surface/skin.hpp"
 
 #include <map>
 #include <memory>
@@ -151,15 +150,26 @@ bool has_field(const scene::Scene& scene, const scene::Body& body, const Snapsho
 /// On how many particle-steps limiters acted; a verdict that depended on one says so.
 struct LimiterCounts {
   std::uint64_t crack_at_bound = 0, tension_cutoff = 0, hugoniot_guard = 0;
+  LimiterCounts& operator+=(const LimiterCounts& other);
+  bool operator==(const LimiterCounts&) const = default;
+  bool acted() const { return *this != LimiterCounts{}; }
 };
-inline constexpr std::tuple stored_limiters{
-    Stored{"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
-    Stored{"tension_cutoff", &LimiterCounts::tension_cutoff, "1",
-           "particles that reached the tension cut-off"},
-    Stored{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1", "particles at the guarded Hugoniot pole"}};
+struct Limiter : Stored<std::uint64_t LimiterCounts::*> {
+  const char* words;  ///< for people
+};
+inline constexpr std::array limiters{
+    Limiter{
+        {"crack_at_bound", &LimiterCounts::crack_at_bound, "1", "particles whose crack reached its bound"},
+        "crack bound"},
+    Limiter{
+        {"tension_cutoff", &LimiterCounts::tension_cutoff, "1", "particles that reached the tension cut-off"},
+        "tension cut-off"},
+    Limiter{{"hugoniot_guard", &LimiterCounts::hugoniot_guard, "1", "particles at the guarded Hugoniot pole"},
+            "Hugoniot guard"}};
+static_assert(sizeof(LimiterCounts) == limiters.size() * sizeof(std::uint64_t));
 
 /// "crack bound 12, tension cut-off 3"; empty where none acted.
-std::string to_string(const LimiterCounts& limiters);
+std::string to_string(const LimiterCounts& counts);
 
 /// Mass of the bodies of one material, kg, summed over the particles.
 struct MaterialMass {

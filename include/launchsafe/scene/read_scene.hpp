@@ -1,11 +1,212 @@
 // Every key of a scene file: name, dimension, range, default, standing and meaning, bound to the member of
 // the Scene that it fills; and a scene from a file: read, completed, validated; changed key by key; listed
 // and written back. Reading, documenting, sweeping and storing scenes all go through the one list of keys.
+// First of all materials, and which of its values no launch has.
 #pragma once
 
-#include "launchsafe/scene/named_material.hpp"
+#include "launchsafe/scene/scene.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 
 namespace launchsafe::scene {
+
+// --- materials, and how bodies hold the charge, as data: [material.NAME] and [contact.NAME] in a scene or in
+// a file of materials, and those that ship with the program; [interface.NAME] of a scene, for the body of
+// that name and the charge. Each number may say where it comes from ---
+
+/// A value that a file gives, and where.
+struct Given {
+  Place place;
+  Value value;
+  bool of_material = false;  ///< by the material of a body, and not by the scene itself
+};
+
+/// All numbers of a material, whose name bodies refer to.
+struct NamedMaterial {
+  std::string name;
+  std::string law;    ///< the word of its law, such as "charge"
+  std::string title;  ///< for people
+  std::string like;   ///< name of the material that gives what is not given here
+  Place place;
+  std::map<std::string, Given> values;  ///< by the scene's key, such as "charge.density"
+  std::vector<Source> sources;          ///< of these keys
+};
+
+/// A contact whose name interfaces refer to.
+struct NamedContact {
+  std::string name;
+  std::string title;            ///< for people
+  Interface faces;              ///< without a body
+  std::vector<Source> sources;  ///< of its keys
+};
+
+/// Activation energy, frequency factor and heat of one reaction of order zero, which belong together. They
+/// ship with the program, and files of users have none.
+struct Decomposition {
+  std::string name;                        ///< a word of combustion.kinetics
+  std::string title;                       ///< of which explosive, for people
+  materials::KineticsParameters kinetics;  ///< E/R, Z and Q; the rest is unused
+  std::vector<Source> sources;             ///< of its keys, as a material names them without "kinetics."
+};
+
+struct NamedMaterials {
+  std::vector<NamedMaterial> materials;
+  std::vector<NamedContact> contacts;
+  std::vector<Decomposition> decompositions;
+};
+
+/// The key of a scene that names a file of materials and contacts.
+const KeyDescription& material_file_key();
+/// What [material.NAME] says beside the numbers of its law.
+const std::vector<Key<NamedMaterial>>& material_keys();
+/// Keys of one [interface.NAME].
+const std::vector<Key<Interface>>& interface_keys();
+/// Keys of one [contact.NAME], and that of an interface which names a contact.
+const std::vector<Key<NamedContact>>& contact_keys();
+const KeyDescription& contact_of_interface_key();
+/// A number's key as a material has it: "density" for "charge.density"; others keep their table.
+std::string key_in_material(std::string_view law, std::string_view scene_key);
+
+/// The materials and contacts that the program brings along, by name; texts in studies/materials.
+const std::vector<NamedMaterial>& shipped_materials();
+const std::vector<NamedContact>& shipped_contacts();
+
+/// The tables [material.NAME] of a file; none if it has none. `known`: materials of other files, which these
+/// may be like, and whose names they must not take. Throws: a name that is taken, an unknown law or key, a
+/// number that is neither given nor that of another material, a material that is like itself, and those of
+/// sources.
+std::vector<NamedMaterial> read_materials(const toml::table& root, const std::string& file,
+                                          const std::vector<NamedMaterial>& known);
+
+/// The tables [contact.NAME] of a file; none if it has none. `known`: contacts of other files, whose names
+/// these must not take. Throws: a name that is taken, a key that does not exist, a value out of range, those
+/// of sources.
+std::vector<NamedContact> read_contacts(const toml::table& root, const std::string& file,
+                                        const std::vector<NamedContact>& known);
+
+/// Throws the fault of the first key of a file of materials that is no table of it.
+void check_material_tables(const toml::table& root, const std::string& file);
+/// What a file of materials has. A shipped file gives what it ships; others must not take its names. Faults:
+/// those of `read_materials` and `read_contacts`, a key beside the tables, a scene or a study.
+Expected<NamedMaterials> read_material_file(const std::filesystem::path& file);
+
+/// Keys of [[source]], and of the sources of a material.
+const std::vector<Key<Source>>& source_keys();
+/// The tables "source" of a table; none if it has none. Throws: a key that is not among `known`, one with two
+/// sources, a source without words.
+std::vector<Source> read_sources(const toml::table& table, const std::vector<std::string>& known,
+                                 const std::string& file);
+/// The source of a key; none where nothing is said.
+const Source* source_of(const std::vector<Source>& sources, const std::string& key);
+/// Takes a key away from its source: its value is another one.
+void forget_source(std::vector<Source>& sources, const std::string& key);
+
+/// Names of the bodies, no charges themselves, that touch a charge.
+std::vector<std::string> bodies_at_the_charge(const Scene& scene);
+
+/// What holds the charge, as people read it: one line a body that touches it, with what that assumes.
+struct InterfaceText {
+  std::string body, condition, assumes;
+};
+std::vector<InterfaceText> describe_interfaces(const Scene& scene);
+
+// Decompositions of explosives whose numbers belong together, as data: what a flame lives on after the
+// ignition.
+
+/// The word of combustion.kinetics for the charge's own numbers, those that decide ignition.
+inline constexpr const char* effective_kinetics = "effective";
+
+/// Keys of one [decomposition.NAME].
+const std::vector<Key<Decomposition>>& decomposition_keys();
+
+/// Those that the program brings along; texts in studies/materials.
+const std::vector<Decomposition>& shipped_decompositions();
+
+/// What the flame of a scene lives on (combustion.kinetics), with the charge's T1 and T2: the charge's own
+/// kinetics, or E/R, Z and Q of a decomposition. Its heat is never more than the charge's, which is what
+/// burning releases.
+materials::KineticsParameters flame_kinetics(const Scene& scene);
+
+// --- values that are allowed but that no launch has: a verdict that rests on one is indeterminate, unless
+// the scene or its study says why it is meant: accept = [{ key = "...", value = "...", because = "..." }] ---
+
+/// Accepted by these names: bodies, constants of their materials, and what holds the charge, where they are
+/// not those of the calibration. Which they are only a study knows (study/record_domain.hpp).
+inline constexpr const char *foreign_shell = "calibration.shell", *foreign_material = "calibration.material",
+                            *foreign_interfaces = "calibration.interfaces";
+/// Likewise a peak pressure beyond those at which other models of the launch were compared.
+inline constexpr const char* pressure_of_models = "model_form.pressure";
+
+/// A value on which no verdict but UNSAFE rests unless the user accepts it: it is not plausible, or not the
+/// calibrated one.
+struct Implausible {
+  std::string key;             ///< of the scene or study, or a quantity that follows from keys
+  std::string value;           ///< as people read it
+  std::string range;           ///< what is plausible, with its reason, or what is calibrated
+  std::string because;         ///< why the user accepts it; empty: he does not
+  std::string accepted_value;  ///< what he says of the key's value, be it this one or not; empty: nothing
+  bool accepted() const { return !because.empty(); }
+};
+
+/// Whether two values are one: numbers up to a relative tolerance.
+bool same_value(const Value& a, const Value& b, double tolerance);
+
+/// The value of a key, under its full name, with what the user says of it. A number is accepted by itself, in
+/// the digits that people read, or by a range around it.
+Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
+                        const Value& value, std::string range);
+
+/// "gap.exchange_time = 100 s", and what the user accepts in its place.
+std::string value_text(const Implausible& value);
+/// "accepted: gap.exchange_time = 100 s, because ...; ..." of those that are; empty if none is.
+std::string accepted_text(const std::vector<Implausible>& values);
+/// The lines of a file, ready to copy but for the reasons, that accept those that are not accepted; empty if
+/// all are.
+std::string acceptances_to_write(const std::vector<Implausible>& values);
+
+const std::vector<Key<Acceptance>>& acceptance_keys();
+
+/// Throws the fault of `key` at a place where a text is no reason in words, such as "x" or several lines.
+void check_reason(const std::string& text, const Place& place, const std::string& key);
+
+/// The table "accept" of a file; none if it has none. Faults: a key that is not among `known`, one that
+/// stands there twice with one value, a value that the key cannot have, a range beyond a factor of 2, a
+/// reason without letters or of several lines.
+Expected<std::vector<Acceptance>> read_acceptances(const toml::table& root,
+                                                   const std::vector<KeyDescription>& known,
+                                                   const std::string& file);
+
+/// Adds an acceptance; it replaces an earlier one of the same key and value.
+void accept(std::vector<Acceptance>& accepted, Acceptance acceptance);
+
+// --- What is not plausible. ---
+
+/// "gap.exchange_time = 100 s is not plausible (0.05 ms to 2 ms, because ...)".
+std::string validity_warning(const Implausible& value);
+
+/// Whether a value is what is expected of its key. NaN never is.
+bool is_plausible(const KeyDescription& key, const Value& value);
+
+/// A quantity that follows from several keys and that they may make meaningless while each of them is
+/// plausible.
+struct DerivedQuantity {
+  KeyDescription description;
+  /// SI, of a scene and of its motion as one rigid body until scene::read_time; none where a scene has no
+  /// such quantity.
+  std::function<std::optional<double>(const Scene& scene, const RigidMotion& launch)> value;
+};
+const std::vector<DerivedQuantity>& derived_quantities();
+
+/// All values of a scene that are not plausible, accepted or not: keys in the order of their declaration,
+/// bodies, then derived quantities. They depend on the scene alone, whatever file or study it came from.
+std::vector<Implausible> implausible_values(const Scene& scene);
+/// The same where the motion until scene::read_time is known.
+std::vector<Implausible> implausible_values(const Scene& scene, const RigidMotion& launch);
+
+/// What `accept` may name: scene keys, "body.<name>.x" and ".r", derived quantities, and what of a
+/// calibration is foreign.
+std::vector<KeyDescription> acceptable_keys(const Scene& scene);
+
+// --- keys, and scenes from files ---
 
 /// Keys of the scene itself, in the order in which they are applied.
 const std::vector<Key<Scene>>& scene_keys();

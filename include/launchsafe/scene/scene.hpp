@@ -48,7 +48,7 @@ struct Body {
   double r_begin = 0, r_end = 0;
 };
 
-/// Pressure of the chamber on what faces it (chamber.hpp). Either a measured curve or, over time t, one of
+/// Pressure of the chamber on what faces it (load.hpp). Either a measured curve or, over time t, one of
 /// the analytic shapes
 ///   bell                p0 + (peak - p0) exp(-|(t - t_m)/w|^a)
 ///   power-exponential   p0 + (peak - p0) ((t/t_m) exp(1 - t/t_m))^n, which is p0 before 0.
@@ -87,7 +87,7 @@ struct Load {
 /// travelled `muzzle_travel`. None where neither is stated, or that far it never comes.
 std::optional<double> exit_time(const Load& load);
 /// When the simulation ends, s: at `duration` where that is stated, else when the launch is over
-/// (launch_end.hpp).
+/// (load.hpp).
 double end_time(const Load& load);
 /// When published values at the end of a launch are read, s: at the exit where there is one, else at the end.
 double read_time(const Load& load);

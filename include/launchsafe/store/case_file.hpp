@@ -1,14 +1,45 @@
-// One result file a case: HDF5 with units on every dataset, whole or not there, never silently replaced.
+// One result file a case: HDF5 with units on every dataset, whole or not there, never silently replaced; and
+// where a result came from: input, program, machine.
 //
 // The first 512 bytes are an HDF5 user block that holds, as text, the length and the SHA-256 of what follows.
 // They are checked before HDF5 sees a byte, so that no damage can be read as a result.
 #pragma once
 
 #include "launchsafe/run/case_result.hpp"
-#include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/file.hpp"
 
 namespace launchsafe::store {
+
+struct LibraryVersion {
+  std::string name, version;
+  bool operator==(const LibraryVersion&) const = default;
+};
+
+struct Manifest {
+  std::string input_text;    ///< all that determines the case, as it was read
+  std::string input_sha256;  ///< of `input_text`; two results with the same one are the same question
+  int model_version = 0;     ///< of the physics, see run::model_version; 0 where it was not recorded
+  std::string program_version, commit, compiler, compiler_flags, build_type;
+  std::vector<LibraryVersion> libraries;
+  std::string host;
+  int threads = 1;
+  std::string start_time;  ///< ISO 8601, UTC
+  double wall_time = 0;    ///< s
+  bool operator==(const Manifest&) const = default;
+};
+
+/// A manifest of this program and its model on this machine, started now; the wall time is left to the
+/// caller.
+Manifest make_manifest(std::string input_text, int threads);
+
+/// The name of this machine on its network.
+std::string host_name();
+
+/// The versions of the libraries that this program was built with.
+std::vector<LibraryVersion> library_versions();
+
+/// The time now, such as 2026-03-01T09:30:00Z.
+std::string utc_now();
 
 /// The first bytes of every case file.
 inline constexpr std::string_view case_file_begin = "launchsafe case file";

@@ -3,7 +3,7 @@
 //
 //   DIR/study[.PART].db     SQLite: runs, answers drawn from them, events, and the tables of the report
 //   DIR/cases/HASH.h5       the result of one case, named by what determines it, whole or not there
-//   DIR/status[.PART].json  who writes and how far it is; for whoever watches (store_status.hpp)
+//   DIR/status[.PART].json  who writes and how far it is; for whoever watches
 //   DIR/index.html          the same of all parts, as a page
 //
 // PART is "1-of-4" for a shard and absent for a whole study, which takes over what the parts stored. A result
@@ -11,11 +11,10 @@
 // it.
 #pragma once
 
-#include "launchsafe/run/case_result.hpp"
+#include "launchsafe/store/case_file.hpp"
 #include "launchsafe/store/database.hpp"
-#include "launchsafe/store/manifest.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <mutex>
@@ -213,5 +212,27 @@ class CaseStore {
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder);
 /// Whether a file of this name in a study's folder belongs to its store.
 bool is_store_name(std::string_view name);
+
+// --- status.json and index.html of a study's folder: how far the study is, for whoever watches, since nobody
+// else may read a results file that is being written; every writer has a status of its own, the folder one
+// page ---
+
+/// The beginning of index.html, by which it is known as this program's own.
+inline constexpr std::string_view page_begin = "<!DOCTYPE html>\n<!-- launchsafe status 1 -->\n";
+
+/// A writer's snapshot: the members of its status file.
+struct StoreStatus {
+  std::string part;  ///< "1-of-4" of a shard; empty for a whole study
+  nlohmann::ordered_json members;
+};
+
+/// The file's text.
+std::string to_text(const nlohmann::ordered_json& members);
+/// What the content of a status file says; nothing for any other file.
+std::optional<nlohmann::ordered_json> status_in(std::string_view content);
+
+/// The snapshots in a folder that count: those of parts in the order of their names, or that of the whole
+/// study, whichever was written last.
+std::vector<StoreStatus> statuses_in(const std::filesystem::path& folder);
 
 }  // namespace launchsafe::store

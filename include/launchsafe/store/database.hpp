@@ -2,12 +2,11 @@
 #pragma once
 
 #include "launchsafe/math/numbers.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdint>
 #include <memory>
 #include <unordered_map>
 

@@ -3,12 +3,11 @@
 // one description of a layout serves both. They throw the Error that names the place: failed or corrupt.
 #pragma once
 
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/file.hpp"
 
 #include <hdf5.h>
 
 #include <concepts>
-#include <cstdint>
 
 namespace launchsafe::store {
 

@@ -2,8 +2,7 @@
 // they are known as this program's own. Nothing else is ever replaced, whatever its name.
 #pragma once
 
-#include "launchsafe/store/manifest.hpp"
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/store/case_file.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 

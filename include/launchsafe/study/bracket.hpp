@@ -34,8 +34,7 @@ enum class ShareKind {
   cooling,  ///< how far a gap has opened by cooling
   accepted  ///< constants of gap and friction that are accepted and not the calibrated ones
 };
-inline constexpr ShareKind last_share_kind = ShareKind::accepted;
-inline constexpr std::size_t share_kinds = 12;
+inline constexpr std::size_t share_kinds = static_cast<std::size_t>(ShareKind::accepted) + 1;
 
 struct ShareTraits {
   std::string name;   ///< in files: "peak_pressure"

@@ -1,11 +1,78 @@
 // The runs that cases need, one loop for every kind of study: taken from the store where they are there,
-// computed and kept there where they are not.
+// computed and kept there where they are not; what the caller may choose, watch and replace, how a study is
+// divided over processes or machines, and what it would do.
 #pragma once
 
-#include "launchsafe/study/options.hpp"
+#include "launchsafe/run/cost.hpp"
+#include "launchsafe/run/run_case.hpp"
+#include "launchsafe/store/case_store.hpp"
+#include "launchsafe/study/scheduler.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 namespace launchsafe::study {
+
+/// Part `index` (from 1) of `count`.
+struct Shard {
+  int index = 1, count = 1;
+  bool whole() const { return count == 1; }
+  /// "2-of-4"; empty for the whole.
+  std::string part() const;
+};
+
+/// "2/4", with 1 <= index <= count <= 10000; nothing for any other text.
+bool parse_shard(std::string_view text, Shard& shard);
+
+/// The shard (from 1) of every case such that the shards' costs are nearly equal: the most costly first, each
+/// to the shard with the least so far. Depends on the costs and their order alone.
+std::vector<int> shards_of(const std::vector<double>& costs, int count);
+
+/// How mechanics are run. Tests put closed forms in their place.
+struct Runners {
+  std::function<run::MechanicsResult(const scene::Scene&, const run::RunOptions&)> mechanics =
+      run::run_mechanics;
+  std::function<run::CaseResult(const scene::Scene&, double gap, const run::RunOptions&)> with_skin =
+      run::run_with_skin;
+};
+
+/// What became of a run that a study needs.
+enum class RunOutcome {
+  ran,          ///< it was computed, to its end or to where its computation broke off
+  reused,       ///< its stored result was used
+  other_shard,  ///< it is no part of the shard that was asked for
+  refused,      ///< it would take more memory or time than allowed
+  timed_out,    ///< it took more wall time than allowed, now or before
+  interrupted,  ///< the study was stopped before it ended
+  failed,       ///< it threw, for want of memory for example
+  not_stored    ///< it may not be computed (StudyOptions::compute), and is not stored
+};
+
+struct StudyOptions {
+  int jobs = 0;             ///< cases at a time; <= 0: available_cores()
+  double memory_limit = 0;  ///< bytes of all running cases together; <= 0: most of what is available
+  double time_limit = math::infinity;  ///< s of wall time, of one case
+  /// s, predicted; a case that takes longer is refused (run::out_of_reach).
+  double longest_run = run::Reach{}.longest_run;
+  Shard shard;  ///< the part of the mechanical runs that is ours; the others are not run
+  /// Set from elsewhere (a signal handler) to stop: running cases end as interrupted, waiting ones do not
+  /// start. The study sets it itself when its store can no longer be written.
+  std::atomic<bool>* stop = nullptr;
+  ProgressCallback progress;
+  Runners runners;
+  bool compute = true;  ///< false: only what is stored counts
+  /// Where results are kept and taken from; none: nothing is kept.
+  store::CaseStore* store = nullptr;
+};
+
+/// What a study cost.
+struct Timing {
+  double wall_time = 0;    ///< s, of the whole study
+  std::size_t runs = 0;    ///< mechanical runs that were started
+  std::size_t reused = 0;  ///< mechanical runs whose stored result, or the answer drawn from it, was used
+  double particle_updates = 0;  ///< of all runs
+  double run_time = 0;          ///< s, sum of the runs' processor times
+  int jobs = 1;                 ///< cases at a time
+  double updates_per_second() const { return run_time > 0 ? particle_updates / run_time : 0; }  ///< a core
+};
 
 /// One run: the mechanics of a scene, or, with a gap, a coupled run of that gap (run::run_with_skin).
 struct CaseRun {
@@ -161,5 +228,53 @@ Result run_timed(const StudyFile& study, const StudyOptions& options,
   result.timing.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
+
+// --- what a study would do, before it does it: which mechanical runs it needs, which of them are stored,
+// what the rest will cost ---
+
+/// One mechanical run, with the cases of the study that share it, or its run with a raised load.
+struct ForecastRun {
+  std::string label;      ///< of the first of its cases
+  std::string hash;       ///< names its file in the store
+  std::size_t cases = 0;  ///< 0 for the run with a raised load that belongs to the run before it
+  std::int64_t particles = 0, steps = 0;
+  double memory = 0;  ///< bytes
+  double kept = 0;  ///< bytes of its trace and checkpoints, of which a study in detail has some till its end
+  double time = 0;  ///< s on a core, predicted; 0 for one that does not run
+  double disk = 0;  ///< bytes of its file, before compression
+  int shard = 1;
+  bool stored = false;    ///< its result is there
+  bool given_up = false;  ///< it was timed out, or failed and may not be computed: that is its row
+  bool refused = false;   ///< given up because it is out of reach (run::out_of_reach)
+  std::string why;        ///< why it is used again or has to run
+};
+
+struct Forecast {
+  std::size_t cases = 0;          ///< of the shard asked for
+  std::size_t run_count = 0;      ///< mechanical runs of these
+  std::vector<ForecastRun> runs;  ///< of them; of many some, evenly spread, from which all else is estimated
+  /// Of all runs, what is the case for so many of `runs`.
+  std::size_t of_all(std::size_t runs_like_that) const;
+  /// Coupled runs, and launches of gaps that close, that may follow, at most.
+  std::size_t confirmations = 0;
+  double update_rate = 0;        ///< particle updates per second on a core that the prediction rests on
+  std::size_t learned_from = 0;  ///< recorded runs that the rate was learned from; 0: measured now
+  double time = 0;               ///< s of wall time, of all that is to run
+  double confirmation_time = 0;  ///< s of it, at most, of what follows launches that are to run
+  double plan_memory = 0;        ///< bytes of the program with its plan of the whole study
+  double kept_memory = 0;        ///< bytes that are kept till the end of the cases asked for
+  double report_memory = 0;      ///< bytes of the report of all cases, besides
+  double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
+  double disk = 0;    ///< bytes, rather too many, of the files of all that is to run, coupled runs too
+  int jobs = 1;
+};
+
+/// Why a study is not begun at all: every one of its cases is out of reach. The error of the first.
+std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
+
+/// `update_rate` (particle updates per second on a core) is used where no recorded run knows better.
+/// `most_cases`: of so many the runs are planned.
+Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate,
+                        std::size_t most_cases = 1000);
 
 }  // namespace launchsafe::study

@@ -2,7 +2,7 @@
 // wrong with a study and where.
 #pragma once
 
-#include "launchsafe/store/sha256.hpp"
+#include "launchsafe/store/file.hpp"
 #include "launchsafe/study/study_file.hpp"
 
 namespace launchsafe::study {

@@ -4,7 +4,7 @@
 
 #include "launchsafe/math/sampling.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
-#include "launchsafe/study/model_form.hpp"
+#include "launchsafe/study/record_domain.hpp"
 
 #include <boost/iterator/counting_iterator.hpp>
 #include <boost/iterator/transform_iterator.hpp>
@@ -40,9 +40,6 @@ inline constexpr double assumed_numerical_uncertainty = 60.0;
 struct StudyCase {
   std::string label;           ///< "496 MPa, 30 µm, 1 mm", or "2.5 mm" for the mesh of a calibration
   double peak_pressure = 0;    ///< Pa
-  double crack_radius = 0;     ///< m
-  double flaw_size = 0;        ///< m
-  double cell_size = 0;        ///< m
   bool own_conditions = true;  ///< the load and defect of the study's scene, which the references belong to
   std::vector<double> coordinates;                               ///< SI, of Study::axes
   double numerical_uncertainty = assumed_numerical_uncertainty;  ///< K, of T max with these numerics
@@ -60,6 +57,13 @@ struct StudyCase {
   std::optional<scene::Surface> closing;
   /// Those that the study names, by which its closing gaps are judged; none: it names none.
   std::shared_ptr<const AccuracyRecords> accuracy = {};
+  /// Of its scene.
+  const materials::ViscoScramParameters& strength() const { return scene.scene.charge().strength; }
+  bool has_defect(const materials::ViscoScramParameters& other) const {
+    return strength().initial_crack_radius == other.initial_crack_radius &&
+           strength().flaw_size == other.flaw_size;
+  }
+  double cell_size() const { return scene.scene.numerics.cell_size; }  ///< m
   /// K, the bound that an accuracy record has for this case; NaN where it has none or none was taken.
   double recorded_uncertainty() const {
     const bool is_recorded = rise_of_uncertainty == rise_of_uncertainty && !numerical_uncertainty_assumed;

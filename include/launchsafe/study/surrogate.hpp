@@ -2,7 +2,6 @@
 // computed.
 #pragma once
 
-#include "launchsafe/math/sampling.hpp"
 #include "launchsafe/math/statistics.hpp"
 #include "launchsafe/math/surrogates.hpp"
 #include "launchsafe/scene/read_scene.hpp"

@@ -3,8 +3,7 @@
 // never stored: a verdict that is read rests on what it says now.
 #pragma once
 
-#include "launchsafe/study/options.hpp"
-#include "launchsafe/study/study_file.hpp"
+#include "launchsafe/study/run_cases.hpp"
 
 namespace launchsafe::study {
 
@@ -92,7 +91,7 @@ struct CaseEvidence {
 /// Why a case has no critical gap, whatever a search finds; none where it may have one.
 GapReason why_no_critical_gap(const CaseEvidence& of_case);
 
-/// What gaps that close say of one gap (closing_gaps.hpp).
+/// What gaps that close say of one gap (case_answer.hpp).
 struct ClosingEvidence {
   bool known = false;    ///< every bound that was computed has a temperature
   bool ignited = false;  ///< with a base that conducts, or with an insulated one
@@ -240,6 +239,7 @@ struct Peak {
   double time = not_a_number;         ///< s
   std::string point;                  ///< station
 };
+Peak peak_of(const surface::Maximum& maximum, const trace::BottomTrace& trace);
 
 struct NamedIgnition {
   surface::IgnitionCause cause = surface::IgnitionCause::trigger;
@@ -247,6 +247,8 @@ struct NamedIgnition {
   std::string point;
   double chemical_share = 0;  ///< of the heating rate at ignition
 };
+std::optional<NamedIgnition> named(const std::optional<surface::Ignition>& ignition,
+                                   const trace::BottomTrace& trace);
 std::string to_string(surface::IgnitionCause cause);
 
 /// A row of the verdict table, and all that its verdict rests on.

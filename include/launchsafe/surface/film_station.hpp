@@ -2,7 +2,6 @@
 // column over the intervals of a trace: step control, reaction and ignition.
 #pragma once
 
-#include "launchsafe/surface/film.hpp"
 #include "launchsafe/surface/skin_equation.hpp"
 
 namespace launchsafe::surface::detail {

@@ -37,6 +37,10 @@ struct BottomTrace {
   std::array<std::vector<double>, traced_closures> friction;
 
   std::size_t samples() const { return time.size(); }
+  /// Of a station; empty for one that the trace has not.
+  std::string name_of(std::size_t station) const {
+    return station < stations.size() ? stations[station].name : std::string{};
+  }
 };
 
 /// Every second sample (the last one kept), with interval means combined by their lengths: what a trace twice

@@ -1,9 +1,39 @@
-// Files that are there whole or not at all, also after a kill, a full disk or a power cut.
+// Files that are there whole or not at all, also after a kill, a full disk or a power cut; their SHA-256;
+// other programs; and errors of files and programs as values.
 #pragma once
 
-#include "launchsafe/store/result.hpp"
+#include "launchsafe/scene/input_error.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
 
 namespace launchsafe::store {
+
+/// What went wrong, for a person (`message` names the file), and its kind, for the caller's decision.
+struct Error {
+  enum class Kind {
+    missing,       ///< there is no such file or program
+    unreadable,    ///< it is there and could not be read (permission, device)
+    corrupt,       ///< truncated, damaged, or not of this format: set it aside and compute again
+    held,          ///< another process writes it
+    conflict,      ///< a different result is already there; nothing was written
+    write_failed,  ///< nothing was written under the target name
+    failed         ///< a program that was called failed
+  };
+  Kind kind = Kind::failed;
+  std::string message;
+};
+
+/// Empty when all went well.
+using MaybeError = std::optional<Error>;
+
+/// A value, or the reason why there is none.
+template <class T>
+using Result = scene::Expected<T, Error>;
+
+/// Digest of `bytes` as 64 lower-case hexadecimal digits.
+std::string sha256(std::string_view bytes);
 
 enum class IfExists { replace, refuse };
 
@@ -41,5 +71,29 @@ Result<std::string> read_file(const std::filesystem::path& path);
 /// The names of what is in a folder, sorted, so that nothing depends on the file system's order; none of one
 /// that cannot be read.
 std::vector<std::string> list_folder(const std::filesystem::path& folder);
+
+// --- calling another program ---
+
+/// What ends a program that was called.
+struct ProgramLimits {
+  double time = 60.0;  ///< s of wall time
+  /// Set from another thread (or a signal handler) to stop.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct ProgramOutput {
+  std::string output, errors;  ///< what it wrote on stdout and stderr
+  bool succeeded = false;      ///< it exited with code 0
+};
+
+/// Bytes that a program may write on stdout, and on stderr.
+inline constexpr std::int64_t most_program_output = 64 << 20;
+
+/// Runs a program (found in PATH, no shell) to its end with `input` on its stdin. Input and output go through
+/// files in memory: no pipe can block or break. It ends with all that it started in its process group: when
+/// it exits, when a limit is reached, or when it writes more than `most_program_output`. Errors: missing,
+/// failed (it could not be started, or was ended).
+Result<ProgramOutput> run_program(const std::string& program, const std::vector<std::string>& arguments,
+                                  const std::string& input, const ProgramLimits& limits = {});
 
 }  // namespace launchsafe::store
