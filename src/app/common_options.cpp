@@ -100,8 +100,9 @@ const OptionWords& words_of(const std::string& command, const std::string& optio
   return own != all.end() ? own->second : all.at(option);
 }
 
-CLI::Validator no_option_name(const std::string& type) {
-  const auto check = [kind = type == "DIR" ? "folder" : "file"](const std::string& text) {
+CLI::Validator real_name(const std::string& type) {
+  const auto check = [type, kind = type == "DIR" ? "folder" : "file"](const std::string& text) {
+    if (text.empty()) return fmt::format("found \"\"; allowed: {}", type);
     if (!text.starts_with("-")) return std::string{};
     return fmt::format("found {1}, which is an option; allowed: a {0} (./{1} for one of this name)", kind,
                        text);

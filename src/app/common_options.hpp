@@ -70,8 +70,9 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, c
 /// Where to read how to write a command line that makes no sense.
 inline constexpr const char* usage_hint = " (launchsafe --help shows the usage)";
 
-/// Refuses `-o --json`, which would name a file or folder that nobody means. `type`: what the help calls it.
-CLI::Validator no_option_name(const std::string& type);
+/// Refuses `-o --json`, which would name a file or folder that nobody means, and "". `type`: what the help
+/// calls it.
+CLI::Validator real_name(const std::string& type);
 
 /// An option, or without dashes an argument.
 template <class Value>
@@ -79,8 +80,9 @@ CLI::Option* add(CLI::App& command, const std::string& name, Value& value) {
   const OptionWords& words = words_of(command.get_name(), name);
   if constexpr (std::is_same_v<Value, bool>) return command.add_flag(name, value, words.meaning);
   CLI::Option* option = command.add_option(name, value, words.meaning)->type_name(words.type);
-  constexpr bool is_path = std::is_same_v<Value, path> || std::is_same_v<Value, std::optional<path>>;
-  return is_path && name.starts_with('-') ? option->check(no_option_name(words.type)) : option;
+  constexpr bool is_path = std::is_same_v<Value, path> || std::is_same_v<Value, std::optional<path>> ||
+                           std::is_same_v<Value, std::vector<path>>;
+  return is_path ? option->check(real_name(words.type)) : option;
 }
 /// What must be given.
 template <class Value>

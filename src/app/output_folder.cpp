@@ -37,14 +37,18 @@ std::optional<std::string> prepare_output_folder(const path& folder) {
   return std::nullopt;
 }
 
-void write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
+std::vector<std::string> write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
   console.refuse_any(prepare_output_folder(folder));
   for (const auto& [name, text] : texts) console.refuse_any(obstacle_to_file(folder / name, text));
+  std::vector<std::string> said;
   for (const auto& [name, text] : texts) {
-    if (std::filesystem::exists(folder / name)) continue;  // with this content
+    const bool is_there = std::filesystem::exists(folder / name);  // with this content
+    said.push_back((is_there ? "kept " : "wrote ") + (folder / name).string());
+    if (is_there) continue;
     if (const auto error = store::write_file_atomically(folder / name, text, store::IfExists::refuse))
       console.end_with(*error);
   }
+  return said;
 }
 
 std::vector<std::string> places_of(const path& folder, const NamedTexts& texts) {

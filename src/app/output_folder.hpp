@@ -16,8 +16,8 @@ using NamedTexts = std::vector<report::TextFile>;
 std::vector<std::string> places_of(const path& folder, const NamedTexts& texts);
 
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
-/// written, which ends the command.
-void write_where_absent(const path& folder, const NamedTexts& texts, Console& console);
+/// written, which ends the command. "wrote scene.toml", or "kept" of what is there with this content.
+std::vector<std::string> write_where_absent(const path& folder, const NamedTexts& texts, Console& console);
 
 using store::StudyRecord;
 
