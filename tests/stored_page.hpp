@@ -49,12 +49,14 @@ inline void expect_stored(const std::string& page, const std::filesystem::path& 
     ASSERT_TRUE(agrees(expected[i], found[i])) << expected[i] << " is " << found[i] << " in\n" << page;
 }
 
-/// What a page says besides the rows of its tables, which are tested as numbers, and the time that it took.
+/// What a page says besides the rows of its tables, which are tested as numbers, the time that it took, and
+/// the build that made it.
 inline std::string prose_of(const std::string& page) {
   std::istringstream lines(page);
   std::string prose;
   for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && !line.starts_with("|") && line.find(" of wall time") == std::string::npos)
+    if (!line.empty() && !line.starts_with("|") && line.find(" of wall time") == std::string::npos &&
+        line.find(", commit ") == std::string::npos)
       prose += line + "\n";
   return prose;
 }

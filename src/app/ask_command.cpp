@@ -256,8 +256,9 @@ Json print_ignitions(const SurrogateRecord& record, const std::vector<AskedInput
   };
   if (!std::ranges::all_of(inputs, &AskedInput::is_set))
     console.print_text(fmt::format(
-        "Over what the other inputs may be: of {} draws {} ignite by the fit, {} to {} within its error and "
-        "whatever those do that are farther out than any launch by which it is known, {}.\n",
+        "Over what the other inputs may be: of {} draws {} ignite by the fit. With its error it is {} to {}: "
+        "the "
+        "{} that lie farther out than any computed launch, where nothing is known, count as either.\n",
         of.draws, share(of.predicted), share(of.at_least), share(of.at_most), share(of.uncovered)));
   return {{"ignitions",
            {{"draws", of.draws},

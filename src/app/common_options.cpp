@@ -101,8 +101,9 @@ const OptionWords& words_of(const std::string& command, const std::string& optio
   return own != all.end() ? own->second : all.at(option);
 }
 
-CLI::Validator no_option_name(const std::string& type) {
-  const auto check = [kind = type == "DIR" ? "folder" : "file"](const std::string& text) {
+CLI::Validator real_name(const std::string& type) {
+  const auto check = [type, kind = type == "DIR" ? "folder" : "file"](const std::string& text) {
+    if (text.empty()) return fmt::format("found \"\"; allowed: {}", type);
     if (!text.starts_with("-")) return std::string{};
     return fmt::format("found {1}, which is an option; allowed: a {0} (./{1} for one of this name)", kind,
                        text);
@@ -166,14 +167,18 @@ std::optional<std::string> prepare_output_folder(const path& folder) {
   return std::nullopt;
 }
 
-void write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
+std::vector<std::string> write_where_absent(const path& folder, const NamedTexts& texts, Console& console) {
   console.refuse_any(prepare_output_folder(folder));
   for (const auto& [name, text] : texts) console.refuse_any(obstacle_to_file(folder / name, text));
+  std::vector<std::string> said;
   for (const auto& [name, text] : texts) {
-    if (std::filesystem::exists(folder / name)) continue;  // with this content
+    const bool is_there = std::filesystem::exists(folder / name);  // with this content
+    said.push_back((is_there ? "kept " : "wrote ") + (folder / name).string());
+    if (is_there) continue;
     if (const auto error = store::write_file_atomically(folder / name, text, store::IfExists::refuse))
       console.end_with(*error);
   }
+  return said;
 }
 
 std::vector<std::string> places_of(const path& folder, const NamedTexts& texts) {

@@ -71,8 +71,9 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, c
 /// Where to read how to write a command line that makes no sense.
 inline constexpr const char* usage_hint = " (launchsafe --help shows the usage)";
 
-/// Refuses `-o --json`, which would name a file or folder that nobody means. `type`: what the help calls it.
-CLI::Validator no_option_name(const std::string& type);
+/// Refuses `-o --json`, which would name a file or folder that nobody means, and "". `type`: what the help
+/// calls it.
+CLI::Validator real_name(const std::string& type);
 
 /// An option, or without dashes an argument.
 template <class Value>
@@ -80,8 +81,9 @@ CLI::Option* add(CLI::App& command, const std::string& name, Value& value) {
   const OptionWords& words = words_of(command.get_name(), name);
   if constexpr (std::is_same_v<Value, bool>) return command.add_flag(name, value, words.meaning);
   CLI::Option* option = command.add_option(name, value, words.meaning)->type_name(words.type);
-  constexpr bool is_path = std::is_same_v<Value, path> || std::is_same_v<Value, std::optional<path>>;
-  return is_path && name.starts_with('-') ? option->check(no_option_name(words.type)) : option;
+  constexpr bool is_path = std::is_same_v<Value, path> || std::is_same_v<Value, std::optional<path>> ||
+                           std::is_same_v<Value, std::vector<path>>;
+  return is_path ? option->check(real_name(words.type)) : option;
 }
 /// What must be given.
 template <class Value>
@@ -117,8 +119,8 @@ using NamedTexts = std::vector<report::TextFile>;
 std::vector<std::string> places_of(const path& folder, const NamedTexts& texts);
 
 /// Writes files into a folder, which is made where there is none: all of them, or none where one may not be
-/// written, which ends the command.
-void write_where_absent(const path& folder, const NamedTexts& texts, Console& console);
+/// written, which ends the command. "wrote scene.toml", or "kept" of what is there with this content.
+std::vector<std::string> write_where_absent(const path& folder, const NamedTexts& texts, Console& console);
 
 using store::StudyRecord;
 

@@ -20,11 +20,13 @@ ExitCode print_list(std::string text, Json members, Console& console) {
   return console.done(text, std::move(members));
 }
 
-/// The keys whose name begins with a word; all for an empty one.
+bool has(const std::string& name, const std::string& word) { return name.find(word) != std::string::npos; }
+
+/// The keys with a word in their name; all for an empty one.
 Json listed(const std::vector<scene::DocumentedKey>& keys, const std::string& word) {
   Json rows = Json::array();
   for (const auto& [described, default_text] : keys)
-    if (described.name.starts_with(word))
+    if (has(described.name, word))
       rows.push_back({{"key", described.name},
                       {"si_unit", scene::si_unit_of(described.dimension)},
                       {"allowed", scene::allowed_text(described)},
@@ -57,10 +59,8 @@ ExitCode explain_keys(const std::string& word, Console& console) {
   Json facts{{"standings", word.empty() ? standings() : ""}};
   for (const auto& [name, list] : rows.items()) facts[name] = text_of_keys(list);
   if (facts["keys"] == "" && facts["study_keys"] == "")
-    console.refuse(
-        fmt::format("explain --keys: found \"{}\", with which no key begins; allowed: the beginning of a "
-                    "name, such as load",
-                    word));
+    console.refuse(fmt::format(
+        "explain --keys: found \"{}\", which no key has; allowed: a part of a name, such as load", word));
   return print_list(told("keys.txt", facts), rows, console);
 }
 
@@ -71,7 +71,7 @@ ExitCode explain_results(const std::string& word, Console& console) {
     for (const report::ReportTable& table : kind.results()) {
       Json columns = Json::array();
       for (const report::Column& column : table.table.columns)
-        if (const std::string key = column.key(); key.starts_with(word))
+        if (const std::string key = column.key(); has(key, word))
           columns.push_back({{"key", key},
                              {"name", column.heading},
                              {"unit", column.form.unit},
@@ -82,10 +82,10 @@ ExitCode explain_results(const std::string& word, Console& console) {
     }
   }
   if (list.empty())
-    console.refuse(fmt::format(
-        "explain --results: found \"{}\", with which no column begins; allowed: the beginning of a name, "
-        "such as critical_gap",
-        word));
+    console.refuse(
+        fmt::format("explain --results: found \"{}\", which no column has; allowed: a part of a name, such "
+                    "as critical_gap",
+                    word));
   return print_list(told("results.txt", {{"tables", list}, {"all", word.empty()}}), {{"results", list}},
                     console);
 }
@@ -194,7 +194,7 @@ std::string text_of(const Json& told) {
   return text;
 }
 
-/// Prints those whose name begins with a word, every number and where it comes from: all for an empty one.
+/// Prints those with a word in their name, every number and where it comes from: all for an empty one.
 /// Where there is none, `fault` is.
 ExitCode explain_materials(const scene::NamedMaterials& named, const std::string& word,
                            const std::string& fault, Console& console) {
@@ -202,7 +202,7 @@ ExitCode explain_materials(const scene::NamedMaterials& named, const std::string
   const auto list_of = [&](const auto& all) {
     Json list = Json::array();
     for (const auto& each : all) {
-      if (!each.name.starts_with(word)) continue;
+      if (!has(each.name, word)) continue;
       list.push_back(json_of(each));
       text += (text.empty() ? "" : "\n") + text_of(list.back());
     }
@@ -224,8 +224,8 @@ ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   if (arguments.materials)
     return explain_materials(
         {scene::shipped_materials(), scene::shipped_contacts(), scene::shipped_decompositions()}, word,
-        fmt::format("explain --materials: found \"{}\", with which no shipped material or contact begins; "
-                    "allowed: the beginning of a name, such as comp-b",
+        fmt::format("explain --materials: found \"{}\", which no shipped material or contact has; "
+                    "allowed: a part of a name, such as comp-b",
                     word),
         console);
   const Json schema = arguments.schema == "study"   ? study_schema()

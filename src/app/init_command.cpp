@@ -61,9 +61,8 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
     curve = console.value_of(scene::parse_pressure_curve(csv, arguments.curve->string()));
   }
   const NamedTexts files = files_of(arguments, curve, csv);
-  write_where_absent(arguments.output, files, console);
-  const std::vector<std::string> written = places_of(arguments.output, files);
-  console.print_text(fmt::format("wrote {}\n", fmt::join(written, "\nwrote ")));
+  const std::vector<std::string> said = write_where_absent(arguments.output, files, console);
+  console.print_text(fmt::format("{}\n", fmt::join(said, "\n")));
   const path study = arguments.output / "critical_gap.toml";
   // A fault of the files just written is the program's, and is told before anybody computes with them.
   if (const auto read = kinds::read_study(study); !read)
@@ -74,7 +73,7 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
           (arguments.output / "scene.toml").string(),
           shell_command(
               {"launchsafe", "study", study.string(), "-o", (arguments.output / "results").string()})),
-      {{"files", written}});
+      {{"files", places_of(arguments.output, files)}});
 }
 
 }  // namespace

@@ -60,25 +60,51 @@ std::string unknown_word(const std::string& place, const std::string& word, cons
   return scene::InputError{{}, 0, 0, place, '"' + word + '"', allowed, nearest}.message();
 }
 
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
 /// The first command or option that there is none of; empty where all are known.
 std::string unknown_word_in(const CLI::App& app, int argument_count, const char* const* arguments) {
-  if (argument_count < 2 || arguments[1][0] == '-') return {};
+  if (argument_count < 2) return {};
   const std::string given = arguments[1];
+  const bool is_bare = given.starts_with('-');
   std::vector<std::string> commands, options;
+  if (is_bare) options = option_names(app);
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     commands.push_back(command->get_name());
-    if (command->get_name() != given) continue;
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    if (command->get_name() == given) options = option_names(*command);
   }
   if (options.empty()) return unknown_word("", given, fmt::format("{}", fmt::join(commands, ", ")), commands);
-  for (int i = 2; i < argument_count; ++i) {
+  const std::string command = is_bare ? "" : given,
+                    help = "launchsafe " + command + (is_bare ? "" : " ") + "--help";
+  for (int i = is_bare ? 1 : 2; i < argument_count; ++i) {
     const std::string_view argument = arguments[i];
     if (argument == "--") break;
     const std::string name(argument.substr(0, argument.find('=')));
-    if (name.starts_with("--") && std::ranges::find(options, name) == options.end())
-      return unknown_word(given, name, "the options that launchsafe " + given + " --help lists", options);
+    if (!name.starts_with("--") || std::ranges::find(options, name) != options.end()) continue;
+    std::vector<std::string> others;
+    for (const std::string& other : commands)
+      if (const auto known = option_names(*app.get_subcommand(other));
+          std::ranges::find(known, name) != known.end())
+        others.push_back(other);
+    return unknown_word(command, name, "the options that " + help + " lists", options) +
+           (others.empty() ? "" : fmt::format("; {} is an option of {}", name, fmt::join(others, ", ")));
   }
+  return {};
+}
+
+/// "STUDY.toml is required": an argument is named as the help names it; empty for anything else that is
+/// wrong.
+std::string missing_word_in(const CLI::App& app, const CLI::ParseError& error) {
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    for (const CLI::Option* option : command->get_options())
+      if (app.got_subcommand(command->get_name()) && option->get_positional() &&
+          option->get_name() + " is required" == error.what())
+        return words_of(command->get_name(), option->get_name()).type + " is required";
   return {};
 }
 
@@ -117,9 +143,10 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     app.exit(success, help, help);
     if (!help.str().empty()) line.perform = print(help.str());
   } catch (const CLI::ParseError& error) {
-    const std::string unknown = unknown_word_in(app, argument_count, arguments);
-    line.perform = [fault = (unknown.empty() ? error.what() : unknown) +
-                            usage_hint](Console& console) -> ExitCode { console.refuse(fault); };
+    std::string fault = unknown_word_in(app, argument_count, arguments);
+    if (fault.empty()) fault = missing_word_in(app, error);
+    if (fault.empty()) fault = error.what();
+    line.perform = [fault = fault + usage_hint](Console& console) -> ExitCode { console.refuse(fault); };
   }
   line.json = asks_for_json(argument_count, arguments);
   return line;

@@ -16,12 +16,14 @@ const std::vector<Key<ComparisonSettings>> comparison_keys{
              &ComparisonSettings::description),
 };
 
-/// The record of a calibration, with or without constants.
-CalibrationRecord read_calibration_record(const StudyFile& study, const StudySource& source,
+/// The record of a calibration. On one that failed the study rests too: that no constants were found.
+CalibrationRecord read_calibration_record(StudyFile& study, const StudySource& source,
                                           const std::string& name, const std::string& key) {
   const std::string text =
       read_named_file(study, source.folder, key, name, "the calibration.json of a calibration");
-  return taken(study::parse_calibration_record(text, (source.folder / name).string()));
+  CalibrationRecord record = taken(study::parse_calibration_record(text, (source.folder / name).string()));
+  if (!record.failure.empty()) study.records.push_back(store::sha256(text));
+  return record;
 }
 
 /// Makes the cases of one variant after another.

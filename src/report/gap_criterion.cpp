@@ -2,6 +2,7 @@
 
 #include <regex>
 #include <sstream>
+#include <variant>
 
 namespace launchsafe::report {
 namespace {
@@ -21,21 +22,31 @@ constexpr Measure measures[] = {{"T max", "K", {"temperature_max_K", nullptr, 1.
                                 {"distance", "uncertainty", {"distance_cm", "distance_uncertainty_cm"}},
                                 {"distance", "uncertainties", {"distance_cm", "distance_uncertainty_cm"}}};
 
-/// "margin >= 2 uncertainty", or without blanks. One uncertainty is part of SAFE already.
-std::optional<GapCriterion::Condition> condition_of(const std::string& text) {
+/// What is wrong with the limit of a condition; empty for nothing. One uncertainty is part of SAFE already.
+std::string fault_of(const Measure& measure, bool at_most, double limit) {
+  if (at_most != measure.one.at_most)
+    return fmt::format("a {} is wanted that is {}", measure.word,
+                       measure.one.at_most ? "small: <=" : "large: >=");
+  if (!std::isfinite(limit) || limit <= 0.0) return "a limit is more than 0";
+  if (measure.one.unit != nullptr && limit < 1.0) return "one uncertainty is part of SAFE already";
+  return *measure.unit == '\0' && limit >= 1.0 ? "a probability is below 1" : "";
+}
+
+/// "margin >= 2 uncertainty", or without blanks. Else why it is none; empty where no measure is recognised.
+std::variant<GapCriterion::Condition, std::string> condition_of(const std::string& text) {
   static const std::regex form(R"(([a-zA-Z ]*[a-zA-Z]) ?(<=|>=) ?([0-9.eE+-]*[0-9.]) ?([a-zA-Z]*))");
   std::smatch parts;
-  if (!std::regex_match(text, parts, form)) return std::nullopt;
+  if (!std::regex_match(text, parts, form)) return "";
   std::istringstream stream(parts[3]);
   stream.imbue(std::locale::classic());
   double limit = 0;
-  if (!(stream >> limit) || stream.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
-  for (const Measure& each : measures)
-    if (parts[1] == each.word && parts[2] == (each.one.at_most ? "<=" : ">=") && parts[4] == each.unit &&
-        std::isfinite(limit) && (each.one.unit != nullptr ? limit >= 1.0 : limit > 0.0) &&
-        (*each.unit != '\0' || limit < 1.0))
-      return GapCriterion::Condition{each.one.of, each.one.unit, each.one.limit * limit, each.one.at_most};
-  return std::nullopt;
+  if (!(stream >> limit) || stream.peek() != std::istringstream::traits_type::eof()) return "";
+  for (const Measure& each : measures) {
+    if (parts[1] != each.word || parts[4] != each.unit) continue;
+    if (std::string fault = fault_of(each, parts[2] == "<=", limit); !fault.empty()) return fault;
+    return GapCriterion::Condition{each.one.of, each.one.unit, each.one.limit * limit, each.one.at_most};
+  }
+  return "";
 }
 
 /// Words with one blank between them.
@@ -62,13 +73,13 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t end = all.find(between, begin);
     const auto condition = condition_of(all.substr(begin, end - begin));
-    if (!condition)
+    if (const auto* why = std::get_if<std::string>(&condition))
       return scene::error_at(
-          {}, "--criterion", fmt::format("\"{}\"", text),
+          {}, "--criterion", fmt::format("\"{}\"{}{}", text, why->empty() ? "" : ", where ", *why),
           "\"margin >= N uncertainty\", \"margin >= N K\", \"T max <= N K\", \"distance >= N "
           "uncertainty\", \"distance >= N cm\" or \"probability <= N\" below 1, several with "
           "\"and\" between them");
-    criterion.conditions.push_back(*condition);
+    criterion.conditions.push_back(std::get<GapCriterion::Condition>(condition));
     begin = end + between.size();
   }
   if (!criterion.source.empty()) return criterion;

@@ -186,16 +186,16 @@ RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& 
                            const PageTemplates& templates, const Row& head, const DrawingLimits& limits) {
   Sections made{all, templates.texts, limits};
   made.add_all(order);
-  Row page{
-      {"format", head["format"]},
-      {"language", made.words("language")},
-      {"report", made.words("report")},
-      {"title", head["title"]},
-      {"subject", head["subject"]},
-      {"made_of", made.words("made_of", {{"studies", fmt::format("{}", fmt::join(made.studies, ", "))}})},
-      {"answer", head["answer"]},
-      {"document", head["document"]},
-      {"sections", std::move(made.sections)}};
+  Row page{{"format", head["format"]},
+           {"language", made.words("language")},
+           {"report", made.words("report")},
+           {"title", head["title"]},
+           {"subject", head["subject"]},
+           {"made_of", made.words("made_of", {{"studies", fmt::format("{}", fmt::join(made.studies, ", "))},
+                                              {"document", head["document"]}})},
+           {"answer", head["answer"]},
+           {"document", head["document"]},
+           {"sections", std::move(made.sections)}};
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);

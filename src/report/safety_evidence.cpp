@@ -323,6 +323,8 @@ void read_stored_runs(SafetyEvidence& evidence) {
                          main.command()));
     if (store::CaseIdentity(read->manifest.input_text).hash() != name.stem())
       refuse(main, name, "this is the file of another case", "case files as they were written");
+    if (read->manifest.commit != main.record.manifest.commit)
+      evidence.other_commits.insert(read->manifest.commit);
     StoredLaunch stored{scene->scene, {std::move(read->result.mechanics), {}}};
     if (stored.result.mechanics.trace.samples() < 2) continue;
     check_against_run(each, stored);
@@ -388,7 +390,8 @@ double CaseEvidence::value(const std::string& key) const {
 }
 
 std::string StudyEvidence::command() const {
-  return fmt::format("launchsafe study {} -o DIR", record.study.empty() ? "STUDY.toml" : record.study);
+  return fmt::format("launchsafe study {} -o {}", record.study.empty() ? "STUDY.toml" : record.study,
+                     record.files.empty() ? folder.string() : "DIR");
 }
 
 const StudyEvidence* SafetyEvidence::find(const std::string& what) const {

@@ -66,6 +66,12 @@ std::vector<const Row*> shown_gaps(const Row& own) {
   return shown.empty() ? rows("verdicts first 1") : shown;
 }
 
+/// "nose: sliding", ...: how bodies hold the charge.
+Row interfaces_of(const scene::Scene& scene) {
+  return study::of_each(scene::describe_interfaces(scene),
+                        [](const scene::InterfaceText& each) { return each.body + ": " + each.condition; });
+}
+
 /// The scene and its inputs, and what of the physics was left out.
 Row scene_facts(const StudyEvidence& study) {
   const scene::Scene& scene = study.scene.scene;
@@ -88,8 +94,7 @@ Row scene_facts(const StudyEvidence& study) {
             {"curve_file", scene.load.curve_file},
             {"smoothing_ms", in(millisecond, scene.load.smoothing)},
             {"inputs", inputs_of(study.scene)}};
-  for (const scene::InterfaceText& each : scene::describe_interfaces(scene))
-    facts["held"].push_back(each.body + ": " + each.condition);
+  facts["held"] = interfaces_of(scene);
   for (const scene::Body& body : scene.bodies)
     facts["bodies"].push_back({{"body", body.name},
                                {"material", scene::material_text(scene, body)},
@@ -157,6 +162,20 @@ Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
   return {};
 }
 
+/// "peak pressure 250 to 700 MPa", ...: what a study varies.
+Row covered_by(const StudyEvidence& study) {
+  Row covered = Row::array();
+  for (const Row& axis : study.rows("axes")) {
+    const Row& values = found_in(axis, "values");
+    const auto is_number = [](const Row& value) { return value.is_number(); };
+    if (values.empty() || !std::ranges::all_of(values, is_number)) continue;
+    const auto [least, most] = std::ranges::minmax_element(values);
+    const Row ends{{"from", *least}, {"to", *most}};
+    covered.push_back(filled("{{name|words}} {{from|sig 4}} to {{to|sig 4}} {{unit}}", {&axis, &ends}));
+  }
+  return covered;
+}
+
 /// Of a study, without its tables: its manifest, but for its input, and what else is told of it.
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
   Row facts = store::to_json(study.record);
@@ -171,6 +190,8 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
                 {"kind", study.kind},
                 {"command", study.command()},
                 {"scene_title", study.scene.scene.title},
+                {"held", interfaces_of(study.scene.scene)},
+                {"covers", covered_by(study)},
                 {"finished", study.finished()},
                 {"record_used", !has_record ? ""
                                 : is_used   ? "yes"
@@ -275,8 +296,9 @@ Row told_case(const CaseEvidence& judged) {
 }
 
 /// A verdict row as its table shows it, rounded to the safe side. What a run was like until it was cut off is
-/// no margin, nor is anything after ignition, when T max is that of the burning skin.
-Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
+/// no margin, nor is anything after ignition, when T max is that of the burning skin. Under which other
+/// models it may ignite is said where `with_models`; none makes UNSAFE less so.
+Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_models) {
   Row row = with_measures(judged, verdict, nullptr);
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
@@ -292,6 +314,7 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict) {
   row["margin_over_uncertainty"] = told(rounded_down(margin / known, 1));
   row["distance_cm"] = told(rounded_down(number_of(row, "distance_cm"), 3));
   // What else the reason says, but for what page one says of all rows.
+  if (!with_models || text_of(row, "verdict") == "UNSAFE") row.erase("model_form");
   for (const char* clause : {"limited", "noise", "ring", "model_form"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
   for (const char* clause : {"extrapolated", "accepted"})
@@ -344,8 +367,11 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
     if (const auto stored = evidence.stored.find(own.label); stored != evidence.stored.end())
       all.facts["pictures"] = picture_facts(*own.study, facts, stored->second, all);
   }
+  std::set<std::string> models;  // page one has a line of one that is of all rows but UNSAFE ones
+  for (const Row* row : selected({"", "", "main.verdicts except verdict UNSAFE"}, all.facts))
+    models.insert(text_of(*row, "model_form"));
   for (const CaseEvidence& each : cases)
-    for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row));
+    for (const Row* row : each.verdicts) verdicts.push_back(told_verdict(each, *row, models.size() > 1));
   all.facts["own"] = facts;
   all.facts[verdicts.size() <= most_rows_on_page_one ? "few" : "many"] = {
       {"verdicts", verdicts}, {"cases", all.facts["answer"]["cases"]}};
@@ -373,12 +399,17 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
       facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
+  facts["other_commits"] = evidence.other_commits;
   const StudyEvidence* drawn = evidence.find(tells::sensitivity);
   if (drawn != nullptr) {
     facts["same_launch"] = !cases.empty() && is_drawn_about(own_case(cases), *drawn);
     if (facts["same_launch"] == false) drawn = nullptr;
   }
   facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion, drawn);
+  for (std::size_t kind = 0; kind < study::share_kinds; ++kind)
+    for (Row& share : facts["main"]["gap_shares"])
+      if (const auto& traits = study::traits_of(study::ShareKind(kind)); share["cause"] == traits.title)
+        share["remedy"] = traits.remedy;
   if (of_launch) add_launch(evidence, cases, all);
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);

@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <numeric>
+#include <set>
 
 namespace launchsafe::report {
 namespace {
@@ -251,16 +252,34 @@ Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
   return part;
 }
 
-/// Below each other as many columns as fit, each time behind the first; one that does not fit even so stands
-/// alone. Width 0: all.
+/// How many columns tell the rows apart, from the first on; 1 where they take half the width or more.
+std::size_t leading_columns(const Grid& grid, const std::vector<std::size_t>& widths, std::size_t width) {
+  std::size_t taken = widths[0];
+  for (std::size_t count = 1; 2 * taken < width && count < widths.size(); taken += 2 + widths[count++]) {
+    std::set<std::vector<std::string>> seen;
+    for (std::size_t i = 1; i < grid.lines.size(); ++i)
+      seen.emplace(grid.lines[i].begin(), grid.lines[i].begin() + static_cast<std::ptrdiff_t>(count));
+    if (seen.size() + 1 == grid.lines.size()) return count;
+  }
+  return 1;
+}
+
+/// Below each other as many columns as fit, each time behind those that tell the rows apart; one that does
+/// not fit even so stands alone with these. Width 0: all.
 std::string text_parts(const Grid& grid, std::size_t width) {
   const auto widths = widths_of(grid, text_frame.narrowest);
   const std::size_t needed = std::accumulate(widths.begin(), widths.end(), 2 * widths.size());
   if (width == 0 || widths.size() < 2 || needed <= width + 2) return lines_of(grid, text_frame);
+  std::vector<std::size_t> leading(leading_columns(grid, widths, width));
+  std::iota(leading.begin(), leading.end(), 0);
+  const std::size_t begin =
+      std::accumulate(leading.begin(), leading.end(), std::size_t{0},
+                      [&](std::size_t sum, std::size_t i) { return sum + widths[i] + 2; });
   std::string text;
-  for (std::size_t next = 1; next < grid.columns.size();) {
-    std::vector<std::size_t> places{0, next};
-    std::size_t taken = widths[0] + 2 + widths[next];
+  for (std::size_t next = leading.size(); next < grid.columns.size();) {
+    std::vector<std::size_t> places = leading;
+    places.push_back(next);
+    std::size_t taken = begin + widths[next];
     while (++next < grid.columns.size() && (taken += 2 + widths[next]) <= width) places.push_back(next);
     text += (text.empty() ? "" : "\n") + lines_of(part_of(grid, places), text_frame);
   }

@@ -12,7 +12,11 @@ constexpr double bytes_per_number = 8.0;
 /// While it is stored, a result exists a few times: as it is, as the image of its file, and being written.
 constexpr double copies = 4.0;
 
-std::string days(double seconds) { return fmt::format("{:.3g} days", seconds / 86400.0); }
+std::string duration_text(double seconds) {
+  constexpr double hour = 3600.0, day = 24.0 * hour;
+  if (seconds < hour) return fmt::format("{:.3g} s", seconds);
+  return seconds < day ? fmt::format("{:.3g} h", seconds / hour) : fmt::format("{:.3g} days", seconds / day);
+}
 std::string gigabytes(double bytes) { return fmt::format("{:.3g} GB", 1e-9 * bytes); }
 
 /// What follows ignition is the reason where the launch alone would do, a short step where steps as long as
@@ -108,15 +112,15 @@ std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const R
         "particle updates per second",
         static_cast<double>(plan.particles()),
         plan.steps < scene::most_counted ? fmt::format("{}", plan.steps) : "countless", plan.time_step,
-        scene::longitudinal_speed(scene), days(cost.time()), 1e-6 * cautious_update_rate);
+        scene::longitudinal_speed(scene), duration_text(cost.time()), 1e-6 * cautious_update_rate);
     if (cost.coupled > 0.0)
       found += fmt::format(", {} of it where every gap ignites and goes on through {:.3g} s of combustion",
-                           days(cost.coupled / cautious_update_rate), scene.combustion.duration);
+                           duration_text(cost.coupled / cautious_update_rate), scene.combustion.duration);
     return scene::error_at(
         {}, key_of_time(scene, cost, reach.longest_run), found,
         fmt::format(
             "a run of at most {}; larger cells or longer steps take less, and --longest-run allows more",
-            days(reach.longest_run)));
+            duration_text(reach.longest_run)));
   }
   const double skins = reach.keeps_skins ? cost.skins : 0.0;
   if (cost.memory() + skins <= reach.memory) return std::nullopt;

@@ -297,6 +297,11 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& ca
     fewest = apart;
     nearest = candidate;
   }
+  // "--out" of "--output".
+  const auto begins = [&](const std::string& each) { return lower_case(each).starts_with(wanted); };
+  if (const auto longer = std::ranges::find_if(candidates, begins);
+      nearest.empty() && word.size() > 2 && longer != candidates.end())
+    return *longer;
   return nearest;
 }
 

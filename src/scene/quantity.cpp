@@ -129,6 +129,8 @@ std::string kind_of_unit(std::string_view name, Dimension wanted) {
   for (std::size_t i = 0; i < dimension_count; ++i)
     if (const auto dimension = static_cast<Dimension>(i); find_unit(dimension, name))
       return fmt::format("which is a {}", info_of(dimension).name);
+  if (name.starts_with("to "))
+    return "which is a range, where values are wanted (a study varies a value by a range in [[vary]])";
   return fmt::format("with the unknown unit \"{}\"", name);
 }
 

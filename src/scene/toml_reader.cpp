@@ -184,7 +184,7 @@ std::string nearest_key(const std::string& name, const std::vector<std::string>&
   for (const std::string& candidate : known)
     if (last.size() > 3 && candidate.find(last) != std::string::npos) return candidate;
   for (const std::string& candidate : known)
-    if (name.size() > 3 && candidate.starts_with(name.substr(0, 3))) return candidate;
+    if (last.size() > 3 && last_part(candidate).starts_with(last.substr(0, 3))) return candidate;
   return {};
 }
 

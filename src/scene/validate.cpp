@@ -86,6 +86,15 @@ void check_cell_size(const SceneFile& file) {
                  fmt::format("at most {} for this body", length_text(largest)));
 }
 
+/// Where the mesh resolves several bodies not at all the cells are at fault, and not where a body ends.
+void check_cell_size_of_several(const SceneFile& file) {
+  const auto is_thin = [&](const Body& body) {
+    return 2.0 * std::min(body.x_end - body.x_begin, body.r_end - body.r_begin) <
+           file.scene.numerics.cell_size;
+  };
+  if (std::ranges::count_if(file.scene.bodies, is_thin) > 1) check_cell_size(file);
+}
+
 /// What only one of the formulations has is refused with the other, so that nobody believes it at work.
 void check_formulation(const SceneFile& file) {
   const Numerics& numerics = file.scene.numerics;
@@ -354,27 +363,17 @@ void check_output(const SceneFile& file) {
 }  // namespace
 
 void validate(const SceneFile& file) {
-  for (const auto check : {check_names,
-                           check_near_edges,
-                           check_charge_fits,
-                           check_overlaps,
-                           check_support,
-                           check_interfaces,
-                           check_stations,
-                           check_cell_size,
-                           check_load,
-                           check_kinetics,
-                           check_equation_of_state,
-                           check_steel,
-                           check_crack_friction,
-                           check_gaps,
-                           check_keys_of_model,
-                           check_closing,
-                           check_observation_points,
-                           check_formulation,
-                           check_inertia,
-                           check_refinement,
-                           check_coupling,
+  for (const auto check : {check_names,       check_cell_size_of_several,
+                           check_near_edges,  check_charge_fits,
+                           check_overlaps,    check_support,
+                           check_interfaces,  check_stations,
+                           check_cell_size,   check_load,
+                           check_kinetics,    check_equation_of_state,
+                           check_steel,       check_crack_friction,
+                           check_gaps,        check_keys_of_model,
+                           check_closing,     check_observation_points,
+                           check_formulation, check_inertia,
+                           check_refinement,  check_coupling,
                            check_output})
     check(file);
 }

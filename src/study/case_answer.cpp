@@ -213,6 +213,10 @@ struct AnswerRunner {
       without_rows.outcome = lacking->outcome;
       without_rows.failure = lacking->failure;
     });
+    // Progress counts the case as left.
+    if (std::ranges::any_of(
+            members, [&](std::size_t member) { return answers[member]->outcome == RunOutcome::interrupted; }))
+      runs.front().outcome = RunOutcome::interrupted;
   }
 
   /// `hashes`: of all runs that the answer rests on.

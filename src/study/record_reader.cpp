@@ -59,7 +59,11 @@ ordered_json json_of(const std::string& text, const RecordFormat& format) {
   ordered_json object;
   try {
     object = ordered_json::parse(text, watch);
-  } catch (const ordered_json::exception&) {
+  } catch (const ordered_json::parse_error& error) {
+    const auto fault = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
+    const auto line = 1 + std::count(text.begin(), fault, '\n');
+    throw scene::error_at({{}, static_cast<int>(line), 1}, "", "no JSON", wanted);
+  } catch (const ordered_json::exception&) {  // a number that none can be
     throw_fault("", "no JSON", wanted);
   }
   if (!object.is_object() || !object.contains("format"))

@@ -204,7 +204,6 @@ struct CaseLoop {
     if (--open.left > 0) return;
     const FinishedRun* lacking = run_without_result(open.runs);
     const FinishedRun& decisive = lacking != nullptr ? *lacking : open.runs.front();
-    const bool ended = decisive.outcome != RunOutcome::interrupted;
     std::string reason;
     try {
       on_done(i, open.runs);
@@ -213,6 +212,7 @@ struct CaseLoop {
       reason = fmt::format("the run failed: {}", error.what());
       give_up(i, RunOutcome::failed, reason);
     }
+    const bool ended = decisive.outcome != RunOutcome::interrupted;
     open.runs.clear();
     if (ended) tracker.cases_ended(cases[i].members.size(), reason);
   }

@@ -86,6 +86,32 @@ TEST_F(CommandLineProgram, AMistypedWordIsToldWithTheNearestThereIs) {
   EXPECT_NE(error({"study", "study.toml", "-o", "out", "--job", "2"}).find("did you mean --jobs?"),
             std::string::npos);
   EXPECT_NE(error({"plot", "--widht=3"}).find("plot: found \"--widht\""), std::string::npos);
+  EXPECT_NE(error({"--verion"}).find("did you mean --version?"), std::string::npos);
+  EXPECT_NE(error({"study", "study.toml", "--out", "x"}).find("did you mean --output?"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, AnOptionOfAnotherCommandIsToldWithThatCommand) {
+  EXPECT_NE(run({"run", "scene.toml", "--set", "load.peak=3 MPa"}).err.find("--set is an option of ask"),
+            std::string::npos);
+}
+
+TEST_F(CommandLineProgram, WhatIsMissingIsCalledAsInTheHelp) {
+  EXPECT_NE(run({"study"}).err.find("STUDY.toml is required"), std::string::npos);
+  EXPECT_NE(run({"run"}).err.find("SCENE.toml is required"), std::string::npos);
+}
+
+TEST_F(CommandLineProgram, AnEmptyNameIsRefused) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", ""}, {"study", "study.toml", "-o", ""}, {"report", "", "-o", "x"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find("found \"\"; allowed: "), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(CommandLineProgram, AShardBeyondTheLastIsRefusedWithTheRange) {
+  const std::string error = run({"study", "study.toml", "-o", "out", "--shard", "3/2"}).err;
+  EXPECT_NE(error.find("i/N with i from 1 to N"), std::string::npos) << error;
 }
 
 TEST_F(CommandLineProgram, AMissingStudyIsToldBeforeAMissingOutput) {

@@ -25,6 +25,7 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
   const Outcome bounded = run({"run", "shell.toml", "-o", "out", "--longest-run", "0.01ms"});
   EXPECT_EQ(bounded.code, 2) << bounded.err;
   EXPECT_TRUE(bounded.says("numerics.cell_size")) << bounded.err;
+  EXPECT_TRUE(bounded.says("a run of at most 1e-05 s")) << bounded.err;
   EXPECT_FALSE(exists("out"));
   EXPECT_EQ(run({"run", "shell.toml", "--longest-run", "90d"}).code, 0);
 }

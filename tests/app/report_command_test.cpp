@@ -31,6 +31,18 @@ TEST_F(ReportCommand, WritesPageDataAndFiguresOfAStudyThatRan) {
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
 }
 
+TEST_F(ReportCommand, SaysWhereAManifestNamesAnotherBuildThanTheStoredRuns) {
+  run_critical_gap();
+  ASSERT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
+  EXPECT_FALSE(reports("several builds made it, or it was edited"));
+  const std::string manifest = read("out/manifest.json");
+  const std::size_t commit = manifest.find("\"commit\": \"") + 11;
+  write("out/manifest.json",
+        manifest.substr(0, commit) + "0123abc" + manifest.substr(manifest.find('"', commit)));
+  ASSERT_EQ(run({"report", "out", "-o", "again"}).code, 0);
+  EXPECT_NE(read("again/report.md").find("names commit 0123abc, its stored runs name"), std::string::npos);
+}
+
 TEST_F(ReportCommand, IndexLeadsToReportsAndTakesTheirPlaceNowhere) {
   run_critical_gap();
   ASSERT_EQ(run({"report", "out", "-o", "all/safety"}).code, 0);
@@ -112,7 +124,7 @@ TEST_F(ReportCommand, OfAStudyThatWasInterruptedSaysHowToGoOn) {
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(reports("There is no answer yet"));
-  EXPECT_TRUE(reports("launchsafe study study.toml -o DIR"));
+  EXPECT_TRUE(reports("launchsafe study study.toml -o out"));
 }
 
 TEST_F(ReportCommand, BadInputIsOneMessage) {

@@ -137,6 +137,16 @@ TEST(Comparison, AVariantTakesTheFitUncertaintyOfItsOwnCalibration) {
   EXPECT_NEAR(variants[1].judged.calibration.evidence.fit_uncertainty, 2.8702, 1e-3);
 }
 
+// With constants it would be another study.
+TEST(Comparison, RestsOnTheRecordOfACalibrationThatFailed) {
+  const std::string start = "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\ngaps = \"0 cm\"\n" +
+                            variants_follow + variant("film", "gap.air = \"film\"");
+  const std::size_t without = study_of(start).records.size();
+  EXPECT_EQ(study_of(start + "calibration = \"../reports/model_form/film/calibration/calibration.json\"\n")
+                .records.size(),
+            without + 1);
+}
+
 TEST(Comparison, FaultsNameTheVariant) {
   const auto fault = [](const std::string& text) {
     const auto study = parse_here(comparison_start + text);

@@ -125,6 +125,18 @@ TEST(GapCriterion, AnythingElseIsRefused) {
   }
 }
 
+TEST(GapCriterion, IsRefusedWithTheReason) {
+  for (const auto& [text, why] : {std::pair{"margin >= 0.5 uncertainty", "is part of SAFE already"},
+                                  {"T max >= 450 K", "that is small: <="},
+                                  {"margin <= 20 K", "that is large: >="},
+                                  {"margin >= 0 K", "more than 0"},
+                                  {"probability <= 1", "below 1"}}) {
+    const auto parsed = parse_criterion(text, "a standard");
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_NE(parsed.error().found.find(why), std::string::npos) << parsed.error().found;
+  }
+}
+
 TEST(GapCriterion, WordsAreToldOnOneLine) {
   const auto parsed =
       parse_criterion(" margin >=\n 2   K\tand distance >= 1 mm ", " works\n\n# standard  12\r");

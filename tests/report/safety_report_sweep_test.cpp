@@ -31,7 +31,7 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   const path study = copy_of("critical_gap_155mm");
   change(study, add_case);
   const std::string page = file_of({study}, "report.md");
-  EXPECT_TRUE(has(page, "Only this launch is covered: 496 MPa peak pressure")) << "one of the two";
+  EXPECT_TRUE(has(page, "Only this launch is covered: cracks of")) << "one of the two";
   EXPECT_TRUE(has(page, "The smallest critical gap found in 2 cases is 0.038"));
   EXPECT_TRUE(has(page, "In 1 of them no gap is safe"));
   EXPECT_TRUE(has(page, "no computed gap has the verdict SAFE in every case"));

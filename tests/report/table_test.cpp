@@ -55,6 +55,22 @@ TEST(Table, IsPrintedInPartsThatFitWhereItIsTooWide) {
       << "one column beside the first at the least";
 }
 
+TEST(Table, EveryPartBeginsWithTheColumnsThatTellItsRowsApart) {
+  Table table;
+  table.columns = {{"case", "case"}, {"gap", "gap"}, {"first", "first"}, {"other", "other"}};
+  table.rows = {{"A", "1", "p", "q"}, {"A", "2", "r", "s"}};
+  EXPECT_EQ(to_text(table, 20),
+            "case  gap  first\n"
+            "----  ---  -----\n"
+            "A     1    p\n"
+            "A     2    r\n"
+            "\n"
+            "case  gap  other\n"
+            "----  ---  -----\n"
+            "A     1    q\n"
+            "A     2    s\n");
+}
+
 TEST(Table, TextAlignsByCharactersNotBytes) {
   Table table;
   table.columns = {{"tau", "\u03c4"}, {"b", "b"}};

@@ -99,6 +99,13 @@ TEST(Quantity, NamesTheDimensionThatAWrongUnitHas) {
   EXPECT_NE(value.error().allowed.find("mm"), std::string::npos);
 }
 
+TEST(Quantity, SaysThatARangeIsOneWhereValuesAreWanted) {
+  for (const auto& error : {parse_quantity("0 to 0.04 cm", Dimension::length).error(),
+                            parse_list("0 to 0.04 cm", Dimension::length).error()})
+    EXPECT_NE(error.found.find("which is a range, where values are wanted"), std::string::npos)
+        << error.found;
+}
+
 TEST(Quantity, SuggestsTheNearestUnit) {
   EXPECT_EQ(parse_quantity("496 Mpa", Dimension::pressure).error().suggestion, "\"496 MPa\"");
   EXPECT_EQ(parse_quantity("5 mmm", Dimension::length).error().suggestion, "\"5 mm\"");

@@ -129,6 +129,7 @@ const Fault faults[] = {
     {"x = \"1 to 4 cm\"", "x = \"1 to 6 cm\"", "1 to 6", "body.filling.x", "sticks out", "x 0 to 5 cm"},
     {"r = \"1.5 to 2 cm\"", "r = \"1.4 to 2 cm\"", "1.4 to", "body.wall.r", "overlaps", "overlap"},
     {"", "numerics.cell_size = \"1.5 cm\"\n", "1.5 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
+    {"", "numerics.cell_size = \"50 cm\"\n", "50 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
     {"0, 0.01 cm", "0, 0.01, 0.02, 0.01 cm", "thickness", "gap.thickness", "twice", "once"},
     {"0, 0.01 cm", "0, -0.01 cm", "thickness", "gap.thickness", "-0.01 cm", "0 cm to 2 cm"},
     {"\"0, 0.01 cm\"", "[]", "thickness", "gap.thickness", "an empty array", "one or more"},

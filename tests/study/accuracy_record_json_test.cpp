@@ -190,6 +190,14 @@ TEST(AccuracyRecordText, IsRefusedWithAKeyGivenTwice) {
   EXPECT_EQ(refusal_of(text).key, "scene");
 }
 
+TEST(AccuracyRecordText, ThatIsNoJsonIsRefusedWithItsPlace) {
+  std::string text = made_text();
+  text.insert(text.find("\"scene\""), ", ");
+  EXPECT_EQ(
+      parse_accuracy_record(text, "accuracy.json").error().line,
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("\"scene\"")), '\n'));
+}
+
 TEST(AccuracyRecordText, IsRefusedWithAnEditThatItsDigestDoesNotKnow) {
   const std::vector<Edit> edits{{"peak", [](auto& r) { edit_scene(r, "496000000 Pa", "900000000 Pa"); }},
                                 value_of("settings.2.processor_time_s", 1e-3),

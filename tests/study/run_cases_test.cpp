@@ -144,6 +144,22 @@ TEST(RunCases, AStudyThatIsStoppedLeavesItsRunsInterrupted) {
   EXPECT_EQ(count(outcomes_of(lean_study_of(two_cases), options), RunOutcome::interrupted), 2u);
 }
 
+// After Ctrl-C `status` said one case more than was kept.
+TEST(RunCases, ACaseThatWasInterruptedBeforeItWasJudgedIsNotDone) {
+  std::size_t done = 0, calls = 0;
+  ProgressTracker tracker([&](const Progress& progress) {
+    done = progress.cases_done;
+    ++calls;
+  });
+  Timing timing;
+  const StudyFile study = lean_study_of(two_cases);
+  run_cases(
+      case_runs(study, 1), synthetic_options(), tracker, timing,
+      [](std::size_t, std::vector<FinishedRun>& runs) { runs.front().outcome = RunOutcome::interrupted; });
+  EXPECT_GT(calls, 0u);
+  EXPECT_EQ(done, 0u);
+}
+
 /// What judging throws, with or without a word, is the failure of its case, told to the judge itself.
 TEST(RunCases, AJudgeThatThrowsIsCalledOnceMoreWithTheReason) {
   const StudyFile study = lean_study_of(two_cases);
