@@ -86,10 +86,6 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"inexactness_K", inexactness}};
 }
 
-void add_mark(const AccuracyRow& row, Series& series) {
-  series.add(row.setting.processor_time, row.largest_temperature_error);
-}
-
 bool is_of_paper(const AccuracyRow& row) {
   const auto found = row.setting.setting.find("numerics.formulation");
   return found != row.setting.setting.end() && found->second == scene::Value("updated-lagrangian");
@@ -107,11 +103,27 @@ std::vector<const AccuracyRow*> steps_to_the_limit(std::vector<const AccuracyRow
   return steps;
 }
 
+/// K: what is nearer than the limit is known to cannot be told from that.
+double told_distance(const VariantAccuracy& variant, double distance) {
+  const double known_to = variant.reference_uncertainty();
+  return distance < known_to ? known_to : distance;
+}
+
+/// Of all variants, as the scene has it: K.
+double largest_distance(const std::vector<const VariantAccuracy*>& variants) {
+  double largest = 0;
+  for (const VariantAccuracy* each : variants)
+    if (const AccuracyRow* own = each->baseline())
+      largest = std::max(largest, told_distance(*each, own->largest_temperature_error));
+  return largest;
+}
+
 Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
   if (variants.size() == 1) return error_plot(*variants.front());
   Plot plot;
-  plot.title = "How far T max is from its limit, against processor time, for each model";
-  plot.subtitle = "grey: what the limit is known to; within it no setting can be told to be better";
+  plot.title = fmt::format("As in the scene T max is within {} of its limit, in each of {} models",
+                           kelvins(largest_distance(variants)), variants.size());
+  plot.subtitle = "grey: nearer than the limit is known to; what is there stands at its upper edge";
   for (const VariantAccuracy* each : variants) plot.panels.push_back(error_plot(*each));
   return plot;
 }
@@ -140,35 +152,38 @@ Plot error_plot(const VariantAccuracy& variant) {
   if (!times.empty())
     late.label = fmt::format("all at {}, gap {}", milliseconds(times.back()),
                              centimetres(variant.study.study.gaps.front()));
+  const auto add_mark = [&](const AccuracyRow& row, double distance, Series& series) {
+    series.add(row.setting.processor_time, told_distance(variant, distance));
+  };
   std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
     shown.push_back(&row);
-    if (row.setting.reference) add_mark(row, meshes);
-    if (!row.setting.reference && !row.baseline) add_mark(row, is_of_paper(row) ? paper : others);
-    if (!row.error_at_times.empty())
-      late.add(row.setting.processor_time, std::abs(row.error_at_times.back()));
+    const double distance = row.largest_temperature_error;
+    if (row.setting.reference) add_mark(row, distance, meshes);
+    if (!row.setting.reference && !row.baseline) add_mark(row, distance, is_of_paper(row) ? paper : others);
+    if (!row.error_at_times.empty()) add_mark(row, std::abs(row.error_at_times.back()), late);
   }
   plot.series = {std::move(late), std::move(others), std::move(paper), std::move(meshes)};
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
   const auto named = [&](const AccuracyRow& row, std::string label, int colour, Mark mark) {
-    add_mark(row,
+    add_mark(row, row.largest_temperature_error,
              plot.series.emplace_back(Series{.label = std::move(label), .colour = colour, .mark = mark}));
   };
   for (const AccuracyRow* row : steps_to_the_limit(shown, known_to))
     if (!row->baseline) named(*row, row->setting.label, black, Mark::circle);
   if (const AccuracyRow* own = variant.baseline()) {
     named(*own, "as in the scene", orange, Mark::diamond);
-    plot.title =
-        fmt::format("as in the scene T max is {} from its limit", kelvins(own->largest_temperature_error));
+    const double distance = own->largest_temperature_error;
+    plot.title = fmt::format("as in the scene T max is {} {} its limit",
+                             distance < known_to ? "within " + kelvins(known_to) : kelvins(distance),
+                             distance < known_to ? "of" : "from");
   }
   plot.title =
       fmt::format("{}{}{}", variant.name, variant.name.empty() || plot.title.empty() ? "" : ": ", plot.title);
   if (std::isfinite(known_to) && known_to > 0) {
-    double nearest = known_to;
-    for (const AccuracyRow* row : shown)
-      if (row->largest_temperature_error > 0) nearest = std::min(nearest, row->largest_temperature_error);
-    plot.horizontal_bands = {{nearest, known_to, "limit known to " + kelvins(known_to)}};
+    plot.y.minimum = 0.5 * known_to;
+    plot.horizontal_bands = {{*plot.y.minimum, known_to, "limit known to " + kelvins(known_to)}};
   }
   if (!variant.record.unvaried.empty())
     plot.subtitle = "no bound of the error is known: the reference itself may be off";

@@ -110,10 +110,6 @@ std::vector<double> some_of(const std::vector<double>& values) {
   return some;
 }
 
-study::AssumedShares in_both(const study::AssumedShares& a, const study::AssumedShares& b) {
-  return {a.computation && b.computation, a.model_form && b.model_form};
-}
-
 /// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
 struct GapLines {
   const CriticalGapResult& result;
@@ -122,12 +118,9 @@ struct GapLines {
   const SweptAxis* across;
   std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
   std::vector<Series> values = {}, lower_bounds = {};  ///< a line each
-  Series assumed = {.label = "computation or model form assumed",
-                    .style = Style::points,
-                    .colour = 7,
-                    .mark = Mark::open_circle};
+  Series assumed = {.style = Style::points, .colour = 7, .mark = Mark::open_circle};
+  study::AssumedShares shares = {};  ///< of any that is `assumed`
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
-  std::map<double, study::AssumedShares> shares = {};  ///< assumed on every line, along the axis
   std::int64_t unknown = 0;
   double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
@@ -140,7 +133,8 @@ struct GapLines {
                         .y = nothing,
                         .colour = i});
       Series& lower = lower_bounds.emplace_back(values.back());
-      lower.label = i++ > 0 ? "" : across == nullptr ? "its lower bound" : "lower bound of each";
+      lower.label = across == nullptr ? "its lower bound" : "";
+      ++i;
       lower.style = Style::dashed_line;
     }
   }
@@ -163,43 +157,19 @@ struct GapLines {
                                                                          : gap.lower);
     lowest = std::min(lowest, drawn);
     highest = std::max(highest, drawn);
-    const study::AssumedShares own = assumed_shares(result.study.study, input, gap.value);
-    study::AssumedShares& common = shares.try_emplace(x, own).first->second;
-    common = in_both(common, own);
+    const double lower = kind == CriticalGapKind::value ? shown_gap(gap.bounds.at_least) : not_a_number;
+    if (const auto own = assumed_shares(result.study.study, input, gap.value); own.any()) {
+      assumed.add(x, std::isfinite(lower) ? lower : drawn);
+      shares = {shares.computation || own.computation, shares.model_form || own.model_form};
+    }
     if (kind != CriticalGapKind::value) {
       marks.at(kind).add(x, drawn);
       return;
     }
     const std::size_t place = place_in(along.values, x);
     values[line].y[place] = drawn;
-    const double lower = shown_gap(gap.bounds.at_least);
     least_uncertainty = std::min(least_uncertainty, std::isfinite(lower) ? drawn - lower : 0.0);
-    if (!std::isfinite(lower)) return;
-    lower_bounds[line].y[place] = lower;
-    if (own.any()) assumed.add(x, lower);
-  }
-
-  /// Hatched where a share is assumed on every line, up to the next value at which none is, with those shares
-  /// that are assumed all along: "model form assumed".
-  std::vector<report::Band> assumed_bands() const {
-    std::vector<report::Band> bands;
-    const std::vector<double>& x = along.values;
-    study::AssumedShares all_along;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!is_assumed_at(x[i])) continue;
-      const double from = x[i > 0 ? i - 1 : 0], to = x[std::min(i + 1, x.size() - 1)];
-      const bool goes_on = i > 0 && is_assumed_at(x[i - 1]);
-      if (!goes_on) bands.push_back({from, to, {}, true});
-      all_along = goes_on ? in_both(all_along, shares.at(x[i])) : shares.at(x[i]);
-      bands.back().to = to;
-      bands.back().label = all_along.any() ? all_along.text() + " assumed" : "assumed";
-    }
-    return bands;
-  }
-
-  bool is_assumed_at(double x) const {
-    const auto found = shares.find(x);
-    return found != shares.end() && found->second.any();
+    if (std::isfinite(lower)) lower_bounds[line].y[place] = lower;
   }
 
   /// Values on lines of two and more; none where all differ by less than the best of them is known to.
@@ -215,14 +185,13 @@ struct GapLines {
     plot.title = finding() + plot.title;
     for (auto* lines : {&values, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
-    for (std::size_t i = 0; i < assumed.x.size(); ++i)
-      if (is_assumed_at(assumed.x[i])) assumed.y[i] = not_a_number;  // the hatching says it
-    if (known_of(assumed) > 0) plot.series.push_back(std::move(assumed));
-    plot.vertical_bands = assumed_bands();
-    // Room for their labels.
-    if (!plot.vertical_bands.empty()) plot.y.maximum = 1.15 * highest;
+    assumed.label =
+        (shares.computation && shares.model_form ? "computation or model form" : shares.text()) + " assumed";
+    if (!assumed.x.empty()) plot.series.push_back(std::move(assumed));
+    if (across != nullptr) plot.subtitle = "dashed: the lower bound of each";
     if (unknown > 0)
-      plot.subtitle = fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
+      plot.subtitle += fmt::format("{}not drawn: {} indeterminate or failed",
+                                   plot.subtitle.empty() ? "" : "; ", report::counted(unknown, "case"));
     for (auto& [kind, series] : marks)
       if (!series.x.empty()) plot.series.push_back(std::move(series));
     return std::move(plot);
@@ -237,24 +206,36 @@ struct GapLines {
     return static_cast<std::size_t>(std::ranges::count_if(line.y, [](double y) { return std::isfinite(y); }));
   }
 
-  /// "Critical gap at crack radius 30 µm falls from 0.1 cm at 250 MPa to ...", of the line with most values.
+  /// "Critical gap at crack radius 30 µm: at least 0.03 cm at 250 MPa, 0 cm from 500 MPa on": the lowest of
+  /// the bounds that have most values.
   std::string finding() const {
-    const Series& line = *std::ranges::max_element(values, {}, known_of);
+    const Series& line = *std::ranges::max_element(
+        lower_bounds, {}, [](const Series& each) { return std::pair(known_of(each), -sum_of(each)); });
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < line.y.size(); ++i)
       if (std::isfinite(line.y[i])) known.push_back(i);
-    if (known.size() < 2) return "Critical gap";
-    const auto gap = [&](std::size_t i) { return report::significant(line.y[i], 2) + " cm"; };
-    const auto at = [&](std::size_t i) {
-      return report::significant(line.x[i], 6) + " " + along.key.form.unit;
+    const std::string& of = values[static_cast<std::size_t>(*line.colour)].label;
+    const std::string what = "Critical gap" + (across == nullptr ? "" : " at " + of);
+    if (known.empty()) return what + ": no lower bound is known";
+    const auto text = [&](std::size_t place) {
+      return report::significant(report::rounded_down(line.y[known[place]], 4), 3) + " cm";
     };
-    const std::string what = "Critical gap" + (across == nullptr ? "" : " at " + line.label);
-    const std::string first = gap(known.front()), last = gap(known.back());
-    if (first == last)
-      return fmt::format("{} stays at {} from {} to {}", what, first, at(known.front()), at(known.back()));
-    return fmt::format("{} {} from {} at {} to {} at {}", what,
-                       line.y[known.back()] < line.y[known.front()] ? "falls" : "rises", first,
-                       at(known.front()), last, at(known.back()));
+    const auto at = [&](std::size_t place) {
+      return report::significant(line.x[known[place]], 6) + " " + along.key.form.unit;
+    };
+    std::size_t last = known.size() - 1;
+    while (last > 0 && text(last - 1) == text(last)) --last;
+    const bool stays = last + 1 < known.size();
+    if (last == 0)
+      return fmt::format("{}: at least {} from {} to {}", what, text(0), at(0), at(known.size() - 1));
+    return fmt::format("{}: at least {} at {}, {} {} {}{}", what, text(0), at(0), text(last),
+                       stays ? "from" : "at", at(last), stays ? " on" : "");
+  }
+
+  static double sum_of(const Series& line) {
+    double sum = 0.0;
+    for (const double y : line.y) sum += std::isfinite(y) ? y : 0.0;
+    return sum;
   }
 };
 

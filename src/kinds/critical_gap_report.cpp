@@ -235,16 +235,24 @@ void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
 }
 
 /// The axis ends above the ignition temperature: how hot a burning skin is says nothing of the gap. What is
-/// hotter stands at that end.
+/// hotter stands at that end, and a bar that reaches further has an arrow there.
 void cut_above(double ignition, Plot& plot) {
   double lowest = ignition;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
   const double top = ignition + std::max(0.25 * (ignition - lowest), 20.0);
+  std::vector<Series> beyond;
   for (Series& series : plot.series) {
     for (double& temperature : series.y) temperature = std::min(temperature, top);
-    std::ranges::replace(series.upper, std::numeric_limits<double>::infinity(), top);
+    Series ends{.style = Style::points, .colour = series.colour, .mark = Mark::up_triangle};
+    for (std::size_t i = 0; i < series.upper.size(); ++i) {
+      if (series.upper[i] > top) ends.add(series.x[i], top);
+      series.upper[i] = std::min(series.upper[i], top);
+    }
+    if (!ends.x.empty()) beyond.push_back(std::move(ends));
   }
+  if (!beyond.empty()) beyond.front().label = "the bar goes on above";
+  std::ranges::move(beyond, std::back_inserter(plot.series));
   plot.y.maximum = top;
 }
 
@@ -270,11 +278,17 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
                                           {"published, " + to_string(Use::held_out), Mark::open_circle}};
   for (const auto& [label, mark] : marks) {
     Series series{.label = label, .style = Style::points, .colour = 6, .mark = mark};
+    std::set<std::string> points;
     for (const Reference& each : result.study.study.references)
       if (label == (foreign ? "published" : "published, " + report::used_for(each)) &&
-          std::isfinite(each.maximum_temperature))
+          std::isfinite(each.maximum_temperature)) {
         series.add(shown_gap(each.gap), each.maximum_temperature);
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
+        if (!each.point.empty()) points.insert(each.point);
+      }
+    if (series.x.empty()) continue;
+    series.label += fmt::format(" ({}{}at {})", fmt::join(points, ", "), points.empty() ? "" : " ",
+                                milliseconds(scene::read_time(own->input.scene.scene.load)));
+    plot.series.push_back(std::move(series));
   }
 }
 

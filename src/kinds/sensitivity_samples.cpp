@@ -125,7 +125,8 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
              .x = {.label = shown.column.label()},
              .y = {.label = "draws", .minimum = 0.0},
              .width = panel_width,
-             .height = panel_height};
+             .height = panel_height,
+             .named_in_place = true};
   if (histogram.counts.empty()) return panel;
   const double low = shown.value(sample.quantile(quantile_shares.front())),
                high = shown.value(sample.quantile(quantile_shares.back()));
@@ -147,7 +148,7 @@ Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) 
   steps.add(histogram.edge(histogram.counts.size()), 0.0);
   panel.series = {std::move(steps)};
   if (const double half = shown.value(sample.quantile(0.5)); std::isfinite(half))
-    panel.vertical_lines.push_back({half, "half: " + report::significant(half, 3) + unit});
+    panel.vertical_lines.push_back({half, "median: " + report::significant(half, 3) + unit});
   if (output.output == SensitivityOutput::critical_gap)
     panel.vertical_lines.push_back({shown_gap(result.study.study.gaps.front()),
                                     "the gap asked for: " + centimetres(result.study.study.gaps.front())});
@@ -172,10 +173,10 @@ Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& outp
   const double before = at(all / 2, 0.5), now = at(all, 0.5);
   if (std::isfinite(before) && std::isfinite(now))
     panel.title =
-        fmt::format("its half moved by {} {} over the last {} draws",
+        fmt::format("the median moved by {} {} over the last {} draws",
                     report::significant(std::abs(now - before), 2), shown.column.form.unit, all - all / 2);
   for (const auto& [label, share] :
-       {std::pair{"2.5 %", quantile_shares.front()}, {"half", 0.5}, {"97.5 %", quantile_shares.back()}}) {
+       {std::pair{"2.5 %", quantile_shares.front()}, {"median", 0.5}, {"97.5 %", quantile_shares.back()}}) {
     Series& line = panel.series.emplace_back(
         Series{.label = label, .style = Style::line, .colour = share == 0.5 ? 0 : 7});
     for (std::size_t step = 0; step <= steps; ++step) {

@@ -56,15 +56,20 @@ std::vector<study::Peak> published_of(const DrawnCase& drawn, const run::GapResu
   return all;
 }
 
-/// Adds them to a plot as hollow points, where there are any.
-void add_published(Series points, Plot& plot) {
-  if (points.x.empty()) return;
-  points.label = "published";
-  points.style = Style::points;
-  points.colour = 6;
-  points.mark = Mark::open_square;
-  plot.series.push_back(std::move(points));
-}
+/// Published temperatures as hollow points that name the observation points of theirs.
+struct PublishedPoints {
+  Series series = {.label = "published", .style = Style::points, .colour = 6, .mark = Mark::open_square};
+  std::set<std::string> places = {};
+
+  void add(double at, const study::Peak& peak) {
+    series.add(at, peak.temperature);
+    if (!peak.point.empty() && places.insert(peak.point).second)
+      series.label += (places.size() > 1 ? ", " : " at ") + peak.point;
+  }
+  void add_to(Plot& plot) {
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+};
 
 /// The gaps of a case that hold what a kind of pictures needs.
 std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
@@ -108,7 +113,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.x = {.label = distance_from_axis.label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature.label();
   plot.named_in_place = true;
-  Series published;
+  PublishedPoints published;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     const std::size_t samples = samples_before_ignition(skin);
@@ -123,7 +128,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
     for (const study::Peak& each : published_of(drawn, *gap)) {
       const auto point = std::ranges::find(trace.stations, each.point, &trace::Station::name);
       if (point != trace.stations.end() && std::abs(each.time - time.value_or(last)) < 1e-6)
-        published.add(shown_value(point->r, distance_from_axis.form), each.temperature);
+        published.add(shown_value(point->r, distance_from_axis.form), each);
     }
   }
   double spread = 0.0;
@@ -134,7 +139,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.title =
       fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
                   time ? "at " + in_words(*time, quantity::time_in_titles) : "at the end");
-  add_published(std::move(published), plot);
+  published.add_to(plot);
   return plot;
 }
 
@@ -188,6 +193,19 @@ bool has_combustion(const DrawnCase& drawn, const run::GapResult& gap) {
              gap.combustion->samples() * trace_of(drawn).stations.size();
 }
 
+/// How far the skin has burnt in the end.
+std::string reaction_title(const DrawnCase& drawn, const run::GapResult& gap) {
+  constexpr double burnt_up = 0.99;
+  const run::CombustionHistory& history = *gap.combustion;
+  const std::vector<std::size_t> rings = rings_of(trace_of(drawn));
+  const std::size_t last = history.reaction_degree.size() - trace_of(drawn).stations.size();
+  const auto burnt = std::ranges::count_if(
+      rings, [&](std::size_t ring) { return history.reaction_degree[last + ring] > burnt_up; });
+  return fmt::format("Gap {}: the skin of {} of {} stations has burnt {} after ignition",
+                     centimetres(gap.gap), burnt, rings.size(),
+                     in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond)));
+}
+
 void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const auto add = [&](const char* name, std::string title, const std::string& axis,
@@ -196,6 +214,8 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
     plot.title = std::move(title);
     plot.series = std::move(series);
     plot.named_in_place = true;
+    // Lines begin there and leave no room for its name.
+    for (Line& line : plot.vertical_lines) plot.subtitle += "; dashed: " + std::exchange(line.label, {});
     pictures.push_back(picture_of_gap(name, gap, std::move(plot)));
   };
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;
@@ -209,7 +229,7 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
       fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
                   in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal))),
       quantity::pressure.label(), {time_series("", history.time, history.pressure, quantity::pressure)});
-  add("combustion_reaction", "The skin burns from station to station", "reaction degree of the skin [1]",
+  add("combustion_reaction", reaction_title(drawn, gap), "reaction degree of the skin [1]",
       station_series(trace_of(drawn), shown_values(history.time, drawn_time()), history.reaction_degree,
                      gap.skin.ignition ? gap.skin.ignition->station : trace_of(drawn).stations.size()));
 }
@@ -240,10 +260,10 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
     Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature.label());
     for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
     skins.series = station_series(trace_of(drawn), times, skin.temperature, gap->at_stations.station);
-    Series published;
+    PublishedPoints published;
     for (const study::Peak& each : published_of(drawn, *gap))
-      published.add(shown_value(each.time, drawn_time().form), each.temperature);
-    add_published(std::move(published), skins);
+      published.add(shown_value(each.time, drawn_time().form), each);
+    published.add_to(skins);
     const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
     skins.horizontal_lines = {{ignition, "ignites at " + in_words(ignition, keys::significant(4, kelvin))}};
     Plot plot = titled_plot(drawn, history_title(drawn, *gap));

@@ -39,14 +39,6 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
-void add_values(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot,
-                const ScaleGroup& group, std::vector<double>& values) {
-  for (std::size_t i = 0; i < shot.x.size(); ++i) {
-    const double value = value_of(drawn, field, shot, i);
-    if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
-  }
-}
-
 /// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others.
 std::pair<double, double> common_range(std::vector<double> values) {
   if (values.empty()) return {0.0, 0.0};
@@ -56,14 +48,15 @@ std::pair<double, double> common_range(std::vector<double> values) {
   return low < high ? std::pair(low, high) : std::pair(values.front(), values.back());
 }
 
-/// Over all snapshots of the launch, or of what burns, drawn or not, so that all pictures of a field in
-/// either compare: what burns may press harder by far than any launch.
-std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, bool burning) {
+/// Of one snapshot: what others have, before or while it burns, would leave one colour for it.
+std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   std::vector<ColourScale> scales;
   for (const ScaleGroup& group : scale_groups(drawn, field)) {
     std::vector<double> values;
-    for (const ShownSnapshot& each : shown_snapshots(drawn))
-      if (each.gap.has_value() == burning) add_values(drawn, field, *each.snapshot, group, values);
+    for (std::size_t i = 0; i < shot.x.size(); ++i) {
+      const double value = value_of(drawn, field, shot, i);
+      if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
+    }
     const auto [minimum, maximum] = common_range(std::move(values));
     scales.push_back({fmt::format("{}: {} [{}]", group.name, field.meaning,
                                   field.shown.name.empty() ? "1" : field.shown.name),
@@ -217,14 +210,11 @@ void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapR
 }
 
 /// How it is with most of the charge, or of the bodies that have the field.
-std::string range_in(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
-  const ScaleGroup group = scale_groups(drawn, field).front();
-  std::vector<double> values;
-  add_values(drawn, field, shot, group, values);
-  const auto [low, high] = common_range(std::move(values));
+std::string range_in(const DrawnCase& drawn, const Field& field, const ColourScale& scale) {
   const auto number = [](double value) { return significant(value, std::abs(value) < 100.0 ? 2 : 4); };
-  return fmt::format("{} to {}{} in 98 % of the {}", number(low), number(high),
-                     field.shown.name.empty() ? "" : " " + std::string(field.shown.name), group.name);
+  return fmt::format("{} to {}{} in 98 of 100 cells of the {}", number(scale.minimum), number(scale.maximum),
+                     field.shown.name.empty() ? "" : " " + std::string(field.shown.name),
+                     scale_groups(drawn, field).front().name);
 }
 
 CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
@@ -236,7 +226,7 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
   if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
-  plot.title += ": " + range_in(drawn, field, shot);
+  plot.title += ": " + range_in(drawn, field, scales.front());
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
   plot.cells = cells_of(drawn, field, shot);
@@ -281,14 +271,6 @@ bool fits(const scene::Scene& scene, const run::Snapshot& shot) {
   return bodies == shot.body;
 }
 
-bool is_recorded(const DrawnCase& drawn, const Field& field, bool burning) {
-  if (scale_groups(drawn, field).empty()) return false;
-  const auto shown = shown_snapshots(drawn);
-  return std::ranges::any_of(shown, [&](const ShownSnapshot& each) {
-    return each.gap.has_value() == burning && !values_of(*each.snapshot, field).empty();
-  });
-}
-
 std::string lacks_fields(const DrawnCase& drawn) {
   const auto snapshots = shown_snapshots(drawn);
   if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
@@ -307,13 +289,12 @@ std::string lacks_fields(const DrawnCase& drawn) {
 std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   std::vector<CasePicture> pictures;
   for (const Field& field : run::snapshot_fields()) {
-    for (const bool burning : {false, true}) {
-      if (!field.drawn || !is_recorded(drawn, field, burning)) continue;
-      const std::vector<ColourScale> scales = scales_of(drawn, field, burning);
-      for (const ShownSnapshot& each : chosen_snapshots(drawn))
-        if (each.gap.has_value() == burning && (varies(scales) || skin_in(drawn, field, each) != nullptr))
-          pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
-                              field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
+    if (!field.drawn || scale_groups(drawn, field).empty()) continue;
+    for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
+      const std::vector<ColourScale> scales = scales_of(drawn, field, *each.snapshot);
+      if (varies(scales) || skin_in(drawn, field, each) != nullptr)
+        pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
+                            field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
     }
   }
   return pictures;

@@ -69,7 +69,7 @@ namespace {
 // --- the page: pixels, y downward ---
 
 constexpr double cell_page_width = 1400, page_left = 86, page_top = 92;
-constexpr double bar_width = 18, bar_distance = 140, before_bars = 30;
+constexpr double bar_width = 18, bar_distance = 140, before_bars = 64;
 constexpr double most_whole_height = 620, enlarged_height = 460;
 constexpr double edge_margin = 0.002;  // share of the length
 constexpr double below_axis = 66, above_enlarged = 58;
@@ -242,13 +242,14 @@ std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const
   return commands.text();
 }
 
-/// The axis of symmetry, to beyond the base.
+/// The axis of symmetry, to beyond the base, where its name stands.
 std::string axis_line(const CellPanel& panel) {
   const double beyond = 14.0 / panel.scale;
   return fmt::format(
       "set arrow 1 from first {}, first 0 to first {}, first 0 nohead front linewidth 1.2 dashtype '-  .' "
-      "linecolor rgb '#b23a48'\n",
-      exact(panel.x_begin), exact(panel.x_end + beyond));
+      "linecolor rgb '#b23a48'\n"
+      "set label 3 'axis' at first {}, first 0 left offset 0.3, 0 font ',12' textcolor rgb '#b23a48'\n",
+      exact(panel.x_begin), exact(panel.x_end + beyond), exact(panel.x_end + beyond));
 }
 
 std::string page_text(const CellPlot& plot) {
@@ -306,11 +307,11 @@ std::string to_gnuplot(const CellPlot& plot) {
   text +=
       cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");
   if (enlarged) {
-    text += "unset label 1\nunset label 2\nunset arrow 1\n" + cells_in(*enlarged, "part");
+    text += "unset label\nunset arrow 1\n" + cells_in(*enlarged, "part");
     text += fmt::format("set label 1 {} at graph 0, graph 1 offset 0, character 1.2 font ',15'\n",
                         quoted(fmt::format("{}, enlarged {} times", plot.enlargement->label,
                                            significant(enlarged->scale / whole.scale, 2))));
-    text += axis_line(*enlarged) + outline_commands(plot, *enlarged, "part");
+    text += outline_commands(plot, *enlarged, "part");
   }
   return text + "unset multiplot\n";
 }

@@ -1,6 +1,7 @@
 #include "launchsafe/report/plot.hpp"
 
 #include "launchsafe/report/table.hpp"
+#include "plot_names.hpp"
 
 #include <array>
 
@@ -11,12 +12,6 @@ namespace {
 
 bool has_bars(const Series& series) {
   return series.style >= Style::vertical_bars && series.style <= Style::filled_bars;
-}
-
-/// Whether it is named where it is, not in the legend.
-bool named_at_end(const Plot& plot, const Series& series) {
-  const bool is_line = series.style <= Style::line_and_points && series.style != Style::points;
-  return plot.named_in_place && is_line && !series.label.empty();
 }
 
 /// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place.
@@ -48,31 +43,19 @@ std::string points_of(Mark mark) {
   return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
 }
 
-std::size_t look_of(const Series& series, std::size_t index) {
-  return series.colour ? static_cast<std::size_t>(*series.colour) : index;
-}
-
-std::string_view colour_of(const Series& series, std::size_t index) {
-  // Okabe and Ito's colours, told apart by the colour-blind too; grey for the yellow that white paper
-  // swallows.
-  constexpr std::array<std::string_view, 8> palette{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                    "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
-  return palette[look_of(series, index) % palette.size()];
-}
-
-std::string style_of(const Series& series, std::size_t index) {
-  // In the order of Style: {0} is the sign of points, {1} the colour.
-  constexpr std::array<const char*, 8> styles{"with lines linewidth 2 {1}",
-                                              "with lines linewidth 2 dashtype 2 {1}",
+std::string style_of(const Series& series, std::size_t index, int width) {
+  // In the order of Style: {0} is the sign of points, {1} the colour, {2} the width of lines.
+  constexpr std::array<const char*, 8> styles{"with lines linewidth {2} {1}",
+                                              "with lines linewidth {2} dashtype 2 {1}",
                                               "with points linewidth 1.5 {0} {1}",
-                                              "with linespoints linewidth 2 {0} {1}",
+                                              "with linespoints linewidth {2} {0} {1}",
                                               "with yerrorbars linewidth 1.5 {0} {1}",
                                               "with xerrorbars linewidth 1.5 {0} {1}",
                                               "with boxxyerror fillstyle solid 0.8 noborder {1}",
                                               "with steps linewidth 2 {1}"};
   const auto sign = series.mark.value_or(static_cast<Mark>(look_of(series, index) % 8));
   return fmt::format(fmt::runtime(styles.at(static_cast<std::size_t>(series.style))), points_of(sign),
-                     fmt::format("linecolor rgb '{}'", colour_of(series, index)));
+                     fmt::format("linecolor rgb '{}'", colour_of(series, index)), width);
 }
 
 // --- commands ---
@@ -86,7 +69,7 @@ void add_series(const Plot& plot, Commands& commands) {
                                      : has_bars(series)                 ? "1:2:3:4"
                                                                         : "1:2";
     commands.add(fmt::format("series{}", i), series_data(plot, series),
-                 fmt::format("{} {} {}", columns, style_of(series, i),
+                 fmt::format("{} {} {}", columns, style_of(series, i, line_width(plot, i)),
                              title_of(named_at_end(plot, series) ? "" : series.label)));
   }
 }
@@ -99,10 +82,8 @@ void add_bands(const Plot& plot, Commands& commands) {
       commands.add(fmt::format("{}{}", name, i),
                    fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
                                coordinate(bands[i].to, scale)),
-                   fmt::format("1:2 axes {} with filledcurves closed {} {}", axes,
-                               bands[i].hatched ? "fillstyle pattern 4 fillcolor rgb '#c4c4c4'"
-                                                : "fillcolor rgb '#e4e4e4'",
-                               title_of(bands[i].hatched ? "" : bands[i].label)));
+                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' {}", axes,
+                               title_of(bands[i].label)));
   };
   add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
   add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
@@ -138,7 +119,7 @@ Legend legend_of(const Plot& plot) {
   };
   for (const Series& series : plot.series)
     if (!named_at_end(plot, series) && !series.x.empty()) add(series.label);
-  for (const Band& band : plot.vertical_bands) add(band.hatched ? "" : band.label);
+  for (const Band& band : plot.vertical_bands) add(band.label);
   for (const Band& band : plot.horizontal_bands) add(band.label);
   if (!plot.named_in_place) {
     for (const Line& line : plot.vertical_lines) add(line.label);
@@ -154,105 +135,6 @@ Legend legend_of(const Plot& plot) {
 int whole_height(const Plot& plot) {
   constexpr int row = 20;
   return plot.height + row * std::max(0, static_cast<int>(legend_of(plot).rows) - 1);
-}
-
-/// Where a value stands between the lowest and the highest of an axis that its data make.
-struct Places {
-  const PlotAxis& axis;
-  double least = HUGE_VAL, most = -HUGE_VAL;
-
-  double of(double value) const { return (scaled(value) - low()) / span(); }
-  double at(double place) const {
-    const double value = low() + place * span();
-    return axis.scale == Scale::linear ? value : std::pow(10.0, value);
-  }
-
-  double scaled(double value) const { return axis.scale == Scale::linear ? value : std::log10(value); }
-  double low() const { return scaled(axis.minimum.value_or(least)); }
-  double span() const {
-    const double span = scaled(axis.maximum.value_or(most)) - low();
-    return span > 0 ? span : 1.0;
-  }
-};
-
-Places places_along(const Plot& plot, const PlotAxis& axis, std::vector<double> Series::*values,
-                    const std::vector<Line>& lines) {
-  Places places{axis};
-  const auto add = [&](double value) {
-    if (!drawable(value, axis.scale)) return;
-    places.least = std::min(places.least, value);
-    places.most = std::max(places.most, value);
-  };
-  for (const Series& series : plot.series) std::ranges::for_each(series.*values, add);
-  for (const Line& line : lines) add(line.at);
-  return places;
-}
-
-/// What a line is called, beside the plot at the height where it ends.
-struct EndName {
-  std::string text;
-  std::string_view colour;
-  double place = 0;  ///< along y, 0 to 1
-};
-
-/// From the lowest to the highest, no two on each other.
-std::vector<EndName> names_at_ends(const Plot& plot, const Places& along_y) {
-  std::vector<EndName> names;
-  for (std::size_t i = 0; i < plot.series.size(); ++i) {
-    const Series& series = plot.series[i];
-    if (!named_at_end(plot, series)) continue;
-    for (std::size_t k = series.x.size(); k-- > 0;)
-      if (drawable(series.x[k], plot.x.scale) && drawable(series.y[k], plot.y.scale)) {
-        names.push_back({series.label, colour_of(series, i), along_y.of(series.y[k])});
-        break;
-      }
-  }
-  std::ranges::stable_sort(names, {}, &EndName::place);
-  const double apart = 24.0 / (plot.height - 170.0);
-  // Pushed up from below, then down from above.
-  for (std::size_t i = 1; i < names.size(); ++i)
-    names[i].place = std::max(names[i].place, names[i - 1].place + apart);
-  double highest = 1.05;
-  for (std::size_t i = names.size(); i-- > 0; highest = names[i].place - apart)
-    names[i].place = std::min(names[i].place, highest);
-  return names;
-}
-
-/// Characters beside the plot, where lines are named at their ends.
-std::size_t right_margin(std::size_t longest_name) { return 3 + 17 * longest_name / 20; }
-
-/// Letters of the longest name of a line.
-std::size_t longest_end_name(const Plot& plot) {
-  std::size_t longest = 0;
-  for (const Series& series : plot.series)
-    if (named_at_end(plot, series)) longest = std::max(longest, display_width(series.label));
-  return longest;
-}
-
-/// `width`: letters of the names at the right.
-std::string names_in_place(const Plot& plot, std::size_t width) {
-  if (!plot.named_in_place) return {};
-  const Places along_x = places_along(plot, plot.x, &Series::x, plot.vertical_lines),
-               along_y = places_along(plot, plot.y, &Series::y, plot.horizontal_lines);
-  std::string text;
-  const auto add = [&text](const std::string& label, const std::string& x, const std::string& y,
-                           const char* how, std::string_view colour = "#444444") {
-    text +=
-        fmt::format("set label {} at {}, {} {} front textcolor rgb '{}'\n", quoted(label), x, y, how, colour);
-  };
-  const auto first = [](double value) { return "first " + exact(value); };
-  for (const EndName& name : names_at_ends(plot, along_y))
-    add(name.text, "graph 1", first(along_y.at(name.place)), "left offset 1, 0", name.colour);
-  for (const Line& line : plot.horizontal_lines)
-    add(line.label, "graph 0.01", first(line.at), "left offset 0, 0.6");
-  for (const Line& line : plot.vertical_lines)
-    add(line.label, first(line.at), "graph 0.97",
-        along_x.of(line.at) < 0.5 ? "left offset 0.8, 0" : "right offset -0.8, 0");
-  for (const Band& band : plot.vertical_bands)
-    if (band.hatched)
-      add(band.label, first(along_x.at(0.5 * (along_x.of(band.from) + along_x.of(band.to)))), "graph 0.97",
-          "center");
-  return text + fmt::format("set rmargin {}\n", right_margin(width));
 }
 
 /// `width`: letters of the names at the right.

@@ -76,11 +76,30 @@ struct Section {
   const scene::Scene& scene;
   scene::GridLines lines;
   std::vector<DrawnBody> bodies = {};
+  std::vector<scene::ObservationPoint> points = {};  ///< stations too, with the names of all at one place
   double x_begin = 0, x_end = 0, r_end = 0;
 };
 
+/// Stations of the bottom, whose names answers have, and what the scene calls points there and elsewhere.
+std::vector<scene::ObservationPoint> points_of(const scene::Scene& scene) {
+  constexpr double same_place = 0.1;  // of the width of a station
+  std::vector<scene::ObservationPoint> points, elsewhere = scene.output.observation_points;
+  for (const scene::StationExtent& each : scene::stations_of(scene)) {
+    scene::ObservationPoint& station = points.emplace_back(
+        scene::ObservationPoint{each.name, each.x_end, 0.5 * (each.r_begin + each.r_end)});
+    std::erase_if(elsewhere, [&](const scene::ObservationPoint& point) {
+      const bool is_here = std::hypot(station.x - point.x, station.r - point.r) <=
+                           same_place * (each.r_end - each.r_begin) * (1 + 1e-9);
+      if (is_here) station.name += ", " + point.name;
+      return is_here;
+    });
+  }
+  points.insert(points.end(), elsewhere.begin(), elsewhere.end());
+  return points;
+}
+
 Section section_of(const scene::Scene& scene) {
-  Section section{scene, scene::lines_at_rest(scene)};
+  Section section{.scene = scene, .lines = scene::lines_at_rest(scene), .points = points_of(scene)};
   std::size_t charges = 0, others = 0;
   for (const scene::Body& body : scene.bodies) {
     const bool charge = scene::is_charge(scene, body);
@@ -215,7 +234,7 @@ std::string axis_elements(const Panel& panel) {
   return text + svg_text(x - tic, panel.top - size, size, "end", ink, "r [mm]");
 }
 
-// --- observation points ---
+// --- stations and observation points ---
 
 /// A name beside its point, moved up until it covers no other.
 struct Label {
@@ -271,9 +290,9 @@ std::string named_elements(const Panel& panel, const std::vector<const scene::Ob
   return text;
 }
 
-std::vector<const scene::ObservationPoint*> points_in(const scene::Scene& scene, const Panel& panel) {
+std::vector<const scene::ObservationPoint*> points_in(const Section& section, const Panel& panel) {
   std::vector<const scene::ObservationPoint*> points;
-  for (const scene::ObservationPoint& point : scene.output.observation_points)
+  for (const scene::ObservationPoint& point : section.points)
     if (panel.shows(point.x)) points.push_back(&point);
   return points;
 }
@@ -311,7 +330,7 @@ std::string legend_elements(const Section& section, double& top) {
     add(body->name == body->material ? body->name : fmt::format("{} ({})", body->name, body->material),
         svg_rectangle(0, 1, 16, 14, fmt::format("fill=\"{}\" stroke=\"{}\"", colour, ink)));
   add("line of the grid", svg_line(0, 8, 16, 8, fmt::format("stroke=\"{}\"", soft_ink)));
-  if (!section.scene.output.observation_points.empty()) add("observation point", svg_circle(8, 8, 3.2, ink));
+  if (!section.points.empty()) add("station or observation point", svg_circle(8, 8, 3.2, ink));
   add(section.scene.symmetry == scene::Symmetry::axisymmetric ? "axis of symmetry" : "plane of symmetry",
       svg_line(0, 8, 16, 8,
                fmt::format("stroke=\"{}\" stroke-width=\"1.6\" stroke-dasharray=\"8 2 2 2\"", axis_colour)));
@@ -325,10 +344,10 @@ std::string panels(const Section& section, double& bottom) {
   const Panel whole{"whole", section.x_begin, section.x_end, section.r_end, scale, bottom};
   bottom = whole.bottom() + below_panel;
   std::string text = panel_elements(section, whole);
-  auto points = points_in(section.scene, whole);
+  auto points = points_in(section, whole);
   std::size_t unnamed = 0;
   if (const auto enlarged = enlarged_panel(section, whole, bottom + 64)) {
-    const auto inside = points_in(section.scene, *enlarged);
+    const auto inside = points_in(section, *enlarged);
     // A frame around it, a little larger than the section so that it covers no edge along it.
     constexpr double above = 7, below = 5;
     text += svg_rectangle(
@@ -346,7 +365,7 @@ std::string panels(const Section& section, double& bottom) {
   const std::string named = named_elements(whole, points, unnamed);
   if (unnamed > 0)
     text += svg_text(page_width - margin, bottom - 8, 13, "end", soft_ink,
-                     fmt::format("without a name for want of room: {} observation points", unnamed));
+                     fmt::format("without a name for want of room: {} points", unnamed));
   return text + named;
 }
 

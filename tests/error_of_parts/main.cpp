@@ -153,34 +153,25 @@ bool is_exact(const MeasuredSeries& each) {
                      [&](const Measured& row) { return row.error <= each.series.round_off; });
 }
 
-/// Exact parts are left out: round-off against time shows nothing. One colour a part, one mark a quantity of
-/// it.
+/// A panel for each part. Exact ones are left out: round-off against time shows nothing.
 report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
   report::Plot plot;
   plot.title = errors_title;
-  plot.x = {.label = "processor time of one unit of work [s]", .scale = report::Scale::logarithmic};
-  plot.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
-  plot.width = 1200;
-  plot.height = 640;
-  constexpr report::Mark marks[] = {report::Mark::circle, report::Mark::square, report::Mark::up_triangle,
-                                    report::Mark::diamond};
-  std::string part;
-  int colour = -1;
-  std::size_t mark = 0;
   for (const MeasuredSeries& each : measured) {
     if (is_exact(each)) continue;
-    mark = each.series.part == part ? mark + 1 : 0;
-    if (each.series.part != part) ++colour;
-    part = each.series.part;
-    const std::string unit = each.series.error_unit.empty() ? "" : " [" + each.series.error_unit + "]";
-    report::Series line{part + ": " + each.series.quantity + unit, {}, {}};
-    line.colour = colour;
-    line.mark = marks[mark % std::size(marks)];
-    for (const Measured& row : each.settings) {
-      line.x.push_back(row.processor_time);
-      line.y.push_back(row.error);
+    if (plot.panels.empty() || plot.panels.back().title != each.series.part) {
+      report::Plot& panel = plot.panels.emplace_back();
+      panel.title = each.series.part;
+      panel.x = {.label = "processor time of one unit of work [s]", .scale = report::Scale::logarithmic};
+      panel.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
+      panel.width = 760;
+      panel.height = 400;
+      panel.named_in_place = true;
     }
-    plot.series.push_back(std::move(line));
+    const std::string unit = each.series.error_unit.empty() ? "" : " [" + each.series.error_unit + "]";
+    report::Series& line = plot.panels.back().series.emplace_back();
+    line.label = each.series.quantity + unit;
+    for (const Measured& row : each.settings) line.add(row.processor_time, row.error);
   }
   return plot;
 }

@@ -155,8 +155,20 @@ TEST(AccuracyReport, ThePictureTellsThePapersMethodApartAndHasTheLastTime) {
   ASSERT_NE(method, nullptr);
   EXPECT_EQ(method->y, std::vector<double>{7.0});
   ASSERT_TRUE(plot.series[0].label.starts_with("all at 18 ms, gap ")) << plot.series[0].label;
-  EXPECT_EQ(plot.series[0].y.front(), 0.25);
+  EXPECT_EQ(plot.series[0].y.front(), std::max(0.25, result.reference_uncertainty()));
   EXPECT_EQ(plot.series[0].y.back(), 3.0);
+}
+
+// By hand: a limit known to 100 K, which no setting can be told from.
+TEST(AccuracyReport, ThePictureTellsNoDistanceSmallerThanWhatTheLimitIsKnownTo) {
+  VariantAccuracy result = made_accuracy().variants.front();
+  for (auto& value : result.reference->temperature) value.limit.uncertainty = 100.0;
+  for (AccuracyRow& row : result.rows) row.error_at_times = {1.0};
+  const report::Plot plot = kinds::error_plot(result);
+  for (const report::Series& series : plot.series)
+    for (const double distance : series.y) EXPECT_EQ(distance, 100.0) << series.label;
+  EXPECT_TRUE(plot.title.ends_with("as in the scene T max is within 100 K of its limit")) << plot.title;
+  EXPECT_LT(plot.y.minimum.value_or(100.0), 100.0) << "so that the edge is seen";
 }
 
 // By hand: from cheap to costly 8, 9, 0.5 and 0.1 K, where the limit is known to 1 K.

@@ -121,12 +121,15 @@ TEST(SensitivityReport, PictureShowsHowTheCriticalGapSettlesWithTheDraws) {
       picture = each;
   ASSERT_NE(picture, nullptr);
   ASSERT_EQ(picture->plot.panels.size(), 2u);
-  const report::Series* half = report::series_named(picture->plot.panels[1], "half");
-  ASSERT_NE(half, nullptr);
-  EXPECT_EQ(half->x.front(), 4);
-  EXPECT_NEAR(half->y.front(), 0.0395, 1e-12);
-  EXPECT_EQ(half->x.back(), 8);
-  EXPECT_NEAR(half->y.back(), 0.0390, 1e-12);
+  EXPECT_TRUE(picture->plot.panels[0].named_in_place)
+      << "the lines of median and gap asked for look the same";
+  EXPECT_TRUE(picture->plot.panels[0].vertical_lines[0].label.starts_with("median: "));
+  const report::Series* median = report::series_named(picture->plot.panels[1], "median");
+  ASSERT_NE(median, nullptr);
+  EXPECT_EQ(median->x.front(), 4);
+  EXPECT_NEAR(median->y.front(), 0.0395, 1e-12);
+  EXPECT_EQ(median->x.back(), 8);
+  EXPECT_NEAR(median->y.back(), 0.0390, 1e-12);
 }
 
 TEST(SensitivityReport, ACriticalGapThatIsNoNumberHasARankAndNoValue) {

@@ -143,7 +143,8 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   const GapVerdict& row = result.details.front().verdicts[1];
   const report::Series* computed = series_named(plot, study::to_string(row.judgement.verdict));
   ASSERT_NE(computed, nullptr) << "in the colour of its verdict";
-  EXPECT_NEAR(computed->upper.back() - computed->y.back(), row.uncertainty.total(), 1e-9);
+  EXPECT_NEAR(computed->upper.back(),
+              std::min(computed->y.back() + row.uncertainty.total(), plot.y.maximum.value_or(0.0)), 1e-9);
   // The model form moves towards ignition alone; the study states 1 K.
   EXPECT_NEAR(computed->y.back() - computed->lower.back(), row.uncertainty.total() - 1.0, 1e-9);
   const report::Series* ignited = series_named(plot, "ignites; the burning skin is hotter than shown");
@@ -177,6 +178,10 @@ TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
   ASSERT_TRUE(plot.y.maximum);
   EXPECT_EQ(computed->upper.back(), *plot.y.maximum);
   EXPECT_EQ(computed->lower.back(), computed->y.back()) << "nothing is known of that end";
+  const report::Series* beyond = series_named(plot, "the bar goes on above");
+  ASSERT_NE(beyond, nullptr) << "an arrow in the colour of the bar";
+  EXPECT_EQ(beyond->colour, computed->colour);
+  EXPECT_EQ(beyond->y, std::vector<double>{*plot.y.maximum});
 }
 
 TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
@@ -213,17 +218,19 @@ TEST(CriticalGapReport, ThePictureTellsCalibratedRowsFromHeldOutOnes) {
   };
   calibrate_to(computed);
   const report::Plot met = kinds::temperature_plot(result);
-  ASSERT_NE(series_named(met, "published, fitted"), nullptr);
-  EXPECT_EQ(series_named(met, "published, fitted")->x, std::vector<double>{0.0});
-  ASSERT_NE(series_named(met, "published, held out"), nullptr);
-  EXPECT_EQ(series_named(met, "published, held out")->y, std::vector<double>{492.9});
+  ASSERT_NE(series_named(met, "published, fitted (G2 at 18 ms)"), nullptr);
+  EXPECT_EQ(series_named(met, "published, fitted (G2 at 18 ms)")->x, std::vector<double>{0.0});
+  ASSERT_NE(series_named(met, "published, held out (at 18 ms)"), nullptr);
+  EXPECT_EQ(series_named(met, "published, held out (at 18 ms)")->y, std::vector<double>{492.9});
   calibrate_to(computed + 5.0);
   const report::Plot missed = kinds::temperature_plot(result);
-  EXPECT_EQ(series_named(missed, "published, fitted"), nullptr) << "the constants are of elsewhere";
-  ASSERT_NE(series_named(missed, "published"), nullptr);
-  EXPECT_EQ(series_named(missed, "published")->x.size(), 2u);
+  EXPECT_EQ(series_named(missed, "published, fitted (G2 at 18 ms)"), nullptr)
+      << "the constants are of elsewhere";
+  ASSERT_NE(series_named(missed, "published (G2 at 18 ms)"), nullptr);
+  EXPECT_EQ(series_named(missed, "published (G2 at 18 ms)")->x.size(), 2u);
   result.details.front().input.own_conditions = false;
-  EXPECT_EQ(series_named(kinds::temperature_plot(result), "published"), nullptr) << "another launch";
+  for (const report::Series& series : kinds::temperature_plot(result).series)
+    EXPECT_EQ(series.label.find("published"), std::string::npos) << "another launch";
 }
 
 TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {

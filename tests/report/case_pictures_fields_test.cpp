@@ -7,10 +7,11 @@ namespace {
 TEST(CasePictures, OfFieldsAreNamedByFieldAndTheTimesThatWereAskedFor) {
   const RunScene run(cased_charge());
   const auto names = files(pictures(run.drawn(), "fields"));
-  EXPECT_EQ(names.size(), 3U * 3U);
-  for (const char* name :
-       {"field_temperature_0ms.svg", "field_pressure_0.02ms.svg", "field_von_mises_0.04ms.svg"})
-    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+  EXPECT_EQ(names, (std::vector<std::string>{"field_temperature_0ms.svg", "field_temperature_0.02ms.svg",
+                                             "field_temperature_0.04ms.svg", "field_pressure_0.02ms.svg",
+                                             "field_pressure_0.04ms.svg", "field_von_mises_0.02ms.svg",
+                                             "field_von_mises_0.04ms.svg"}))
+      << "nothing presses at first";
   const auto one = files(pictures(run.drawn({2e-5}), "fields"));
   EXPECT_EQ(one, (std::vector<std::string>{"field_temperature_0.02ms.svg", "field_pressure_0.02ms.svg",
                                            "field_von_mises_0.02ms.svg"}))
@@ -97,20 +98,19 @@ TEST(CasePictures, OfFieldsHaveOneOutlineForEveryBodyWhichAtRestIsItsRectangle) 
   EXPECT_EQ(charge.front(), charge.back());
 }
 
-TEST(CasePictures, OfAFieldHaveTheSameColoursAtAllSnapshots) {
-  const RunScene run(cased_charge());
+// By hand, all presses a thousand times as hard at 0.02 ms: late in a launch stresses are released.
+TEST(CasePictures, OfAFieldHaveTheColoursOfTheirOwnInstant) {
+  RunScene run(cased_charge());
+  for (double& pressure : run.result.mechanics.snapshots[1].pressure) pressure *= 1e3;
   std::vector<double> values;
-  for (const run::Snapshot& shot : run.result.mechanics.snapshots)
-    for (std::size_t i = 0; i < shot.x.size(); ++i)
-      if (shot.body[i] == 0) values.push_back(1e-6 * shot.pressure[i]);
-  ASSERT_EQ(values.size(), 3U * 32);
+  const run::Snapshot& last = run.result.mechanics.snapshots.back();
+  for (std::size_t i = 0; i < last.x.size(); ++i)
+    if (last.body[i] == 0) values.push_back(1e-6 * last.pressure[i]);
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   ASSERT_GT(*highest, *lowest);
-  std::size_t seen = 0;
-  for (const auto& drawn : {run.drawn(), run.drawn({0.0})})
+  for (const auto& drawn : {run.drawn(), run.drawn({4e-5})})
     for (const CasePicture& picture : pictures(drawn, "fields")) {
-      if (!picture.file.starts_with("field_pressure_")) continue;
-      ++seen;
+      if (picture.file != "field_pressure_0.04ms.svg") continue;
       const auto& plot = std::get<CellPlot>(picture.plot);
       ASSERT_EQ(plot.scales.size(), 2U);
       EXPECT_EQ(plot.scales[0].label, "charge: pressure [MPa]");
@@ -118,7 +118,15 @@ TEST(CasePictures, OfAFieldHaveTheSameColoursAtAllSnapshots) {
       EXPECT_DOUBLE_EQ(plot.scales[0].minimum, *lowest) << "of less than 100 all count";
       EXPECT_DOUBLE_EQ(plot.scales[0].maximum, *highest);
     }
-  EXPECT_EQ(seen, 4U);
+}
+
+TEST(CasePictures, OfFieldsNameTheAxisOfSymmetryOnce) {
+  const RunScene run(cased_charge(0.2));
+  const auto plot = std::get<CellPlot>(pictures(run.drawn({4e-5}), "fields").front().plot);
+  ASSERT_TRUE(plot.enlargement) << "below the whole, whose lower edge is the axis";
+  const std::string commands = to_gnuplot(plot);
+  EXPECT_EQ(count_of(commands, "set label 3 'axis' "), 1U);
+  EXPECT_EQ(count_of(commands, "set arrow 1 "), 1U);
 }
 
 TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
@@ -156,7 +164,8 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
     EXPECT_DOUBLE_EQ(plot.scales[0].maximum, 2000.0);
     EXPECT_EQ(
         plot.title,
-        "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning: 1900 to 2000 MPa in 98 % of the charge");
+        "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning: 1900 to 2000 MPa in 98 of 100 cells of the "
+        "charge");
   }
 }
 

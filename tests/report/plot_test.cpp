@@ -189,14 +189,34 @@ TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
   EXPECT_NE(text.find("title \"where it may be\""), std::string::npos);
 }
 
-TEST(Plot, HatchedBandsAreNamedInPlace) {
-  Plot plot = sample();
-  plot.named_in_place = true;
-  plot.vertical_bands = {{0.01, 0.02, "assumed", true}};
+// By hand: the second lies on the first, the third crosses them.
+TEST(Plot, ALineUnderAnotherIsWiderSoThatBothAreSeen) {
+  Plot plot;
+  plot.series = {
+      {"under", {0, 1, 2}, {1, 2, 3}}, {"over", {0, 1, 2}, {1, 2.001, 3}}, {"across", {0, 1, 2}, {3, 2, 1}}};
   const std::string text = to_gnuplot(plot);
-  EXPECT_NE(text.find("fillstyle pattern"), std::string::npos) << text;
-  EXPECT_NE(text.find("set label \"assumed\" at first 0.015, graph 0.97 center"), std::string::npos) << text;
-  EXPECT_EQ(text.find("title \"assumed\""), std::string::npos) << "no entry of the legend";
+  EXPECT_NE(text.find("$series0 using 1:2 with linespoints linewidth 5 "), std::string::npos) << text;
+  for (const char* other : {"$series1", "$series2"})
+    EXPECT_NE(text.find(std::string(other) + " using 1:2 with linespoints linewidth 2 "), std::string::npos);
+}
+
+// By hand: the series runs below the name of the first line and through that of the second, at the left.
+TEST(Plot, NamesOfLinesAcrossStandWhereNothingIsDrawn) {
+  Plot plot;
+  plot.named_in_place = true;
+  plot.series = {{"", {0, 1, 2}, {9.6, 9.8, 0}, Style::line}};
+  plot.horizontal_lines = {{5, "free"}, {9.5, "in the way"}};
+  plot.vertical_lines = {{0.5, "from here"}};
+  const std::string text = to_gnuplot(plot);
+  const auto how = [&](const char* name) {
+    const std::size_t at = text.find(fmt::format("set label \"{}\" at ", name));
+    return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_NE(how("free").find("graph 0.01, first 5 left offset 0, 0.6"), std::string::npos) << how("free");
+  EXPECT_NE(how("in the way").find("graph 0.99, first 9.5 right offset 0, 0.6"), std::string::npos)
+      << how("in the way");
+  EXPECT_EQ(how("from here").find("graph 0.97"), std::string::npos)
+      << how("from here") << ": below the series";
 }
 
 TEST(Plot, BarsNeedTheirEnds) {

@@ -80,9 +80,9 @@ TEST(SectionDrawing, IsToScale) {
 TEST(SectionDrawing, NamesBodiesPointsAxesAndTheAxisOfSymmetry) {
   scene::Scene scene = stout_scene();
   const std::string svg = section_svg(scene);
-  for (const char* part :
-       {">a small shell<", ">nose (steel)<", ">charge<", ">wall (steel)<", ">base (steel)<", ">G1<", ">G2<",
-        ">G3<", ">gap<", ">chamber pressure<", ">x [mm]<", ">r [mm]<", ">axis of symmetry<", ">40<", ">20<"})
+  for (const char* part : {">a small shell<", ">nose (steel)<", ">charge<", ">wall (steel)<",
+                           ">base (steel)<", ">S1<", ">G1<", ">G2<", ">G3<", ">gap<", ">chamber pressure<",
+                           ">x [mm]<", ">r [mm]<", ">axis of symmetry<", ">40<", ">20<"})
     EXPECT_EQ(count_of(svg, part) > 0, true) << part;
   EXPECT_EQ(count_of(svg, "class=\"symmetry\""), 1u);
   scene.symmetry = scene::Symmetry::plane_strain;
@@ -99,6 +99,8 @@ TEST(SectionDrawing, EnlargesTheBottomOfASlenderShell) {
   EXPECT_GT(bodies[5].height, 2 * bodies[1].height);
   // Every point once with its name, and once as a dot in the whole; one more dot in the legend.
   const std::size_t points = scene.output.observation_points.size();
+  ASSERT_EQ(points, scene::stations_of(scene).size());
+  EXPECT_EQ(count_of(svg, ">S13, G13<"), 1u) << "one place under both names";
   EXPECT_EQ(names_in(svg).size(), points);
   EXPECT_EQ(count_of(svg, "<circle"), 2 * points + 1);
   EXPECT_EQ(count_of(section_svg(stout_scene()), "class=\"window\""), 0u);
@@ -111,10 +113,11 @@ TEST(SectionDrawing, NamesOfPointsThatLieCloseDoNotOverlap) {
     scene.output.observation_points.push_back({"P" + std::to_string(i), 0.039 - 1e-5 * i, 1e-4 * i});
   const std::string svg = section_svg(scene);
   const std::vector<Name> names = names_in(svg);
-  ASSERT_EQ(names.size(), 12u);
+  ASSERT_EQ(names.size(), 12u + scene::stations_of(scene).size());
   for (std::size_t i = 0; i < names.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
-      EXPECT_GT(std::abs(names[i].y - names[k].y), 12.0) << i << " and " << k;
+      EXPECT_TRUE(std::abs(names[i].x - names[k].x) > 13.0 || std::abs(names[i].y - names[k].y) > 12.0)
+          << i << " and " << k;
   EXPECT_EQ(count_of(svg, "want of room"), 0u);
 }
 
@@ -123,9 +126,10 @@ TEST(SectionDrawing, CountsThePointsWhoseNamesHaveNoRoom) {
   scene.output.observation_points.assign(200, {"P", 0.039, 0.01});
   const std::string svg = section_svg(scene);
   const std::size_t named = names_in(svg).size();
-  EXPECT_LT(named, 200u);
-  EXPECT_EQ(count_of(svg, "want of room: " + std::to_string(200 - named) + " observation points"), 1u);
-  EXPECT_EQ(count_of(svg, "<circle"), 201u) << "all are marked";
+  const std::size_t all = 200u + scene::stations_of(scene).size();
+  EXPECT_LT(named, all);
+  EXPECT_EQ(count_of(svg, "want of room: " + std::to_string(all - named) + " points"), 1u);
+  EXPECT_EQ(count_of(svg, "<circle"), all + 1) << "all are marked";
 }
 
 TEST(SectionDrawing, TextIsNeverMarkup) {

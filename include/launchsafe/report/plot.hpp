@@ -76,7 +76,6 @@ struct Line {
 struct Band {
   double from = 0, to = 0;
   std::string label = {};
-  bool hatched = false;  ///< instead of grey, and of one along y the label stands in it
 };
 
 struct Plot {
