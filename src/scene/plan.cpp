@@ -337,19 +337,26 @@ Plan make_plan(const Scene& scene) {
 double predicted_time(const Plan& plan, double update_rate) { return plan.work / update_rate; }
 
 LargestChanges largest_changes(const Load& load, double window) {
-  constexpr double parts = 8.0;  // of the window
+  constexpr std::size_t parts = 8;  // of the window
   const PressureHistory history(load);
-  const double end = end_time(load), between = std::max(window / parts, end * 1e-6);
-  std::vector<double> times = history.marks();
-  times.push_back(history.peak_time());
-  for (double time = 0.0; time < end; time += between) times.push_back(time);
+  const double end = end_time(load);
   LargestChanges changes;
-  for (const double time : times) {
-    const double before = time > window ? history.at(time - window) : 0.0, here = history.at(time),
-                 after = history.at(std::min(end, time + window));
+  const auto compare = [&changes](double before, double here, double after) {
     changes.rise = std::max({changes.rise, here - before, after - here});
     changes.fall = std::max({changes.fall, before - here, here - after});
-  }
+  };
+  std::vector<double> times = history.marks();
+  times.push_back(history.peak_time());
+  for (const double time : times)
+    compare(time > window ? history.at(time - window) : 0.0, history.at(time),
+            history.at(std::min(end, time + window)));
+  // A sample is before, here and after; a window too short for so many is taken as longer.
+  const double between = std::max(window / parts, end * 1e-6);
+  std::vector<double> samples;
+  for (double time = 0.0; time < end; time += between) samples.push_back(history.at(time));
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    compare(i > parts ? samples[i - parts] : 0.0, samples[i],
+            i + parts < samples.size() ? samples[i + parts] : history.at(end));
   return changes;
 }
 

@@ -169,5 +169,15 @@ TEST(Plan, TellsByHowMuchACoolChargePartsFromItsBase) {
             std::string::npos);
 }
 
+// A straight line's change within a window is its slope times the window.
+TEST(LargestChanges, OfStraightLinesAreTheirSlopesTimesTheWindow) {
+  Load load;
+  load.curve_time = {0.0, 10e-3, 30e-3};
+  load.curve_pressure = {0.0, 100e6, 0.0};
+  const LargestChanges changes = largest_changes(load, 1e-3);
+  EXPECT_NEAR(changes.rise, 10e6, 1e-3);
+  EXPECT_NEAR(changes.fall, 5e6, 1e-3);
+}
+
 }  // namespace
 }  // namespace launchsafe::scene

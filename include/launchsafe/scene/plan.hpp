@@ -242,7 +242,7 @@ std::string to_text(const Plan& plan, const Scene& scene, double update_rate = 0
 
 /// Largest pressures (Pa) by which a load rises and falls within a time window (s); before 0 it is none.
 /// Sampled eight times a window, at its peak, and where a measured curve bends, so that less than an eighth
-/// of a window is missed on the way up.
+/// of a window is missed on the way up. A window below 8e-6 of the load is taken as long as that.
 struct LargestChanges {
   double rise = 0.0, fall = 0.0;
 };
