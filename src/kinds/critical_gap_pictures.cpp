@@ -215,7 +215,8 @@ struct GapLines {
     for (std::size_t i = 0; i < line.y.size(); ++i)
       if (std::isfinite(line.y[i])) known.push_back(i);
     const std::string& of = values[static_cast<std::size_t>(*line.colour)].label;
-    const std::string what = "Critical gap" + (across == nullptr ? "" : " at " + of);
+    // Also where the study looks at gaps that close: they have bounds of their own.
+    const std::string what = "Critical gap by a reservoir of air" + (across == nullptr ? "" : " at " + of);
     if (known.empty()) return what + ": no lower bound is known";
     const auto text = [&](std::size_t place) {
       return report::significant(report::rounded_down(line.y[known[place]], 4), 3) + " cm";

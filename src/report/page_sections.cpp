@@ -242,7 +242,9 @@ Row entry_of(const path& folder, const std::string& place) {
   for (const char* results : {"report.json", "study.json"})
     if (const auto text = store::read_file(folder / results)) {
       const Row told = Row::parse(*text, nullptr, false);
-      entry["title"] = text_of(told, "title");
+      // A safety report has the title of the study that it tells of.
+      const std::string kind = text_of(told, "report");
+      entry["title"] = (kind.empty() ? "" : kind + ": ") + text_of(told, "title");
       entry["findings"] = findings_of(told);
     }
   if (entry["title"] == "" && entry.contains("pages"))

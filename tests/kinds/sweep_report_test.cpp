@@ -1,7 +1,7 @@
 // The tables, page, JSON and pictures of sweeps made by hand.
 #include "facts_in_text.hpp"
 #include "kinds/made_studies.hpp"
-#include "launchsafe/report/number.hpp"
+#include "launchsafe/report/table.hpp"
 #include "report/gnuplot.hpp"
 
 #include <fmt/format.h>
@@ -310,9 +310,11 @@ TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   ASSERT_NE(lowest, nullptr);
   const auto at_least = [](double gap) { return report::significant(report::rounded_down(gap, 4), 3); };
   EXPECT_EQ(made.pictures[0].plot.title,
-            fmt::format("Critical gap at {}: at least {} cm at 350 MPa, {} cm at 600 MPa, flaw size 0.5 mm",
-                        drawn[static_cast<std::size_t>(*lowest->colour)].label, at_least(lowest->y.front()),
-                        at_least(lowest->y.back())));
+            fmt::format(
+                "Critical gap by a reservoir of air at {}: at least {} cm at 350 MPa, {} cm at 600 MPa, flaw "
+                "size 0.5 mm",
+                drawn[static_cast<std::size_t>(*lowest->colour)].label, at_least(lowest->y.front()),
+                at_least(lowest->y.back())));
   EXPECT_TRUE(made.pictures[2].plot.title.ends_with(", flaw size 2 mm"));
   EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
   EXPECT_TRUE(made.remarks.empty());

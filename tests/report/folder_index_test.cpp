@@ -66,6 +66,19 @@ TEST(FolderIndex, TellsTitleAndFirstLinesOfAnAnswerAndEscapesThem) {
   EXPECT_EQ(links_of(page), (std::set<std::string>{"study/report.md", "study/part/summary.md"}));
 }
 
+// A safety report has the title of the study that it tells of.
+TEST(FolderIndex, TellsASafetyReportFromItsStudy) {
+  const Folder folder;
+  for (const char* name : {"safety", "study"}) {
+    fs::create_directories(folder.path / name);
+    std::ofstream(folder.path / name / "report.md") << "# gaps\n";
+  }
+  std::ofstream(folder.path / "safety" / "report.json") << R"({"report": "Safety report", "title": "gaps"})";
+  const std::string page = index_page(folder.path);
+  EXPECT_NE(page.find("<h2>gaps</h2>"), std::string::npos) << page;
+  EXPECT_NE(page.find("<h2>Safety report: gaps</h2>"), std::string::npos) << page;
+}
+
 TEST(FolderIndex, IsEmptyWithoutReports) {
   const Folder folder;
   EXPECT_EQ(index_page(folder.path), "");
