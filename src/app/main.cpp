@@ -91,6 +91,7 @@ std::string unknown_word_in(const CLI::App& app, int argument_count, const char*
       if (const auto known = option_names(*app.get_subcommand(other));
           std::ranges::find(known, name) != known.end())
         others.push_back(other);
+    if (others.size() == commands.size()) continue;  // what lacks is the command
     return unknown_word(command, name, "the options that " + help + " lists", options) +
            (others.empty() ? "" : fmt::format("; {} is an option of {}", name, fmt::join(others, ", ")));
   }

@@ -43,7 +43,7 @@ TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
   const std::vector<ErrorPath> paths{
       {{}, 2, "subcommand"},
       {{"launch"}, 2, "launch"},
-      {{"run"}, 2, "scene"},
+      {{"run"}, 2, "SCENE.toml"},
       {{"run", "shell.toml", "--fast"}, 2, "--fast"},
       {{"run", "absent.toml"}, 2, "absent.toml"},
       {{"run", "unknown_key.toml", "-o", "out"}, 2, "peek_time"},

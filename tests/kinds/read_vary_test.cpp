@@ -220,7 +220,8 @@ TEST(ReadVary, AKeyThatVariesTakesOneNumber) {
 TEST(ReadVary, AValueThatTheSceneCannotHaveNamesTheValues) {
   expect_values_error("load.base", "\"1, 900 MPa\"",
                       {5, "vary.values", "a base of 900 MPa and a peak of 496 MPa", "at most the peak"});
-  expect_values_error("numerics.cell_size", "\"50 cm\"", {5, "vary.values", "500 mm"});
+  expect_values_error("numerics.cell_size", "\"50 cm\"",
+                      {5, "vary.values", "50 cm, with which the body \"wall\""});
   expect_values_error("load.duration", "\"1 us\"",
                       {5, "vary.values", "1 µs, with which output.trace_interval is", "at most"});
 }

@@ -55,7 +55,7 @@ CriticalGapResult one_axis() {
 TEST(SweepReport, TellsWhatEachAxisChanges) {
   const CriticalGapResult result = made_sweep();
   const Table table = axis_effect_table(result);
-  ASSERT_EQ(table.rows.size(), 2u);
+  ASSERT_EQ(table.rows.size(), 3u);  // pressure, crack radius, and that below the flaw size of 1 mm
   // Among values at one crack radius: the largest difference of closed forms over the pressures.
   double most = 0.0;
   for (std::size_t crack = 0; crack < 6; ++crack) {
@@ -140,8 +140,8 @@ TEST(SweepReport, TheLongTableHasARowForEveryGap) {
   EXPECT_EQ(std::get<double>(cell(table, 8, "gap_cm")), 0.039);
   EXPECT_EQ(shown_text(cell(table, 179, "ignition")), "T1 at 17.86 ms, G1");
   const std::string csv = to_csv(table);
-  EXPECT_NE(csv.find("\r\n0,350,10,0,416.1,G1,"), std::string::npos);
-  EXPECT_NE(csv.find("\r\n0.01,450,100,0,NaN,"), std::string::npos);
+  EXPECT_NE(csv.find("\r\n0,350,10,1,416.1,G1,"), std::string::npos);
+  EXPECT_NE(csv.find("\r\n0.01,450,100,1,NaN,"), std::string::npos);
 }
 
 TEST(SweepReport, TheAnswerCountsAndNames) {

@@ -19,7 +19,7 @@ struct EnclosedAir {
 
 /// Columns of one gap that are advanced in turns with the motion of its faces: conduction over an interval
 /// under the pressures that the faces had in it, then the isentropic change that gives the air its volume
-/// between them. Equations and steps are those of integrate_film (film.hpp), but air may also be stretched
+/// between them. Equations and steps are those of integrate_film, but air may also be stretched
 /// below its pressure at rest. The charge is resolved in depth, friction heats it evenly, and a column
 /// ignites at its surface or in any depth. It ends there: what burns is not followed, and its air is from
 /// then on compressed without conduction.

@@ -65,7 +65,7 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// Integrates dT/dt = (kappa h/tau_ex)(T_air - T) + friction/(rho c) + (Q Z/c)(1 - lambda) exp(-(E/R)/T) at
 /// every station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock
 /// method with step control follows both. At T1 the station ignites and goes to T2; from there only the
-/// exchange acts. Under AirModel::film it is integrate_film (film.hpp) instead; without a gap friction acts
+/// exchange acts. Under AirModel::film it is integrate_film instead; without a gap friction acts
 /// alone under every model of the air. Of a gap that closes in the mechanics (scene::closes) the trace of
 /// another launch says nothing, and the temperatures are NaN.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
