@@ -151,8 +151,11 @@ StudyKeys search_keys() {
                    "Largest width of the bracket of the critical gap.", &Study::tolerance) |
           plausibly(between(1e-9, 2e-4),
                     "a wider bracket says little of gaps that are tenths of a millimetre"),
-      study_number("largest_gap", Dimension::length, above_to(0, 0.01),
-                   "Where the search for the critical gap ends.", &Study::largest_gap) |
+      study_number(
+          "largest_gap", Dimension::length, above_to(0, 0.01),
+          "Where the search for the critical gap ends; without ignition up to there only gaps up to half "
+          "of it can be SAFE.",
+          &Study::largest_gap) |
           plausibly(between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
   };
 }

@@ -77,11 +77,21 @@ TEST(Verdict, KelvinsDoNotDecideWhereThereIsACriticalGap) {
 TEST(Verdict, WithoutACriticalGapInReachTheMarginDecidesToo) {
   GapVerdict evidence = calm();
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
-  evidence.gap = 1e-3;  // where the search ended: nothing ignites there either
-  EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::safe);
-  EXPECT_EQ(judge(evidence, none_up_to(1e-3, 9e-4)).verdict, Verdict::indeterminate);
+  EXPECT_EQ(judge(evidence, none_up_to(1e-3, 2e-4)).verdict, Verdict::indeterminate);
   evidence.uncertainty.input = evidence.margin;
   EXPECT_EQ(judge(evidence, none_up_to(1e-3, no_ignition)).verdict, Verdict::indeterminate);
+}
+
+// On the 155 mm shell a search that ended at 0.031 cm made 0.03 cm SAFE, of which one up to 0.1 cm found the
+// critical gap at 0.0382 cm, and that it may be as small as 0.0273 cm.
+TEST(Verdict, AnEarlyEndOfTheSearchMakesNoGapSafe) {
+  GapVerdict evidence = calm();
+  for (const double end : {3e-4, 3.1e-4, 5.9e-4}) {
+    const Judgement judged = judge(evidence, none_up_to(end, no_ignition));
+    EXPECT_EQ(judged.verdict, Verdict::indeterminate) << end;
+    EXPECT_EQ(judged.code, ReasonCode::not_below_bound) << end;
+  }
+  EXPECT_EQ(judge(evidence, none_up_to(6.1e-4, no_ignition)).verdict, Verdict::safe);
 }
 
 TEST(Verdict, ReasonsHaveNoPowersOfTen) {
