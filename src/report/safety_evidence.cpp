@@ -111,8 +111,11 @@ std::string contradiction_of(const CaseEvidence& judged, const Row& row) {
       !(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack))
     return "its temperature";
   const std::string kind = text_of(*judged.critical, "critical_gap_kind");
-  const bool is_below = (kind == "all-safe" && gap <= at_least && margin > number_of(row, "uncertainty_K")) ||
-                        (kind == "value" && gap < at_least);
+  // An earlier program took a bound up to the end of the search for known.
+  const double known = study::known_part_of_search * number_of(*judged.critical, "critical_gap_lower_cm");
+  const bool is_below =
+      (kind == "all-safe" && gap <= at_least && gap <= known && margin > number_of(row, "uncertainty_K")) ||
+      (kind == "value" && gap < at_least);
   return is_below ? "" : "the uncertainty or the critical gap";
 }
 

@@ -169,10 +169,10 @@ void set_shares(CriticalGap& gap, std::vector<GapShare> shares) {
   if (gap.kind == CriticalGapKind::value) gap.bounds = bounds_of(gap.lower, gap.upper, gap.shares);
   // A critical gap just beyond the end of the search may have its bound well before it: shares without an
   // ignition up to there are not 0, but unknown. Of gaps up to half of that end the margin decides too.
-  constexpr double known_part = 0.5;
   if (gap.kind == CriticalGapKind::all_safe)
-    gap.bounds = {std::min(bounds_of(gap.lower, gap.lower, gap.shares).at_least, known_part * gap.lower),
-                  no_ignition};
+    gap.bounds = {
+        std::min(bounds_of(gap.lower, gap.lower, gap.shares).at_least, known_part_of_search * gap.lower),
+        no_ignition};
   if (gap.kind == CriticalGapKind::all_ignite)
     gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
 }

@@ -157,6 +157,17 @@ TEST_F(SafetyReport, ASafeUnderALoadThatSaturatesIsRefused) {
       << fault_of({study});
 }
 
+// 0.02 cm, by an earlier program whose search ended at 0.03 cm without ignition: more than half of it.
+TEST_F(SafetyReport, ASafeOfAnEarlierProgramByAnEarlyEndOfTheSearchIsRefused) {
+  const path study = copy_of("critical_gap_155mm");
+  change(study, [](auto& results) {
+    auto& found = results["cases"][0];
+    found["critical_gap_kind"] = "all-safe";
+    found["critical_gap_lower_cm"] = found["critical_gap_at_least_cm"] = 0.03;
+  });
+  EXPECT_TRUE(has(fault_of({study}), "0.02 cm is called SAFE")) << fault_of({study});
+}
+
 TEST_F(SafetyReport, ASafeOfASweepThatItsCriticalGapContradictsIsRefused) {
   const path sweep = copy_of("sweep_pressure_defect");
   change(sweep, [](auto& results) {
