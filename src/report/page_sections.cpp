@@ -70,6 +70,16 @@ struct Sections {
     return texts.contains(id) ? words(id) : otherwise;
   }
 
+  /// "A (launch)": those that something comes from, with what they tell.
+  Row named_studies() const {
+    Row named = Row::array();
+    for (const Row& each : found_in(all.facts, "studies"))
+      if (const std::string label = text_of(each, "label"); studies.contains(label))
+        named.push_back(
+            fmt::format("{} ({})", label, text_of(each, text_of(each, "tells").empty() ? "kind" : "tells")));
+    return named;
+  }
+
   /// A block with where it comes from, for people one text.
   void put(const PageText& text, const char* kind, const Row& facts, Row block) {
     std::vector<std::string> parts;
@@ -119,7 +129,7 @@ struct Sections {
               {"columns", Row::array()},
               {"rows", Row(rows.size(), {{"cells", Row::array()}})}};
     for (const TextColumn& column : columns) {
-      const std::string heading = word("column." + column.key, column.heading);
+      const std::string heading = word("column." + column.key, fill(column.heading, {}));
       std::vector<std::string> cells;
       bool is_number = false;
       for (const Row* row : rows) {
@@ -186,16 +196,16 @@ RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& 
                            const PageTemplates& templates, const Row& head, const DrawingLimits& limits) {
   Sections made{all, templates.texts, limits};
   made.add_all(order);
-  Row page{{"format", head["format"]},
-           {"language", made.words("language")},
-           {"report", made.words("report")},
-           {"title", head["title"]},
-           {"subject", head["subject"]},
-           {"made_of", made.words("made_of", {{"studies", fmt::format("{}", fmt::join(made.studies, ", "))},
-                                              {"document", head["document"]}})},
-           {"answer", head["answer"]},
-           {"document", head["document"]},
-           {"sections", std::move(made.sections)}};
+  Row page{
+      {"format", head["format"]},
+      {"language", made.words("language")},
+      {"report", made.words("report")},
+      {"title", head["title"]},
+      {"subject", head["subject"]},
+      {"made_of", made.words("made_of", {{"studies", made.named_studies()}, {"document", head["document"]}})},
+      {"answer", head["answer"]},
+      {"document", head["document"]},
+      {"sections", std::move(made.sections)}};
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);

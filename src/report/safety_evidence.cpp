@@ -276,10 +276,13 @@ void hold_against_closing_gaps(SafetyEvidence& evidence) {
   const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
   Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
   for (Row& row : study["verdicts"]) {
+    for (const Row& both : closing->rows("closing"))
+      if (found_in(both, "gap_cm") == row["gap_cm"])
+        row["temperature_max_corner_K"] = found_in(both, "temperature_max_corner_K");
     if (text_of(row, "verdict") != "SAFE" || number_of(row, "gap_cm") <= largest) continue;
     row["verdict"] = "INDETERMINATE";
     row[quantity::reason_code.key()] = to_string(study::ReasonCode::closing_corner);
-    row["reason"] = row["cause"] = "where the gap closes it is not SAFE: " + closing->label;
+    row["reason"] = row["cause"] = "not SAFE where the gap closes: " + closing->label;
   }
   for (Row& row : study["cases"])
     if (number_of(row, "largest_safe_gap_cm") > largest)

@@ -188,6 +188,7 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
   facts.erase("input");
   facts.update({{"label", study.label},
                 {"kind", study.kind},
+                {"tells", study.tells},
                 {"command", study.command()},
                 {"scene_title", study.scene.scene.title},
                 {"held", interfaces_of(study.scene.scene)},

@@ -3,6 +3,7 @@
 #include "scene_file.hpp"
 
 #include <charconv>
+#include <set>
 #include <system_error>
 
 namespace launchsafe::scene {
@@ -226,8 +227,9 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
   const bool may_count_thousands =
       number.find('.') != std::string_view::npos || digits_of(rest.substr(1)) == 3;
   if (may_count_thousands) throw comma_fault(whole, dimension, {});
-  const auto comma = static_cast<std::size_t>(rest.data() - whole.data());
-  throw comma_fault(whole, dimension, '"' + with_commas_as(".", whole, {comma}) + '"');
+  std::string pointed(whole);
+  std::ranges::replace(pointed, ',', '.');
+  throw comma_fault(whole, dimension, '"' + pointed + '"');
 }
 
 /// The double nearest to `number` times ten to the power.
@@ -276,16 +278,21 @@ double convert(const Token& token, std::string_view whole, Dimension dimension) 
   return value;
 }
 
-/// Parts joined by a separator, each a number with its unit or with that of the next part that has one.
+/// Parts joined by a separator, each a number with its unit, or all with that of the last. What has no unit
+/// beside several units may be meant in any of them.
 std::vector<double> convert_all(const std::vector<std::string_view>& parts, std::string_view whole,
                                 Dimension dimension) {
-  std::vector<double> values(parts.size());
-  std::string_view unit;
-  for (std::size_t i = parts.size(); i-- > 0;) {
-    Token token = split(parts[i], whole, dimension);
-    if (token.unit.empty()) token.unit = unit;
-    unit = token.unit;
-    values[i] = convert(token, whole, dimension);
+  std::vector<Token> tokens;
+  for (const std::string_view part : parts) tokens.push_back(split(part, whole, dimension));
+  std::set<std::string_view> units;
+  for (const Token& token : tokens) units.insert(token.unit);
+  if (units.contains("") && units.size() > 2)
+    throw fault(fmt::format("\"{}\", where a number without a unit stands beside several units", whole),
+                dimension);
+  std::vector<double> values;
+  for (Token& token : tokens) {
+    if (token.unit.empty()) token.unit = tokens.back().unit;
+    values.push_back(convert(token, whole, dimension));
   }
   return values;
 }

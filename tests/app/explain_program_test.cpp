@@ -35,6 +35,9 @@ TEST_F(ExplainedProgram, ListsTheKeysThatHaveAWord) {
   EXPECT_EQ(listed["keys"][1]["key"], "load.peak_time");
   const std::string told = run({"explain", "--keys", "charge.crack_radius"}).out;
   EXPECT_NE(told.find("default: 30 µm  [P]"), std::string::npos) << told;
+  const Outcome key_as_file = run({"explain", "load.peak"});
+  EXPECT_EQ(key_as_file.code, 2);
+  EXPECT_TRUE(key_as_file.says("launchsafe explain --keys load.peak"));
   const Outcome none = run({"explain", "--keys", "lode"});
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.err.find("\"lode\""), std::string::npos) << none.err;

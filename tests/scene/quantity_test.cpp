@@ -70,7 +70,7 @@ TEST(Quantity, ADecimalCommaIsAFaultThatSaysWhy) {
   expect_fault(parse_quantity("0,5 mm", Dimension::length), "\"0.5 mm\"");
   expect_fault(parse_quantity("1,000 MPa", Dimension::pressure), "");
   expect_fault(parse_quantity("1.250,5 MPa", Dimension::pressure), "");
-  expect_fault(parse_range("0,5 to 1,5 mm", Dimension::length), "\"0,5 to 1.5 mm\"");
+  expect_fault(parse_range("0,5 to 1,5 mm", Dimension::length), "\"0.5 to 1.5 mm\"");
   expect_fault(parse_list("0,5 mm", Dimension::length), "\"0.5 mm\" or \"0, 5 mm\"");
   expect_fault(parse_list("1,25 mm", Dimension::length), "\"1.25 mm\" or \"1, 25 mm\"");
   expect_fault(parse_list("0,5, 1,5 mm", Dimension::length), "\"0.5, 1.5 mm\" or \"0, 5, 1, 5 mm\"");
@@ -140,9 +140,12 @@ TEST(Quantity, RangeTakesItsUnitFromTheEnd) {
   EXPECT_FALSE(parse_range("0 cm to 11.8", Dimension::length));
 }
 
-TEST(Quantity, ListTakesMissingUnitsFromTheNextOne) {
+TEST(Quantity, ListTakesMissingUnitsFromTheLastOne) {
   EXPECT_EQ(*parse_list("0, 0.01, 0.02 cm", Dimension::length), (std::vector<double>{0.0, 1e-4, 2e-4}));
-  EXPECT_EQ(*parse_list("0 cm, 0.1, 0.2 mm", Dimension::length), (std::vector<double>{0.0, 1e-4, 2e-4}));
+  EXPECT_EQ(*parse_list("0 cm, 0.1 mm, 0.2 mm", Dimension::length), (std::vector<double>{0.0, 1e-4, 2e-4}));
+  // A bare number beside several units, or before an end without one, may be meant in any.
+  EXPECT_FALSE(parse_list("0.03, 0.04 mm, 0.03 cm", Dimension::length));
+  EXPECT_FALSE(parse_list("0 mm, 0.01", Dimension::length));
   EXPECT_FALSE(parse_list("0, , 0.02 cm", Dimension::length));
   EXPECT_FALSE(parse_list("0, 0.01, 0.02", Dimension::length));
 }
