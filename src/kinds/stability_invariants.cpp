@@ -33,14 +33,6 @@ bool all_finite(std::initializer_list<const std::vector<double>*> all) {
   });
 }
 
-bool is_finite(const MonitorSample& sample) {
-  const run::EnergyBalance& e = sample.energy;
-  return std::isfinite(sample.time + sample.time_step + sample.momentum + sample.largest_crack_radius +
-                       sample.largest_plastic_strain) &&
-         std::isfinite(e.kinetic + e.internal + e.external + e.body_force + e.damping + e.contact +
-                       e.plastic + e.viscous + e.crack);
-}
-
 // --- of a launch ---
 
 void check_finite(const CompletedRun& run, Sentences& violations) {
@@ -50,7 +42,7 @@ void check_finite(const CompletedRun& run, Sentences& violations) {
                                          &trace.mean_chamber_pressure, &trace.mean_bottom_pressure});
   for (const auto& friction : trace.friction) finite = finite && all_finite({&friction});
   require(finite, violations, "the bottom trace is empty or not finite");
-  require(std::ranges::all_of(run.mechanics.monitor, is_finite), violations,
+  require(std::ranges::all_of(run.mechanics.monitor, run::is_finite), violations,
           "the monitor history is not finite");
 }
 

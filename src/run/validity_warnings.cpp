@@ -70,13 +70,6 @@ constexpr double largest_homologous_temperature = 0.9;
 /// ignition or none with half the step.
 constexpr double largest_rise_in_a_transit = 0.5;
 
-bool is_finite(const MonitorSample& sample) {
-  const auto has_energy = [&](const auto& term) { return std::isfinite(sample.energy.*term.member); };
-  return std::ranges::all_of(energy_terms, has_energy) &&
-         std::isfinite(sample.time + sample.largest_plastic_strain + sample.largest_crack_radius +
-                       sample.momentum);
-}
-
 /// Largest of one number over the monitor's history; NaN wins.
 template <class Number>
 double largest(const MechanicsResult& mechanics, Number number) {

@@ -262,7 +262,8 @@ void interpolate_raised_load(const NeighbouringLoads& loads, std::vector<Finishe
 
 std::vector<CaseRuns> case_runs(const StudyFile& study, int shards, bool checkpoints) {
   std::vector<CaseRuns> cases = cases_by_runs(study);
-  for (CaseRuns& each : cases) plan_runs(study, checkpoints, each);
+  tbb::parallel_for(std::size_t{0}, cases.size(),
+                    [&](std::size_t i) { plan_runs(study, checkpoints, cases[i]); });
   predict_costs(cases);
   const auto cost_of_first = [](const CaseRuns& each) { return each.runs.front().cost; };
   const std::vector<int> shard = shards_of(of_each(cases, cost_of_first), shards);

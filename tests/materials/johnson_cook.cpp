@@ -1,4 +1,4 @@
-#include "launchsafe/materials/johnson_cook.hpp"
+#include "launchsafe/materials/steel.hpp"
 
 #include "first_of.hpp"
 

@@ -1,6 +1,6 @@
 // Steel on a smooth path that turns in strain space: strength and pressure converge with the step. That the
 // charge does is in visco_scram.cpp, extreme_states.cpp and tests/error_of_parts.
-#include "launchsafe/materials/johnson_cook.hpp"
+#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // UnreactedJwl has, and its name in the list here: the charge, its keys and its burning take it from there.
 #pragma once
 
-#include "launchsafe/materials/unreacted_jwl.hpp"
+#include "launchsafe/materials/jwl.hpp"
 
 #include <boost/mp11/algorithm.hpp>
 

@@ -87,6 +87,13 @@ struct MonitorSample {
   double momentum = 0;  ///< kg m/s, axial, relative to the frame, of steel with its own inertial factor
 };
 
+inline bool is_finite(const MonitorSample& sample) {
+  const auto has_energy = [&](const auto& term) { return std::isfinite(sample.energy.*term.member); };
+  return std::ranges::all_of(energy_terms, has_energy) &&
+         std::isfinite(sample.time + sample.time_step + sample.largest_plastic_strain +
+                       sample.largest_crack_radius + sample.momentum);
+}
+
 /// The skin of a gap along the charge's bottom at one instant, by the stations that tile it.
 struct BottomSkin {
   double gap = 0;                       ///< m
