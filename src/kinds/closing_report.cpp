@@ -222,30 +222,37 @@ Table closing_bound_table(const CriticalGapResult& result) {
 std::optional<Plot> closing_plot(const CriticalGapResult& result) {
   if (result.details.size() != 1 || result.details.front().closing.empty()) return std::nullopt;
   const CaseOutcome& outcome = result.details.front();
-  Plot plot;
-  plot.title = "Critical gap by the reservoir: " + reads_as(outcome.critical);
-  for (const ClosingAnswer& answer : outcome.closing)
-    if (std::isfinite(answer.upper) && (answer.is_nominal() || answer.is_worst_corner()))
-      plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + bound_name(answer) + ": ignites at " +
-                       centimetres(answer.upper);
-  plot.named_in_place = true;
-  plot.x.label = quantity::gap.label();
-  plot.y.label = quantity::temperature_max.label();
   const double ignition = outcome.input.scene.scene.charge().kinetics.ignition_temperature;
-  // What burns is as hot as its products: it is drawn on a line of its own, above the ignition temperature.
-  const double burning = ignition + 20.0;
+  Plot plot{.title = {},
+            .x = {.label = quantity::gap.label()},
+            .y = {.label = quantity::temperature_max.label()},
+            .horizontal_lines = {{ignition, "ignition: " + in_words(ignition, significant(4, kelvin))}},
+            .named_in_place = true};
+  // What burns is as hot as its products, which says nothing of the gap: a line has a break there, and a mark
+  // stands on the line of the ignition temperature at the first gap that ignites.
+  const auto add_ignition = [&](const std::string& label, double gap) {
+    const int colour = static_cast<int>(plot.series.size()) - 1;
+    if (std::isfinite(gap))
+      plot.series.push_back(
+          {label, {shown_gap(gap)}, {ignition}, Style::points, {}, {}, colour, Mark::cross});
+  };
   Series& reservoir = plot.series.emplace_back(Series{"reservoir, as published"});
   for (const GapVerdict& row : outcome.verdicts)
-    reservoir.add(shown_gap(row.gap), row.ignition ? burning : row.maximum.temperature);
+    reservoir.add(shown_gap(row.gap), row.ignition ? not_a_number : row.maximum.temperature);
+  const std::string by_reservoir = report::measured_text(outcome.critical);
+  add_ignition("reservoir, critical gap: " + by_reservoir, gap_or_bound(outcome.critical));
   for (const ClosingAnswer& answer : outcome.closing) {
     if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
     Series& series = plot.series.emplace_back(Series{bound_name(answer)});
     for (const ClosingPoint& point : answer.points)
-      if (point.ignited || std::isfinite(point.maximum_temperature))
-        series.add(shown_gap(point.gap), point.ignited ? burning : point.maximum_temperature);
+      series.add(shown_gap(point.gap), point.ignited ? not_a_number : point.maximum_temperature);
+    if (!std::isfinite(answer.upper)) continue;
+    const std::string ignites = bound_name(answer) + ": ignites at " + centimetres(answer.upper);
+    plot.title += ignites + "; ";
+    add_ignition(ignites, answer.upper);
   }
-  const std::string at = in_words(ignition, significant(4, kelvin));
-  plot.horizontal_lines.push_back({ignition, "ignition: " + at + "; what ignites is drawn above"});
+  plot.title += "critical gap by the reservoir: " + by_reservoir;
+  plot.title.front() = static_cast<char>(std::toupper(plot.title.front()));
   return plot;
 }
 

@@ -209,9 +209,7 @@ Quantities<study::CriticalGap> bounded_gap_quantities() {
          "Upper bound of the critical gap.", &study::CriticalGap::bounds, &study::GapBounds::at_most},
         {for_programs(Column{"critical_gap_with_bounds", "critical gap with its bounds", text(),
                              "How it is quoted, in digits that its bounds bear."}),
-         [](const study::CriticalGap& gap) {
-           return measured_gap(gap) ? measured_text(gap) : reads_as(gap);
-         }}}});
+         measured_text}}});
 }
 
 std::vector<std::string> mesh_notes(const study::StudyFile& study) {
@@ -299,7 +297,7 @@ std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
 
 std::string measured_text(const study::CriticalGap& gap) {
   const auto known = measured_gap(gap);
-  return known ? known->text(quantity::critical_gap.form.unit) : centimetres(gap.value);
+  return known ? known->text(quantity::critical_gap.form.unit) : reads_as(gap);
 }
 
 Table gap_share_table(const std::vector<NamedGap>& cases) {

@@ -2,6 +2,7 @@
 #include "launchsafe/kinds/calibration.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/report/table.hpp"
 #include "report/report_folder.hpp"
 #include "study/synthetic_launch.hpp"
@@ -182,6 +183,38 @@ TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
   ASSERT_NE(beyond, nullptr) << "an arrow in the colour of the bar";
   EXPECT_EQ(beyond->colour, computed->colour);
   EXPECT_EQ(beyond->y, std::vector<double>{*plot.y.maximum});
+}
+
+// By hand: the corner ignites at 0 cm, and at 0.03 cm, where nothing else does.
+TEST(CriticalGapReport, ThePictureOfGapsThatCloseHasNoLineToWhatIgnites) {
+  CriticalGapResult result = one_case();
+  CaseOutcome& outcome = result.details.at(0);
+  outcome.input.closing = outcome.input.scene.scene.surface;
+  outcome.closing = {
+      {"conducting",
+       {{.gap = 0.0, .maximum_temperature = 390.0}, {.gap = 3e-4, .maximum_temperature = 400.0}},
+       3e-4},
+      {"corner", {{.gap = 0.0, .ignited = true}, {.gap = 3e-4, .ignited = true}}, not_a_number, 0.0},
+  };
+  const report::Report report = kinds::report_of(result);
+  const report::Plot* plot = nullptr;
+  for (const auto& item : report.items)
+    if (const auto* picture = std::get_if<report::Picture>(&item); picture && picture->file == "closing.svg")
+      plot = &picture->plot;
+  ASSERT_NE(plot, nullptr);
+  EXPECT_EQ(plot->title, "Closing, worst corner: ignites at 0 cm; critical gap by the reservoir: " +
+                             report::measured_text(outcome.critical));
+  const double ignition = plot->horizontal_lines.at(0).at;
+  std::vector<double> first_gaps;
+  for (const report::Series& series : plot->series) {
+    if (series.style == report::Style::points) {
+      EXPECT_EQ(series.y, std::vector<double>{ignition}) << series.label;
+      first_gaps.push_back(series.x.at(0));
+      continue;
+    }
+    for (const double temperature : series.y) EXPECT_FALSE(temperature >= ignition) << series.label;
+  }
+  EXPECT_EQ(first_gaps, (std::vector<double>{100.0 * outcome.critical.value, 0.0}));
 }
 
 TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {

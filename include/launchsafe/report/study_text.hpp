@@ -87,7 +87,7 @@ std::string used_for(const study::Reference& published);
 double value_of(const study::CriticalGap& gap);
 /// cm: the value between its bounds; nothing where it is none, or one of them is not known.
 std::optional<Measured> measured_gap(const study::CriticalGap& gap);
-/// "0.039 ± 0.010 cm", or six digits of the value where its bounds are not known.
+/// "0.039 ± 0.010 cm": the one way in which it is quoted; as it reads where its bounds are not known.
 std::string measured_text(const study::CriticalGap& gap);
 /// What makes critical gaps uncertain, cause by cause.
 Table gap_share_table(const std::vector<NamedGap>& cases);
