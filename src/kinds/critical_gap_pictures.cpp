@@ -117,8 +117,11 @@ struct GapLines {
   const SweptAxis& along;
   const SweptAxis* across;
   std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
-  std::vector<Series> values = {}, lower_bounds = {};  ///< a line each
+  std::vector<Series> values = {}, lower_bounds = {};             ///< a line each
+  std::set<std::pair<std::size_t, std::size_t>> assumed_at = {};  ///< of which line, at which value
   Series assumed = {.style = Style::points, .colour = 7, .mark = Mark::open_circle};
+  Series recorded = {
+      .label = "nothing assumed", .style = Style::points, .colour = 7, .mark = Mark::open_square};
   study::AssumedShares shares = {};  ///< of any that is `assumed`
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
   std::int64_t unknown = 0;
@@ -133,7 +136,7 @@ struct GapLines {
                         .y = nothing,
                         .colour = i});
       Series& lower = lower_bounds.emplace_back(values.back());
-      lower.label = across == nullptr ? "its lower bound" : "";
+      lower.label.clear();
       ++i;
       lower.style = Style::dashed_line;
     }
@@ -158,15 +161,18 @@ struct GapLines {
     lowest = std::min(lowest, drawn);
     highest = std::max(highest, drawn);
     const double lower = kind == CriticalGapKind::value ? shown_gap(gap.bounds.at_least) : not_a_number;
+    const std::size_t place = place_in(along.values, x);
     if (const auto own = assumed_shares(result.study.study, input, gap.value); own.any()) {
       assumed.add(x, std::isfinite(lower) ? lower : drawn);
+      assumed_at.insert({line, place});
       shares = {shares.computation || own.computation, shares.model_form || own.model_form};
+    } else if (std::isfinite(lower)) {
+      recorded.add(x, lower);
     }
     if (kind != CriticalGapKind::value) {
       marks.at(kind).add(x, drawn);
       return;
     }
-    const std::size_t place = place_in(along.values, x);
     values[line].y[place] = drawn;
     least_uncertainty = std::min(least_uncertainty, std::isfinite(lower) ? drawn - lower : 0.0);
     if (std::isfinite(lower)) lower_bounds[line].y[place] = lower;
@@ -183,15 +189,21 @@ struct GapLines {
 
   Plot drawn() {
     plot.title = finding() + plot.title;
-    for (auto* lines : {&values, &lower_bounds})
+    // No dashes where a share begins or ends to be assumed: that step says nothing of the launches.
+    std::vector<Series> assumed_bounds = lower_bounds;
+    for (std::size_t line = 0; line < lower_bounds.size(); ++line)
+      for (std::size_t place = 0; place < along.values.size(); ++place)
+        (assumed_at.contains({line, place}) ? lower_bounds : assumed_bounds)[line].y[place] = not_a_number;
+    for (auto* lines : {&values, &assumed_bounds, &lower_bounds})
       for (Series& line : *lines) plot.series.push_back(std::move(line));
     assumed.label =
         (shares.computation && shares.model_form ? "computation or model form" : shares.text()) + " assumed";
-    if (!assumed.x.empty()) plot.series.push_back(std::move(assumed));
-    if (across != nullptr) plot.subtitle = "dashed: the lower bound of each";
+    for (Series* bounds : {&assumed, &recorded})
+      if (!bounds->x.empty()) plot.series.push_back(std::move(*bounds));
+    plot.subtitle = across == nullptr ? "dashed: its lower bound" : "dashed: the lower bound of each";
     if (unknown > 0)
-      plot.subtitle += fmt::format("{}not drawn: {} indeterminate or failed",
-                                   plot.subtitle.empty() ? "" : "; ", report::counted(unknown, "case"));
+      plot.subtitle +=
+          fmt::format("; not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
     for (auto& [kind, series] : marks)
       if (!series.x.empty()) plot.series.push_back(std::move(series));
     return std::move(plot);

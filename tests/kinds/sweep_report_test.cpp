@@ -273,8 +273,15 @@ TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundHasACircleAndTheRowSaysWhic
   });
   EXPECT_EQ(circles().label, "computation assumed");
   EXPECT_EQ(circles().x, std::vector<double>{450}) << "the third of six";
-  EXPECT_EQ(circles().y, std::vector<double>{gap_pictures(result).pictures.front().plot.series[6 + 3].y[2]})
-      << "50 um, the fourth of six";
+  const Plot plot = gap_pictures(result).pictures.front().plot;
+  const Series &assumed = plot.series[6 + 3], &recorded = plot.series[6 + 6 + 3];  // 50 um, the fourth of six
+  EXPECT_EQ(circles().y, std::vector<double>{assumed.y[2]});
+  for (std::size_t i = 0; i < assumed.y.size(); ++i)
+    EXPECT_NE(std::isnan(assumed.y[i]), std::isnan(recorded.y[i]))
+        << "no dashes from one to the other: " << i;
+  const auto squares = std::ranges::find(plot.series, "nothing assumed", &Series::label);
+  ASSERT_NE(squares, plot.series.end()) << "a mark also for one that stands alone";
+  EXPECT_EQ(squares->x.size(), 30u) << "of 31 values";
   const Table table = critical_gap_table(result);
   EXPECT_EQ(shown_text(cell(table, 15, "assumed_shares")), "computation");
   EXPECT_EQ(shown_text(cell(table, 14, "assumed_shares")), "");
