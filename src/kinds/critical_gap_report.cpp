@@ -170,7 +170,7 @@ void give_look(std::size_t index, Series& series) {
 }
 
 /// What did not ignite, of one verdict or of all, with its uncertainty: the model form, whose sign is known,
-/// counts upwards alone.
+/// counts upwards alone. Nothing is colder than the launch began: no bar goes below that.
 Series inert_series(const CaseOutcome& outcome, const std::string& label,
                     std::optional<Verdict> verdict = {}) {
   Series series{.label = label, .style = Style::vertical_bars, .mark = Mark::circle};
@@ -182,7 +182,8 @@ Series inert_series(const CaseOutcome& outcome, const std::string& label,
     const study::Uncertainty& uncertainty = row.uncertainty;
     // Of one that ignites at an end of the range nothing is known but that.
     const double below = uncertainty.total() - uncertainty.model_form;
-    series.add(shown_gap(row.gap), temperature, std::isfinite(below) ? temperature - below : temperature,
+    const double lower = std::max(temperature - below, outcome.input.scene.scene.initial_temperature);
+    series.add(shown_gap(row.gap), temperature, std::isfinite(below) ? lower : temperature,
                temperature + uncertainty.total());
   }
   return series;
@@ -234,32 +235,38 @@ void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
     if (!each->x.empty()) plot.series.push_back(std::move(*each));
 }
 
-/// The axis ends above the ignition temperature: how hot a burning skin is says nothing of the gap. What is
-/// hotter stands at that end, and a bar that reaches further has an arrow there.
-void cut_above(double ignition, Plot& plot) {
+/// The axis has the points that do not ignite and the ignition temperature, and a part of what lies between
+/// beyond both: how hot a burning skin is says nothing of the gap, and how far a bar goes nothing of the
+/// points. What is hotter stands at its end, and a bar that goes on has an arrow there.
+void cut_axis(double ignition, Plot& plot) {
   double lowest = ignition;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double top = ignition + std::max(0.25 * (ignition - lowest), 20.0);
-  std::vector<Series> beyond;
+  const double beyond = std::max(0.25 * (ignition - lowest), 20.0);
+  const double top = ignition + beyond, bottom = lowest - beyond;
+  std::vector<Series> arrows;
+  const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
+    Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (ends[i] > top || ends[i] < bottom) heads.add(series.x[i], at);
+      ends[i] = std::clamp(ends[i], bottom, top);
+    }
+    if (!heads.x.empty()) arrows.push_back(std::move(heads));
+  };
   for (Series& series : plot.series) {
     for (double& temperature : series.y) temperature = std::min(temperature, top);
-    Series ends{.style = Style::points, .colour = series.colour, .mark = Mark::up_triangle};
-    for (std::size_t i = 0; i < series.upper.size(); ++i) {
-      if (series.upper[i] > top) ends.add(series.x[i], top);
-      series.upper[i] = std::min(series.upper[i], top);
-    }
-    if (!ends.x.empty()) beyond.push_back(std::move(ends));
+    cut(series, series.upper, top, Mark::up_triangle);
+    cut(series, series.lower, bottom, Mark::down_triangle);
   }
-  if (!beyond.empty()) beyond.front().label = "the bar goes on above";
-  std::ranges::move(beyond, std::back_inserter(plot.series));
+  if (!arrows.empty()) arrows.front().label = "the bar goes on beyond";
+  std::ranges::move(arrows, std::back_inserter(plot.series));
   plot.y.maximum = top;
 }
 
 /// What the picture shows of the only case, with its numbers.
 std::string finding_of(const CaseOutcome& outcome) {
   const double safe = study::largest_safe_gap(outcome.verdicts);
-  return fmt::format("Critical gap {}; {}", reads_as(outcome.critical),
+  return fmt::format("Critical gap {}; {}", report::measured_text(outcome.critical),
                      std::isfinite(safe) ? fmt::format("computed gaps SAFE up to {}{}", centimetres(safe),
                                                        by_whose_air(outcome))
                                          : "none of the computed gaps is SAFE");
@@ -292,17 +299,13 @@ void add_published(const CriticalGapResult& result, Plot& plot) {
   }
 }
 
-/// The critical gap of the only case: a band where it has an uncertainty, words where it is no value.
-void add_critical_gap(const CaseOutcome& outcome, Plot& plot) {
-  const CriticalGap& gap = outcome.critical;
-  if (gap.kind != CriticalGapKind::value) {
-    plot.subtitle = "critical gap: " + reads_as(gap);
-    return;
-  }
-  const double value = shown_gap(gap.value);
+/// The critical gap of the only case, where it is a value: a band where it has an uncertainty. The title has
+/// the words.
+void add_critical_gap(const CriticalGap& gap, Plot& plot) {
+  if (gap.kind != CriticalGapKind::value) return;
   const auto known = report::measured_gap(gap);
   const std::string label = "critical gap: " + report::measured_text(gap);
-  plot.vertical_lines = {{value, known ? "" : label}};
+  plot.vertical_lines = {{shown_gap(gap.value), known ? "" : label}};
   if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
 }
 
@@ -322,9 +325,9 @@ Plot temperature_plot(const CriticalGapResult& result) {
       plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
   if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
   add_published(result, plot);
-  if (only) add_critical_gap(result.details.front(), plot);
+  if (only) add_critical_gap(result.details.front().critical, plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
-  cut_above(ignition, plot);
+  cut_axis(ignition, plot);
   plot.horizontal_lines.push_back(
       {ignition, "ignition temperature: " + in_words(ignition, significant(4, kelvin))});
   return plot;

@@ -165,6 +165,7 @@ TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   EXPECT_LE(plot.vertical_bands[0].from, 100.0 * critical.bounds.at_least + 1e-12);
   EXPECT_GE(plot.vertical_bands[0].to, 100.0 * critical.bounds.at_most - 1e-12);
   EXPECT_EQ(plot.vertical_bands[0].label, "critical gap: " + measured->text("cm"));
+  EXPECT_TRUE(plot.title.starts_with("Critical gap " + measured->text("cm") + "; ")) << plot.title;
   ASSERT_EQ(plot.vertical_lines.size(), 1u);
 }
 
@@ -179,10 +180,37 @@ TEST(CriticalGapReport, ABarWithoutAnEndReachesTheEndOfTheAxis) {
   ASSERT_TRUE(plot.y.maximum);
   EXPECT_EQ(computed->upper.back(), *plot.y.maximum);
   EXPECT_EQ(computed->lower.back(), computed->y.back()) << "nothing is known of that end";
-  const report::Series* beyond = series_named(plot, "the bar goes on above");
-  ASSERT_NE(beyond, nullptr) << "an arrow in the colour of the bar";
+  EXPECT_NE(series_named(plot, "the bar goes on beyond"), nullptr);
+  const auto beyond = std::ranges::find(plot.series, report::Mark::up_triangle, &report::Series::mark);
+  ASSERT_NE(beyond, plot.series.end()) << "an arrow in the colour of the bar";
   EXPECT_EQ(beyond->colour, computed->colour);
   EXPECT_EQ(beyond->y, std::vector<double>{*plot.y.maximum});
+}
+
+// The synthetic launch begins at 300 K; by hand, its bars would go down to absolute zero.
+TEST(CriticalGapReport, ABarGoesNoFurtherDownThanTheLaunchBeganAndHasAnArrowWhereTheAxisEnds) {
+  CriticalGapResult result = one_case();
+  CaseOutcome& outcome = result.details.front();
+  const GapVerdict& row = outcome.verdicts[1];
+  outcome.verdicts[1].uncertainty.input = row.maximum.temperature;
+  const auto drawn = [&] { return kinds::temperature_plot(result); };
+  const double lowest = outcome.verdicts[0].maximum.temperature;
+  const auto arrow_down = [&] {
+    const report::Plot plot = drawn();
+    const auto found = std::ranges::find_if(plot.series, [](const report::Series& each) {
+      return each.mark == report::Mark::down_triangle && each.x == std::vector<double>{3.0e-4 * 100.0};
+    });
+    return found == plot.series.end() ? report::Series{} : *found;
+  };
+  ASSERT_EQ(arrow_down().x.size(), 1u);
+  EXPECT_GT(arrow_down().y[0], 300.0) << "the axis is that of the points";
+  EXPECT_LT(arrow_down().y[0], lowest);
+  outcome.input.scene.scene.initial_temperature = lowest - 1.0;
+  EXPECT_TRUE(arrow_down().x.empty());
+  const report::Plot plot = drawn();
+  const report::Series* bar = series_named(plot, study::to_string(row.judgement.verdict));
+  ASSERT_NE(bar, nullptr);
+  EXPECT_EQ(bar->lower.back(), lowest - 1.0);
 }
 
 // By hand: the corner ignites at 0 cm, and at 0.03 cm, where nothing else does.
@@ -272,7 +300,7 @@ TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
   const report::Plot plot = kinds::temperature_plot(result);
   EXPECT_TRUE(plot.vertical_bands.empty());
   EXPECT_TRUE(plot.vertical_lines.empty());
-  EXPECT_EQ(plot.subtitle, "critical gap: indeterminate");
+  EXPECT_TRUE(plot.title.starts_with("Critical gap indeterminate; ")) << plot.title;
 }
 
 TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
