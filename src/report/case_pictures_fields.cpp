@@ -39,11 +39,13 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
-/// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others.
+/// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others. Where most are
+/// 0, as of what burns, those that are not count.
 std::pair<double, double> common_range(std::vector<double> values) {
   if (values.empty()) return {0.0, 0.0};
   std::ranges::sort(values);
-  const std::size_t cut = values.size() / 100;
+  const auto zeros = static_cast<std::size_t>(std::ranges::count(values, 0.0));
+  const std::size_t cut = (2 * zeros > values.size() ? values.size() - zeros : values.size()) / 100;
   const double low = values[cut], high = values[values.size() - 1 - cut];
   return low < high ? std::pair(low, high) : std::pair(values.front(), values.back());
 }
@@ -224,7 +226,11 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   plot.title = fmt::format("{} at {}", field.title.empty() ? field.meaning : field.title,
                            in_words(shot.time, quantity::time_in_titles));
   if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
-  if (shown.gap) plot.title += fmt::format(", gap of {} burning", centimetres(*shown.gap));
+  const bool closes = drawn.scene.surface.model == scene::GapModel::closing;
+  plot.title += shown.gap                   ? fmt::format(", gap of {} burning", centimetres(*shown.gap))
+                : drawn.result.gaps.empty() ? ""
+                : closes                    ? ", without a gap"
+                                            : ", whatever the gap, without burning";
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   plot.title += ": " + range_in(drawn, field, scales.front());
   plot.subtitle = shortened(drawn.scene.title, 150);

@@ -235,21 +235,25 @@ std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const
       fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes), commands);
   add_cells(
       plot, panel, name + "_beyond", [&plot](const FieldCell& cell) { return is_beyond(plot, cell); },
-      "1:2 with points pointtype 2 pointsize 0.5 linecolor rgb '#d55e00' notitle", commands);
+      fmt::format("1:2 with points pointtype 2 pointsize {0} linewidth 3.5 linecolor rgb '#ffffff' notitle, "
+                  "${1}_beyond using 1:2 with points pointtype 2 pointsize {0} linewidth 1.5 linecolor rgb "
+                  "'#c0003c' notitle",
+                  name == "part" ? 0.9 : 0.5, name),
+      commands);
   for (std::size_t i = 0; i < plot.outlines.size(); ++i)
     commands.add(fmt::format("{}_outline{}", name, i), outline_lines(plot.outlines[i], panel.r_begin < 0.0),
                  "1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle");
   return commands.text();
 }
 
-/// The axis of symmetry, to beyond the base, where its name stands.
+/// The axis of symmetry, to beyond the base, where its name stands; on white, so that every colour shows it.
 std::string axis_line(const CellPanel& panel) {
-  const double beyond = 14.0 / panel.scale;
   return fmt::format(
-      "set arrow 1 from first {}, first 0 to first {}, first 0 nohead front linewidth 1.2 dashtype '-  .' "
-      "linecolor rgb '#b23a48'\n"
-      "set label 3 'axis' at first {}, first 0 left offset 0.3, 0 font ',12' textcolor rgb '#b23a48'\n",
-      exact(panel.x_begin), exact(panel.x_end + beyond), exact(panel.x_end + beyond));
+      "set arrow 1 from first {0}, first 0 to first {1}, first 0 nohead front linewidth 3.5 linecolor rgb "
+      "'#ffffff'\nset arrow 2 from first {0}, first 0 to first {1}, first 0 nohead front linewidth 1.6 "
+      "dashtype (16, 4, 3, 4) linecolor rgb '#b23a48'\n"
+      "set label 3 'axis' at first {1}, first 0 left offset 0.3, 0 font ',12' textcolor rgb '#b23a48'\n",
+      exact(panel.x_begin), exact(panel.x_end + 14.0 / panel.scale));
 }
 
 std::string page_text(const CellPlot& plot) {
@@ -307,7 +311,7 @@ std::string to_gnuplot(const CellPlot& plot) {
   text +=
       cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");
   if (enlarged) {
-    text += "unset label\nunset arrow 1\n" + cells_in(*enlarged, "part");
+    text += "unset label\nunset arrow\n" + cells_in(*enlarged, "part");
     text += fmt::format("set label 1 {} at graph 0, graph 1 offset 0, character 1.2 font ',15'\n",
                         quoted(fmt::format("{}, enlarged {} times", plot.enlargement->label,
                                            significant(enlarged->scale / whole.scale, 2))));

@@ -51,6 +51,25 @@ TEST(CasePictures, OfAFieldMarkWhatIsFarFromAllElse) {
   EXPECT_NE(commands.find("crosses: beyond the colours"), std::string::npos);
 }
 
+// By hand, three cells burn.
+TEST(CasePictures, OfAFieldThatIsMostlyZeroHaveTheColoursOfWhatIsNot) {
+  RunScene run(cased_charge(0.2));
+  run::Snapshot burning = run.result.mechanics.snapshots.back();
+  burning.burnt_share.assign(burning.x.size(), 0.0);
+  burning.burnt_share[0] = 0.1;
+  burning.burnt_share[1] = burning.burnt_share[2] = 0.5;
+  run.result.gaps[2].combustion.emplace().snapshots = {burning};
+  for (const CasePicture& picture : pictures(run.drawn({4e-5}), "fields")) {
+    if (!picture.file.starts_with("field_burnt_share")) continue;
+    const auto& plot = std::get<CellPlot>(picture.plot);
+    EXPECT_EQ(plot.scales[0].minimum, 0.0);
+    EXPECT_EQ(plot.scales[0].maximum, 0.5);
+    EXPECT_TRUE(block_of(to_gnuplot(plot), "whole_beyond").empty());
+    return;
+  }
+  FAIL() << "no picture of the burnt share";
+}
+
 // The number of particles is that of the scene's grid.
 TEST(CasePictures, OfFieldsShowEveryCellOnBothSidesOfTheAxis) {
   const RunScene run(cased_charge());
@@ -126,7 +145,8 @@ TEST(CasePictures, OfFieldsNameTheAxisOfSymmetryOnce) {
   ASSERT_TRUE(plot.enlargement) << "below the whole, whose lower edge is the axis";
   const std::string commands = to_gnuplot(plot);
   EXPECT_EQ(count_of(commands, "set label 3 'axis' "), 1U);
-  EXPECT_EQ(count_of(commands, "set arrow 1 "), 1U);
+  EXPECT_EQ(count_of(commands, "set arrow 1 "), 1U) << "white, below the red one";
+  EXPECT_LT(commands.find("set arrow 1 "), commands.find("set arrow 2 "));
 }
 
 TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
@@ -159,6 +179,7 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
     if (!picture.file.starts_with("field_pressure_")) continue;
     if (!picture.gap) {
       EXPECT_LT(plot.scales[0].maximum, 2000.0) << picture.file;
+      EXPECT_NE(plot.title.find(", whatever the gap, without burning: "), std::string::npos) << plot.title;
       continue;
     }
     EXPECT_DOUBLE_EQ(plot.scales[0].maximum, 2000.0);
