@@ -391,9 +391,11 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
   plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);
   plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
   Series bars{.label = "total: with interactions", .style = Style::filled_bars, .colour = blue};
+  const std::string interval =
+      in_words(settings_of<SensitivitySettings>(study).confidence, significant(6, percent)) + " interval";
   Series total{
-      .label = "its interval", .style = Style::horizontal_bars, .colour = black, .mark = Mark::square};
-  Series first{.label = "first: by the input alone",
+      .label = "its " + interval, .style = Style::horizontal_bars, .colour = black, .mark = Mark::square};
+  Series first{.label = "first: by the input alone, " + interval,
                .style = Style::horizontal_bars,
                .colour = orange,
                .mark = Mark::diamond};

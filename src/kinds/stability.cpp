@@ -289,20 +289,24 @@ std::size_t count_missing(const StabilityResult& result) {
 
 constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::caught, Outcome::wrong};
 
-/// How many cases of every group came out how: a bar of parts, the first group on top.
+/// How many cases of every group came out how: a bar of parts, the largest group on top.
 Plot outcome_plot(const StabilityResult& result) {
   constexpr int green = 2, orange = 4, blue = 0, black = 6;
   constexpr int colours[] = {green, orange, blue, black};
   Plot plot;
   plot.x = {.label = "cases", .minimum = 0.0};
-  std::map<std::string, double> places;
+  std::map<std::string, double> sizes, places, ends;
   std::map<std::pair<std::string, Outcome>, double> cases;
   for (const StressCaseRow& row : result.rows) {
-    const double at = -static_cast<double>(places.size());
-    if (places.try_emplace(row.asked.group, at).second) plot.y.tics.push_back({at, row.asked.group});
+    sizes[row.asked.group] += row.computed() ? 1 : 0;
     if (row.computed()) ++cases[{row.asked.group, row.finding.outcome}];
   }
-  std::map<std::string, double> ends;
+  std::multimap<double, std::string, std::greater<>> by_size;
+  for (const auto& [group, size] : sizes) by_size.emplace(size, group);
+  for (const auto& [size, group] : by_size) {
+    plot.y.tics.push_back({-static_cast<double>(places.size()), group});
+    places[group] = plot.y.tics.back().at;
+  }
   for (const Outcome outcome : all_outcomes) {
     const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
     plot.title += (plot.title.empty() ? "" : ", ") + label;

@@ -135,6 +135,8 @@ Plot load_plot(const DrawnCase& drawn) {
   plot.named_in_place = true;
   plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure),
                  time_series(words_for_bottom(drawn), trace.time, trace.bottom_pressure, quantity::pressure)};
+  // Of stations no line has these colours, beside which they are drawn.
+  plot.series[0].colour = 5, plot.series[1].colour = 4;
   return plot;
 }
 

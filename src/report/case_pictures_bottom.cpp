@@ -14,6 +14,10 @@ std::size_t samples_before_ignition(const surface::SkinHistory& skin) {
                                   skin.time.begin());
 }
 
+std::string station_name(const trace::Station& station) {
+  return fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
+}
+
 /// Values of all stations sample after sample, of those that tile the bottom against `x`: the first, the
 /// middle and the last station and the one of index `marked` by name, all others thin and grey.
 std::vector<Series> station_series(const trace::BottomTrace& trace, const std::vector<double>& x,
@@ -32,8 +36,7 @@ std::vector<Series> station_series(const trace::BottomTrace& trace, const std::v
       background.push_back(std::move(series));
       continue;
     }
-    series.label =
-        fmt::format("{}, r {}", station.name, in_words(station.r, keys::significant(4, millimetre)));
+    series.label = station_name(station);
     series.colour = static_cast<int>(named.size());
     named.push_back(std::move(series));
   }
@@ -56,20 +59,23 @@ std::vector<study::Peak> published_of(const DrawnCase& drawn, const run::GapResu
   return all;
 }
 
-/// Published temperatures as hollow points that name the observation points of theirs.
-struct PublishedPoints {
-  Series series = {.label = "published", .style = Style::points, .colour = 6, .mark = Mark::open_square};
-  std::set<std::string> places = {};
-
-  void add(double at, const study::Peak& peak) {
-    series.add(at, peak.temperature);
-    if (!peak.point.empty() && places.insert(peak.point).second)
-      series.label += (places.size() > 1 ? ", " : " at ") + peak.point;
-  }
-  void add_to(Plot& plot) {
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  }
-};
+/// Published temperatures as hollow points, a series for each observation point with the place of it.
+void add_published(const trace::BottomTrace& trace, double at, const study::Peak& peak,
+                   std::vector<Series>& published) {
+  constexpr std::array<Mark, 3> looks{Mark::open_square, Mark::open_circle, Mark::open_triangle};
+  const auto point = std::ranges::find(trace.stations, peak.point, &trace::Station::name);
+  const std::string label =
+      peak.point.empty()
+          ? "published"
+          : "published at " + (point == trace.stations.end() ? peak.point : station_name(*point));
+  auto series = std::ranges::find(published, label, &Series::label);
+  if (series == published.end())
+    series = published.insert(series, {.label = label,
+                                       .style = Style::points,
+                                       .colour = 6,
+                                       .mark = looks[published.size() % looks.size()]});
+  series->add(at, peak.temperature);
+}
 
 /// The gaps of a case that hold what a kind of pictures needs.
 std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, const run::GapResult&),
@@ -80,14 +86,10 @@ std::vector<const run::GapResult*> gaps_with(bool (*what)(const DrawnCase&, cons
   return gaps;
 }
 
-std::string gap_title(const char* what, const run::GapResult& gap) {
-  return fmt::format("{}, gap {}", what, centimetres(gap.gap));
-}
-
 /// A quantity of one gap against time.
 Plot gap_plot(const DrawnCase& drawn, const run::GapResult& gap, const char* what,
               const std::string& quantity) {
-  Plot plot = time_plot(drawn, gap_title(what, gap), quantity);
+  Plot plot = time_plot(drawn, what, quantity);
   if (const auto& ignition = gap.skin.ignition)
     plot.vertical_lines = {
         {shown_value(ignition->time, drawn_time().form),
@@ -113,7 +115,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.x = {.label = distance_from_axis.label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature.label();
   plot.named_in_place = true;
-  PublishedPoints published;
+  std::vector<Series> published;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     const std::size_t samples = samples_before_ignition(skin);
@@ -128,7 +130,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
     for (const study::Peak& each : published_of(drawn, *gap)) {
       const auto point = std::ranges::find(trace.stations, each.point, &trace::Station::name);
       if (point != trace.stations.end() && std::abs(each.time - time.value_or(last)) < 1e-6)
-        published.add(shown_value(point->r, distance_from_axis.form), each);
+        add_published(trace, shown_value(point->r, distance_from_axis.form), each, published);
     }
   }
   double spread = 0.0;
@@ -139,7 +141,7 @@ Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   plot.title =
       fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
                   time ? "at " + in_words(*time, quantity::time_in_titles) : "at the end");
-  published.add_to(plot);
+  std::ranges::move(published, std::back_inserter(plot.series));
   return plot;
 }
 
@@ -260,16 +262,15 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
     Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature.label());
     for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
     skins.series = station_series(trace_of(drawn), times, skin.temperature, gap->at_stations.station);
-    PublishedPoints published;
+    std::vector<Series> published;
     for (const study::Peak& each : published_of(drawn, *gap))
-      published.add(shown_value(each.time, drawn_time().form), each);
-    published.add_to(skins);
+      add_published(trace_of(drawn), shown_value(each.time, drawn_time().form), each, published);
+    std::ranges::move(published, std::back_inserter(skins.series));
     const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
     skins.horizontal_lines = {{ignition, "ignites at " + in_words(ignition, keys::significant(4, kelvin))}};
     Plot plot = titled_plot(drawn, history_title(drawn, *gap));
     plot.panels = {std::move(skins), load_plot(drawn)};
     for (Plot& panel : plot.panels) {
-      panel.title.clear();
       panel.subtitle.clear();
       panel.named_in_place = true;
       panel.x.minimum = shown_value(skin.time.front(), drawn_time().form);
@@ -325,7 +326,7 @@ std::vector<CasePicture> closing_pictures(const DrawnCase& drawn) {
              "first contact at " + in_words(closing.contact_time, drawn_time().form)});
       return plot;
     };
-    Plot plot = titled_plot(drawn, gap_title("The closing gap and its air", *gap));
+    Plot plot = titled_plot(drawn, "The closing gap and its air, gap " + centimetres(gap->gap));
     plot.panels = {panel("Opening", opening, closing.opening),
                    panel("Pressure of the air", quantity::pressure, closing.gas_pressure),
                    panel("Temperature of the air", temperature, gap->skin.air_temperature)};

@@ -199,14 +199,16 @@ TEST(SensitivityReport, JsonHasMethodInputsOutputsAndEvaluations) {
   EXPECT_TRUE(json["evaluations"][2]["temperature_max_K"].is_null());
 }
 
-TEST(SensitivityReport, PicturesHaveIntervals) {
-  const SensitivityResult sobol = made_sensitivity();
+TEST(SensitivityReport, PicturesHaveIntervalsAndTheirConfidence) {
+  SensitivityResult sobol = made_sensitivity();
+  settings_of<SensitivitySettings>(sobol.study.study).confidence = 0.9;
   const Plot indices = sensitivity_plot(sobol, sobol.outputs[0]);
   ASSERT_EQ(indices.series.size(), 3u);
   EXPECT_EQ(indices.series[0].style, Style::filled_bars);
   EXPECT_TRUE(std::ranges::is_sorted(indices.series[0].x, std::greater()));
   EXPECT_EQ(indices.series[1].style, Style::horizontal_bars);
   EXPECT_EQ(indices.series[1].upper.size(), 3u);
+  EXPECT_EQ(indices.series[1].label, "its 90 % interval");
   EXPECT_EQ(indices.y.tics.front().label, "peak pressure");
   EXPECT_TRUE(indices.title.starts_with("Peak pressure makes ")) << indices.title;
 }

@@ -67,13 +67,13 @@ TEST(CasePictures, OfProfilesGoFromTheAxisToTheWallWithoutObservationPoints) {
 TEST(CasePictures, HaveWhatWasPublishedAsHollowPointsWhereItWas) {
   const RunScene run = written_by_hand();
   DrawnCase drawn = run.drawn({2e-5, 3e-5});
-  const auto published_in = [](const Plot& plot) {
-    const auto found = std::ranges::find_if(
-        plot.series, [](const Series& each) { return each.label.starts_with("published"); });
+  const auto published_in = [](const Plot& plot, const std::string& label = "published") {
+    const auto found =
+        std::ranges::find_if(plot.series, [&](const Series& each) { return each.label.starts_with(label); });
     return found == plot.series.end() ? Series{} : *found;
   };
-  const auto history = [&] {
-    return published_in(plot_of(pictures(drawn, "histories"), "histories_0.04cm.svg").panels.at(0));
+  const auto history = [&](const std::string& label = "published") {
+    return published_in(plot_of(pictures(drawn, "histories"), "histories_0.04cm.svg").panels.at(0), label);
   };
   EXPECT_TRUE(history().x.empty()) << "nothing is known";
   drawn.early_time = 2e-5;
@@ -81,9 +81,11 @@ TEST(CasePictures, HaveWhatWasPublishedAsHollowPointsWhereItWas) {
       {.gap = 4e-4, .maximum_temperature = 335, .point = "S1", .early_temperature = 318, .early_point = "S2"},
       {.gap = 1e-4, .maximum_temperature = 310, .point = "S1"}};
   EXPECT_EQ(history().mark, Mark::open_square);
-  EXPECT_EQ(history().label, "published at S2, S1") << "the places of both";
-  EXPECT_EQ(history().x, (std::vector<double>{0.02, 0.04})) << "ms";
-  EXPECT_EQ(history().y, (std::vector<double>{318, 335}));
+  EXPECT_EQ(history().label, "published at S2, r 2.5 mm");
+  EXPECT_EQ(history().x, std::vector<double>{0.02}) << "ms";
+  EXPECT_EQ(history().y, std::vector<double>{318});
+  EXPECT_EQ(history("published at S1, r 7.5 mm").y, std::vector<double>{335});
+  EXPECT_EQ(history("published at S1").mark, Mark::open_circle) << "another place, another mark";
   const auto profiles = pictures(drawn, "profile");
   EXPECT_EQ(published_in(plot_of(profiles, "profile_0.02ms.svg")).x, std::vector<double>{2.5});
   EXPECT_EQ(published_in(plot_of(profiles, "profile_0.02ms.svg")).y, std::vector<double>{318});
@@ -101,6 +103,9 @@ TEST(CasePictures, OfTheSkinEndBeforeWhatBurns) {
   const Plot history = plot_of(pictures(run.drawn(), "histories"), "histories_0.04cm.svg");
   EXPECT_EQ(history.title, "Gap 0.04 cm: S1 ignites at 0.03 ms");
   ASSERT_EQ(history.panels.size(), 2U) << "the skin above the load";
+  for (const Series& pressure : history.panels[1].series)
+    for (const Series& station : history.panels[0].series)
+      EXPECT_NE(pressure.colour, station.colour) << "no colour means two things";
   EXPECT_EQ(history.panels[0].vertical_lines.size(), 1U);
   EXPECT_EQ(history.panels[0].series[0].x.size(), 2U);
   EXPECT_EQ(history.panels[1].series[0].x.size(), 3U);
