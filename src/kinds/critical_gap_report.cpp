@@ -235,34 +235,6 @@ void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
     if (!each->x.empty()) plot.series.push_back(std::move(*each));
 }
 
-/// The axis has the points that do not ignite and the ignition temperature, and a part of what lies between
-/// beyond both: how hot a burning skin is says nothing of the gap, and how far a bar goes nothing of the
-/// points. What is hotter stands at its end, and a bar that goes on has an arrow there.
-void cut_axis(double ignition, Plot& plot) {
-  double lowest = ignition;
-  for (const Series& series : plot.series)
-    for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double beyond = std::max(0.25 * (ignition - lowest), 20.0);
-  const double top = ignition + beyond, bottom = lowest - beyond;
-  std::vector<Series> arrows;
-  const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
-    Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      if (ends[i] > top || ends[i] < bottom) heads.add(series.x[i], at);
-      ends[i] = std::clamp(ends[i], bottom, top);
-    }
-    if (!heads.x.empty()) arrows.push_back(std::move(heads));
-  };
-  for (Series& series : plot.series) {
-    for (double& temperature : series.y) temperature = std::min(temperature, top);
-    cut(series, series.upper, top, Mark::up_triangle);
-    cut(series, series.lower, bottom, Mark::down_triangle);
-  }
-  if (!arrows.empty()) arrows.front().label = "the bar goes on beyond";
-  std::ranges::move(arrows, std::back_inserter(plot.series));
-  plot.y.maximum = top;
-}
-
 /// What the picture shows of the only case, with its numbers.
 std::string finding_of(const CaseOutcome& outcome) {
   const double safe = study::largest_safe_gap(outcome.verdicts);
@@ -327,7 +299,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
   add_published(result, plot);
   if (only) add_critical_gap(result.details.front().critical, plot);
   const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
-  cut_axis(ignition, plot);
+  report::cut_axis(ignition, plot);
   plot.horizontal_lines.push_back(
       {ignition, "ignition temperature: " + in_words(ignition, significant(4, kelvin))});
   return plot;

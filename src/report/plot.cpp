@@ -254,4 +254,29 @@ std::string to_gnuplot(const Plot& plot) {
   return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot, longest_end_name(plot));
 }
 
+void cut_axis(double ignition, Plot& plot) {
+  double lowest = ignition;
+  for (const Series& series : plot.series)
+    for (const double temperature : series.y) lowest = std::min(lowest, temperature);
+  const double beyond = std::max(0.25 * (ignition - lowest), 20.0);
+  const double top = ignition + beyond, bottom = lowest - beyond;
+  std::vector<Series> arrows;
+  const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
+    Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      if (ends[i] > top || ends[i] < bottom) heads.add(series.x[i], at);
+      ends[i] = std::clamp(ends[i], bottom, top);
+    }
+    if (!heads.x.empty()) arrows.push_back(std::move(heads));
+  };
+  for (Series& series : plot.series) {
+    for (double& temperature : series.y) temperature = std::min(temperature, top);
+    cut(series, series.upper, top, Mark::up_triangle);
+    cut(series, series.lower, bottom, Mark::down_triangle);
+  }
+  if (!arrows.empty()) arrows.front().label = "the bar goes on beyond";
+  std::ranges::move(arrows, std::back_inserter(plot.series));
+  plot.y.maximum = top;
+}
+
 }  // namespace launchsafe::report

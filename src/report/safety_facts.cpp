@@ -361,7 +361,15 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
   facts["told"] = cases.size() == 1 || own.is_own();
   facts["completed"] = own.completed();
   facts["certain"] = own.completed() && !std::ranges::all_of(own.verdicts, is_uncertain);
+  for (const Row* picture :
+       selected({"", "", "launch.pictures begins file temperature with svg first 1"}, all.facts))
+    all.facts["verdict_picture"] = *picture;
   if (own.completed()) {
+    if (cases.size() == 1) {
+      all.facts["verdict_picture"] = {{"file", "temperature.svg"}};
+      all.drawings["temperature.svg"] = verdict_plot(all.facts["main"], all.facts["scene"]["temperature_K"],
+                                                     all.facts["scene"]["ignition_K"]);
+    }
     facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
                                           [&](const Row& row) { return text_of(row, "case") == own.label; });
     for (const Row* row : own.verdicts) facts["verdicts"].push_back(*row);

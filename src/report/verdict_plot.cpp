@@ -1,0 +1,86 @@
+// The picture of page one: T max of a launch against gap, by its verdicts.
+#include "launchsafe/report/quantities.hpp"
+#include "launchsafe/report/safety_report.hpp"
+
+namespace launchsafe::report {
+namespace {
+
+constexpr int vermilion = 1, green = 2, purple = 3, orange = 4, black = 6;
+
+bool ignites(const Row& verdict) { return !text_of(verdict, "ignition_cause").empty(); }
+
+/// Gaps of one verdict that do not ignite, with their uncertainty: the model form, whose sign is known,
+/// counts upwards alone, and nothing is colder than the launch began (K). A bar whose end is not known goes
+/// on.
+Series judged_series(const Row& verdicts, const std::string& word, int colour, double initial) {
+  Series series{.label = word, .style = Style::vertical_bars, .colour = colour, .mark = Mark::circle};
+  for (const Row& row : verdicts) {
+    const double temperature = number_of(row, "temperature_max_K");
+    if (text_of(row, "verdict") != word || ignites(row) || !std::isfinite(temperature)) continue;
+    const double uncertainty = number_of(row, "uncertainty_K"),
+                 below = uncertainty - number_of(row, "uncertainty_of_model_form_K");
+    series.add(number_of(row, quantity::gap.key()), temperature,
+               std::isfinite(below) ? std::max(temperature - below, initial) : temperature,
+               std::isfinite(uncertainty) ? temperature + uncertainty : math::infinity);
+  }
+  return series;
+}
+
+Series points_of(const Row& rows, const char* temperature, Series look) {
+  look.style = Style::points;
+  for (const Row& row : rows)
+    if (const double value = number_of(row, temperature); std::isfinite(value))
+      look.add(number_of(row, quantity::gap.key()), value);
+  return look;
+}
+
+/// "No computed gap is SAFE; critical gap by a reservoir of air 0.038 +0.010 −0.011 cm"
+std::string finding_of(const Row& verdicts, const Row& critical, const std::string& by_whose_air) {
+  const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
+  return fmt::format("{}; critical gap{} {}",
+                     largest ? fmt::format("Computed gaps SAFE up to {} cm", significant(*largest, 6))
+                             : "No computed gap is SAFE",
+                     by_whose_air, text_of(critical, "critical_gap_with_bounds"));
+}
+
+void add_critical_gap(const Row& critical, Plot& plot) {
+  const double value = number_of(critical, "critical_gap_cm"),
+               at_least = number_of(critical, "critical_gap_at_least_cm"),
+               at_most = number_of(critical, "critical_gap_at_most_cm");
+  if (text_of(critical, "critical_gap_kind") != "value") return;
+  plot.vertical_lines = {{value}};
+  if (const auto known = measured_gap(value, at_least, at_most))
+    plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), "critical gap within its bounds"}};
+}
+
+}  // namespace
+
+Plot verdict_plot(const Row& tables, double initial, double ignition) {
+  const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
+  const Series corner =
+      points_of(verdicts, "temperature_max_corner_K",
+                {.label = "worst corner where the gap closes", .colour = purple, .mark = Mark::diamond});
+  Plot plot{.title = finding_of(verdicts, critical, corner.x.empty() ? "" : " by a reservoir of air"),
+            .x = {.label = quantity::gap.label()},
+            .y = {.label = quantity::temperature_max.label()},
+            .width = 1100,
+            .height = 380};
+  Row ignited = verdicts;
+  std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
+  for (Series& series : std::array{
+           judged_series(verdicts, "SAFE", green, initial),
+           judged_series(verdicts, "INDETERMINATE", orange, initial),
+           points_of(
+               ignited, "temperature_max_K",
+               {.label = "UNSAFE: ignites, hotter than shown", .colour = vermilion, .mark = Mark::cross}),
+           corner,
+           points_of(found_in(tables, "comparison"), "temperature_max_published_K",
+                     {.label = "published", .colour = black, .mark = Mark::open_square})})
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  add_critical_gap(critical, plot);
+  cut_axis(ignition, plot);
+  plot.horizontal_lines = {{ignition, "ignition at " + significant(ignition, 4) + " K"}};
+  return plot;
+}
+
+}  // namespace launchsafe::report
