@@ -50,8 +50,8 @@ struct ModelRow {
 
 Quantities<ModelRow> model_quantities(const std::vector<double>& pressures) {
   Quantities<ModelRow> quantities{
-      {"model", "model", text(), "The model.", &ModelRow::name},
-      {"what_it_is", "what it is", text(), "What it does otherwise.", &ModelRow::title}};
+      {for_programs(Column{"model", "name", text(), "The model."}), &ModelRow::name},
+      {"what_it_is", "model", text(), "What it does otherwise.", &ModelRow::title}};
   for (std::size_t i = 0; i < pressures.size(); ++i) {
     const std::string pressure = in_words(pressures[i], quantity::peak_pressure.form);
     quantities.emplace_back("critical_gap_at_" + keys::key_text(pressure), pressure, text(),
@@ -105,7 +105,8 @@ Quantities<CalibratedModel> model_constant_quantities() {
       {"stations_converge", "stations converge", text(), "Whether they settle as cells shrink.",
        &CalibrationRecord::stations, &StationConvergence::converges}};
   return joined<CalibratedModel>(
-      {{{"model", "model", text(), "The model.", &ModelFormEntry::name}},
+      {{{for_programs(Column{"model", "name", text(), "The model."}), &ModelFormEntry::name},
+        {"what_it_is", "model", text(), "What it does otherwise.", &ModelFormEntry::title}},
        of_part<CalibratedModel>(of_scene, &ModelFormEntry::calibration, &CalibrationRecord::calibration,
                                 &study::Calibration::scene),
        of_part<CalibratedModel>(of_record, &ModelFormEntry::calibration)});
@@ -140,25 +141,35 @@ std::string apart_text(const ModelForm& form) {
   return fmt::format("Models differ by {}, by {}", text(most), text(least));
 }
 
+/// Models that would lie on the default's line are named; those without a share in verdicts are grey.
 Plot model_form_plot(const ModelForm& form) {
   constexpr int grey = 7;
+  constexpr double seen = 2e-6;  // m
+  const auto is_near = [](double a, double b) { return std::abs(a - b) < seen; };
   int coloured = 0;
-  Plot plot{
-      .title = apart_text(form),
-      .x = {.label = headed("peak pressure", quantity::peak_pressure).label()},
-      .y = {.label = quantity::critical_gap.label(), .minimum = 0.0},
-      .height = 620,
-      .subtitle = "each calibrated by the same rule; grey and dashed: models without a share in verdicts",
-      .named_in_place = true};
+  Plot plot{.title = apart_text(form),
+            .x = {.label = headed("peak pressure", quantity::peak_pressure).label()},
+            .y = {.label = quantity::critical_gap.label(), .minimum = 0.0},
+            .width = 1100,
+            .height = 620,
+            .subtitle = "each calibrated by the same rule",
+            .named_in_place = true};
+  std::vector<std::string> alike;
   for (const ModelFormEntry& each : form.entries) {
-    Series series{each.name, {}, {}, Style::line_and_points};
+    Series series{each.title, {}, {}, Style::line_and_points};
     const ModelAlternative* alternative = keys::find_named(form.record.alternatives, each.name);
+    if (alternative == nullptr) {
+      series.label += " (default)";
+    } else if (std::ranges::equal(each.critical_gap, form.entries.front().critical_gap, is_near)) {
+      alike.push_back(series.label);
+      continue;
+    }
     if (alternative != nullptr && towards_ignition(form.record, *alternative).empty()) {
+      series.label += ": no share in verdicts";
       series.style = Style::dashed_line;
       series.colour = grey;
     } else {
-      if (coloured == grey) ++coloured;
-      series.colour = coloured++;
+      series.colour = coloured++ % grey;
     }
     for (std::size_t i = 0; i < each.critical_gap.size(); ++i) {
       if (!std::isfinite(each.critical_gap[i])) continue;
@@ -167,6 +178,8 @@ Plot model_form_plot(const ModelForm& form) {
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
+  if (!alike.empty())
+    plot.subtitle += fmt::format("; within {} of the default: {}", centimetres(seen), fmt::join(alike, ", "));
   return plot;
 }
 
@@ -180,8 +193,8 @@ scene::Expected<ModelForm, std::string> model_form_of(const ComparisonResult& re
   for (const Variant& each : result.variants()) {
     const std::size_t first = form.entries.size() * result.cases_per_variant();
     const auto gap = [&](std::size_t i) { return gap_or_bound(result.answers[first + i].critical); };
-    form.entries.push_back(
-        {each.name, each.description, &*each.calibration, each.scene, of_each(order, gap)});
+    form.entries.push_back({each.name, each.description.empty() ? each.name : each.description,
+                            &*each.calibration, each.scene, of_each(order, gap)});
   }
   auto made = make_model_form(form.entries, of_each(order, pressure_of));
   if (!made) return made.error();

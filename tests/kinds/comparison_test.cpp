@@ -106,8 +106,8 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
       variants_follow;
   const std::string bonded =
       variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");
-  const ComparisonResult result =
-      run_comparison(study_of(start + bonded + calibrated("bonded")), synthetic_options());
+  const ComparisonResult result = run_comparison(
+      study_of(start + bonded + "description = \"glued\"\n" + calibrated("bonded")), synthetic_options());
   const auto files = report_of(result).files;
   ASSERT_EQ(files.size(), 1u);
   ASSERT_EQ(files[0].name, "model_form.json");
@@ -116,6 +116,18 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
   ASSERT_EQ(record->alternatives.size(), 1u);
   EXPECT_EQ(record->alternatives[0].critical_gap[1], result.answers[2].critical.value);
+  const auto plot_of = [](const ComparisonResult& of) {
+    for (const auto& item : report_of(of).items)
+      if (const auto* picture = std::get_if<report::Picture>(&item)) return picture->plot;
+    return report::Plot{};
+  };
+  ASSERT_EQ(plot_of(result).series.size(), 2u);
+  EXPECT_EQ(plot_of(result).series[0].label, "own (default)");
+  EXPECT_EQ(plot_of(result).series[1].label, "glued: no share in verdicts") << "in plain words";
+  ComparisonResult alike = result;
+  for (const std::size_t i : {0u, 1u}) alike.answers[2 + i].critical = alike.answers[i].critical;
+  EXPECT_EQ(plot_of(alike).series.size(), 1u) << "a line on another is named";
+  EXPECT_TRUE(plot_of(alike).subtitle.ends_with("; within 0.0002 cm of the default: glued"));
   const ComparisonResult without = run_comparison(
       study_of(start + bonded +
                "accept = [{ key = \"calibration.interfaces\", value = \"bonded for good\", because "
