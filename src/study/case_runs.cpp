@@ -93,7 +93,12 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
     cases.runs.push_back({[of = &study, index, make] { return make(of->cases[index]); }});
   };
   const std::size_t first = cases.members.front();
-  const StudyCase input = study.cases[first];
+  // Where every case has runs of the same kinds none is made to know them.
+  const KindTraits& kind = study.study.kind;
+  const bool may_differ = study.study.in_detail || kind.goes_through_ignition ||
+                          kind.closing_gaps == ClosingGaps::launched ||
+                          kind.closing_gaps == ClosingGaps::compared;
+  const StudyCase input = may_differ ? study.cases[first] : StudyCase{};
   const bool longer = study.study.in_detail && with_longer_launch(input.scene.scene);
   if (!compares_closing(study.study, input))
     add(first, [checkpoints = checkpoints || longer](const StudyCase& own) {
