@@ -93,9 +93,9 @@ struct Plot {
   int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
-/// Ends the y axis a part beyond a line across and the points below it: how hot a burning skin is says nothing
-/// of a gap, and how far a bar goes nothing of the points. What is hotter stands at that end, and a bar that
-/// goes on has an arrow there.
+/// Ends the y axis a part beyond a line across and the points below it: how hot a burning skin is says
+/// nothing of a gap, and how far a bar goes nothing of the points. What is hotter stands at that end, and a
+/// bar that goes on has an arrow there.
 void cut_axis(double line, Plot& plot);
 
 /// A rectangle with a value; one without a value (NaN) is drawn in plain grey.
