@@ -331,6 +331,14 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
   });
 }
 
+/// Whether a gap of 0 is among the verdicts of every case.
+bool is_zero_computed(const std::vector<CaseEvidence>& cases) {
+  return std::ranges::all_of(cases, [](const CaseEvidence& each) {
+    return std::ranges::any_of(each.verdicts,
+                               [](const Row* row) { return number_of(*row, "gap_cm") == 0.0; });
+  });
+}
+
 // --- what the report says ---
 
 /// What the study answers over all cases, and what a criterion recommends.
@@ -342,6 +350,7 @@ Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases
           {"criterion_source", criterion ? Row(criterion->source) : Row()},
           {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
           {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
+          {"smallest_is_zero", is_zero_computed(cases)},
           {"cases", study::of_each(cases, told_case)}};
 }
 
@@ -367,8 +376,7 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
   if (own.completed()) {
     if (cases.size() == 1) {
       all.facts["verdict_picture"] = {{"file", "temperature.svg"}};
-      all.drawings["temperature.svg"] = verdict_plot(all.facts["main"], all.facts["scene"]["temperature_K"],
-                                                     all.facts["scene"]["ignition_K"]);
+      all.drawings["temperature.svg"] = verdict_plot(all.facts["main"], own.study->scene.scene);
     }
     facts["fitted"] = std::ranges::any_of(own.study->rows("fit_curves"),
                                           [&](const Row& row) { return text_of(row, "case") == own.label; });

@@ -55,16 +55,18 @@ void add_critical_gap(const Row& critical, Plot& plot) {
 
 }  // namespace
 
-Plot verdict_plot(const Row& tables, double initial, double ignition) {
+Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
+  const double initial = scene.initial_temperature, ignition = scene.charge().kinetics.ignition_temperature;
   const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
-  const Series corner =
-      points_of(verdicts, "temperature_max_corner_K",
-                {.label = "worst corner where the gap closes", .colour = purple, .mark = Mark::diamond});
+  Series corner = points_of(verdicts, "temperature_max_corner_K", {.colour = purple, .mark = Mark::diamond});
+  const bool corner_ignites =
+      std::ranges::any_of(corner.y, [&](double temperature) { return temperature > ignition; });
+  corner.label = fmt::format("worst corner where it closes{}", corner_ignites ? ": ignites" : "");
   Plot plot{.title = finding_of(verdicts, critical, corner.x.empty() ? "" : " by a reservoir of air"),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 380};
+            .height = 400};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
   for (Series& series : std::array{
@@ -74,8 +76,11 @@ Plot verdict_plot(const Row& tables, double initial, double ignition) {
                ignited, "temperature_max_K",
                {.label = "UNSAFE: ignites, hotter than shown", .colour = vermilion, .mark = Mark::cross}),
            corner,
-           points_of(found_in(tables, "comparison"), "temperature_max_published_K",
-                     {.label = "published", .colour = black, .mark = Mark::open_square})})
+           points_of(
+               found_in(tables, "comparison"), "temperature_max_published_K",
+               {.label = fmt::format("published, at {}", scene::time_text(scene::read_time(scene.load))),
+               .colour = black,
+               .mark = Mark::open_square})})
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   add_critical_gap(critical, plot);
   cut_axis(ignition, plot);

@@ -121,9 +121,8 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
 std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts);
 
 /// T max against gap of one launch in the colours of its verdicts, with its critical gap, what was published
-/// and, where a gap that closes was looked at, the worst corner. `tables`: rows of its study; temperatures of
-/// the launch's begin and of ignition in K.
-Plot verdict_plot(const Row& tables, double initial, double ignition);
+/// and, where a gap that closes was looked at, the worst corner. `tables`: rows of its study.
+Plot verdict_plot(const Row& tables, const scene::Scene& scene);
 
 /// The templates of safety reports that are built in.
 PageTemplates built_in_templates();

@@ -1,0 +1,75 @@
+#include "launchsafe/report/safety_report.hpp"
+
+#include <gtest/gtest.h>
+
+namespace launchsafe::report {
+namespace {
+
+/// Rows by hand: 0 and 0.01 cm do not ignite, 0.04 cm does; the critical gap is 0.03 cm, at least 0.02.
+Row tables() {
+  const auto row = [](double gap, const char* verdict, double temperature) {
+    return Row{{"gap_cm", gap},
+               {"verdict", verdict},
+               {"temperature_max_K", temperature},
+               {"uncertainty_K", 30.0},
+               {"uncertainty_of_model_form_K", 10.0}};
+  };
+  Row ignited = row(0.04, "UNSAFE", 784.0);
+  ignited["ignition_cause"] = "self-heating";
+  return {{"verdicts", {row(0.0, "SAFE", 310.0), row(0.01, "INDETERMINATE", 400.0), ignited}},
+          {"comparison", Row::array({{{"gap_cm", 0.0}, {"temperature_max_published_K", 311.0}}})},
+          {"cases", Row::array({{{"critical_gap_kind", "value"},
+                                 {"critical_gap_cm", 0.03},
+                                 {"critical_gap_at_least_cm", 0.02},
+                                 {"critical_gap_at_most_cm", 0.04},
+                                 {"critical_gap_with_bounds", "0.030 ± 0.010 cm"}}})}};
+}
+
+/// The default scene begins at 300 K.
+scene::Scene scene_of_300K() { return {}; }
+
+const Series* named(const Plot& plot, const std::string& label) {
+  const auto found = std::ranges::find(plot.series, label, &Series::label);
+  return found == plot.series.end() ? nullptr : &*found;
+}
+
+TEST(VerdictPlot, HasAColourForEachVerdictAndBarsThatEndWhereTheLaunchBegan) {
+  const Plot plot = verdict_plot(tables(), scene_of_300K());
+  EXPECT_EQ(plot.title, "Computed gaps SAFE up to 0 cm; critical gap 0.030 ± 0.010 cm");
+  const Series *safe = named(plot, "SAFE"), *open = named(plot, "INDETERMINATE");
+  ASSERT_TRUE(safe && open);
+  EXPECT_NE(safe->colour, open->colour);
+  EXPECT_EQ(safe->lower, std::vector{300.0}) << "310 K less 20 K would be colder than the launch began";
+  EXPECT_EQ(open->lower, std::vector{380.0}) << "the model form counts upwards alone";
+  EXPECT_EQ(open->upper, std::vector{430.0});
+  const Series* ignited = named(plot, "UNSAFE: ignites, hotter than shown");
+  ASSERT_TRUE(ignited);
+  EXPECT_EQ(ignited->x, std::vector{0.04});
+  EXPECT_EQ(ignited->y, std::vector{*plot.y.maximum}) << "how hot a burning skin is says nothing of the gap";
+  ASSERT_EQ(plot.vertical_bands.size(), 1u);
+  EXPECT_LE(plot.vertical_bands[0].from, 0.02);
+  EXPECT_GE(plot.vertical_bands[0].to, 0.04);
+  EXPECT_TRUE(std::ranges::none_of(
+      plot.series, [](const Series& each) { return each.label.starts_with("worst corner"); }));
+}
+
+TEST(VerdictPlot, IsOfTheVerdictsThatWereHeldAgainstAGapThatCloses) {
+  Row rows = tables();
+  rows["verdicts"][0]["verdict"] = "INDETERMINATE";
+  rows["verdicts"][0]["temperature_max_corner_K"] = 784.0;
+  const Plot plot = verdict_plot(rows, scene_of_300K());
+  EXPECT_TRUE(plot.title.starts_with("No computed gap is SAFE; critical gap by a reservoir of air 0.030"));
+  EXPECT_EQ(named(plot, "SAFE"), nullptr);
+  EXPECT_NE(named(plot, "worst corner where it closes: ignites"), nullptr);
+}
+
+TEST(VerdictPlot, ABarWhoseEndIsNotKnownGoesOn) {
+  Row rows = tables();
+  rows["verdicts"][1]["uncertainty_K"] = nullptr;
+  const Plot plot = verdict_plot(rows, scene_of_300K());
+  EXPECT_EQ(named(plot, "INDETERMINATE")->upper, std::vector{*plot.y.maximum});
+  EXPECT_NE(named(plot, "the bar goes on beyond"), nullptr);
+}
+
+}  // namespace
+}  // namespace launchsafe::report
