@@ -5,15 +5,16 @@
 namespace launchsafe::report {
 namespace {
 
-constexpr int vermilion = 1, green = 2, purple = 3, orange = 4, black = 6;
+constexpr int vermilion = 1, green = 2, purple = 3, orange = 4, black = 6, grey = 7;
 
 bool ignites(const Row& verdict) { return !text_of(verdict, "ignition_cause").empty(); }
 
 /// Gaps of one verdict that do not ignite, with their uncertainty: the model form, whose sign is known,
 /// counts upwards alone, and nothing is colder than the launch began (K). A bar whose end is not known goes
 /// on.
-Series judged_series(const Row& verdicts, const std::string& word, int colour, double initial) {
-  Series series{.label = word, .style = Style::vertical_bars, .colour = colour, .mark = Mark::circle};
+Series judged_series(const Row& verdicts, const std::string& word, const std::string& label, int colour,
+                     double initial) {
+  Series series{.label = label, .style = Style::vertical_bars, .colour = colour, .mark = Mark::circle};
   for (const Row& row : verdicts) {
     const double temperature = number_of(row, "temperature_max_K");
     if (text_of(row, "verdict") != word || ignites(row) || !std::isfinite(temperature)) continue;
@@ -35,12 +36,20 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
 }
 
 /// "No computed gap is SAFE; critical gap by a reservoir of air 0.038 +0.010 −0.011 cm"
-std::string finding_of(const Row& verdicts, const Row& critical, const std::string& by_whose_air) {
+std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe,
+                       const std::string& by_whose_air) {
   const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
-  return fmt::format("{}; critical gap{} {}",
-                     largest ? fmt::format("Computed gaps SAFE up to {} cm", significant(*largest, 6))
-                             : "No computed gap is SAFE",
-                     by_whose_air, text_of(critical, "critical_gap_with_bounds"));
+  return fmt::format(
+      "{}; critical gap{} {}",
+      largest ? fmt::format("{} up to {} cm", safe, significant(*largest, 6)) : "No computed gap is SAFE",
+      by_whose_air, text_of(critical, "critical_gap_with_bounds"));
+}
+
+/// "SAFE by a reservoir of air": what the word rests on, which stands beside it wherever a picture goes.
+std::string safe_words(const Row& tables, const std::string& by_whose_air, bool is_green) {
+  if (is_green) return "SAFE" + by_whose_air;
+  const bool invented = !found_in(tables, "demonstration").is_null();
+  return fmt::format("SAFE{}, {}", by_whose_air, invented ? "of what is invented" : "as somebody accepts");
 }
 
 void add_critical_gap(const Row& critical, Plot& plot) {
@@ -62,7 +71,13 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   const bool corner_ignites =
       std::ranges::any_of(corner.y, [&](double temperature) { return temperature > ignition; });
   corner.label = fmt::format("worst corner where it closes{}", corner_ignites ? ": ignites" : "");
-  Plot plot{.title = finding_of(verdicts, critical, corner.x.empty() ? "" : " by a reservoir of air"),
+  const bool closes = scene.surface.model == scene::GapModel::closing;
+  const std::string by_whose_air = closes ? "" : " by a reservoir of air";
+  const bool is_green =
+      found_in(tables, "demonstration").is_null() &&
+      std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
+  const std::string safe = safe_words(tables, corner.x.empty() ? by_whose_air : "", is_green);
+  Plot plot{.title = finding_of(verdicts, critical, safe, by_whose_air),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
@@ -70,8 +85,8 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
   for (Series& series : std::array{
-           judged_series(verdicts, "SAFE", green, initial),
-           judged_series(verdicts, "INDETERMINATE", orange, initial),
+           judged_series(verdicts, "SAFE", safe, is_green ? green : grey, initial),
+           judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
            points_of(
                ignited, "temperature_max_K",
                {.label = "UNSAFE: ignites, hotter than shown", .colour = vermilion, .mark = Mark::cross}),

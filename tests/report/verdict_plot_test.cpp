@@ -35,8 +35,9 @@ const Series* named(const Plot& plot, const std::string& label) {
 
 TEST(VerdictPlot, HasAColourForEachVerdictAndBarsThatEndWhereTheLaunchBegan) {
   const Plot plot = verdict_plot(tables(), scene_of_300K());
-  EXPECT_EQ(plot.title, "Computed gaps SAFE up to 0 cm; critical gap 0.030 ± 0.010 cm");
-  const Series *safe = named(plot, "SAFE"), *open = named(plot, "INDETERMINATE");
+  EXPECT_EQ(plot.title,
+            "SAFE by a reservoir of air up to 0 cm; critical gap by a reservoir of air 0.030 ± 0.010 cm");
+  const Series *safe = named(plot, "SAFE by a reservoir of air"), *open = named(plot, "INDETERMINATE");
   ASSERT_TRUE(safe && open);
   EXPECT_NE(safe->colour, open->colour);
   EXPECT_EQ(safe->lower, std::vector{300.0}) << "310 K less 20 K would be colder than the launch began";
@@ -61,6 +62,21 @@ TEST(VerdictPlot, IsOfTheVerdictsThatWereHeldAgainstAGapThatCloses) {
   EXPECT_TRUE(plot.title.starts_with("No computed gap is SAFE; critical gap by a reservoir of air 0.030"));
   EXPECT_EQ(named(plot, "SAFE"), nullptr);
   EXPECT_NE(named(plot, "worst corner where it closes: ignites"), nullptr);
+}
+
+TEST(VerdictPlot, IsNotGreenWhereSomethingIsAcceptedOrInvented) {
+  const auto colour = [](const Row& rows, const char* label) {
+    const Plot plot = verdict_plot(rows, scene_of_300K());
+    const Series* safe = named(plot, label);
+    return safe ? safe->colour : std::nullopt;
+  };
+  const auto green = colour(tables(), "SAFE by a reservoir of air");
+  ASSERT_TRUE(green);
+  Row accepted = tables(), invented = tables();
+  accepted["verdicts"][0]["accepted"] = "accepted: interface.wall = bonded";
+  invented["demonstration"] = true;
+  EXPECT_NE(colour(accepted, "SAFE by a reservoir of air, as somebody accepts").value(), *green);
+  EXPECT_NE(colour(invented, "SAFE by a reservoir of air, of what is invented").value(), *green);
 }
 
 TEST(VerdictPlot, ABarWhoseEndIsNotKnownGoesOn) {
