@@ -49,7 +49,7 @@ std::string finding_of(const Row& verdicts, const Row& critical, const std::stri
 std::string safe_words(const Row& tables, const std::string& by_whose_air, bool is_green) {
   if (is_green) return "SAFE" + by_whose_air;
   const bool invented = !found_in(tables, "demonstration").is_null();
-  return fmt::format("SAFE{}, {}", by_whose_air, invented ? "of what is invented" : "as somebody accepts");
+  return fmt::format("SAFE{}, {}", by_whose_air, invented ? "in a demonstration" : "as somebody accepts");
 }
 
 void add_critical_gap(const Row& critical, Plot& plot) {

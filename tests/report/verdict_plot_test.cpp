@@ -76,7 +76,7 @@ TEST(VerdictPlot, IsNotGreenWhereSomethingIsAcceptedOrInvented) {
   accepted["verdicts"][0]["accepted"] = "accepted: interface.wall = bonded";
   invented["demonstration"] = true;
   EXPECT_NE(colour(accepted, "SAFE by a reservoir of air, as somebody accepts").value(), *green);
-  EXPECT_NE(colour(invented, "SAFE by a reservoir of air, of what is invented").value(), *green);
+  EXPECT_NE(colour(invented, "SAFE by a reservoir of air, in a demonstration").value(), *green);
 }
 
 TEST(VerdictPlot, ABarWhoseEndIsNotKnownGoesOn) {
