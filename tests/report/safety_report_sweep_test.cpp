@@ -35,6 +35,9 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   EXPECT_TRUE(has(page, "The smallest critical gap found in 2 cases is 0.038"));
   EXPECT_TRUE(has(page, "In 1 of them no gap is safe"));
   EXPECT_TRUE(has(page, "no computed gap has the verdict SAFE in every case"));
+  EXPECT_TRUE(has(file_of({study, shipped("closing_gap_155mm")}, "report.md"),
+                  "what title and colours call SAFE is so only where the table says so too"))
+      << "the picture of several cases is that of the study";
   const auto json = nlohmann::json::parse(file_of({study}, "report.json"));
   for (const auto& block : json["sections"][5]["blocks"]) {
     if (block["id"] != "curves") continue;
