@@ -254,12 +254,12 @@ std::string to_gnuplot(const Plot& plot) {
   return page_commands(plot.width, whole_height(plot)) + drawing_commands(plot, longest_end_name(plot));
 }
 
-void cut_axis(double ignition, Plot& plot) {
-  double lowest = ignition;
+void cut_axis(double line, Plot& plot) {
+  double lowest = line;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double beyond = std::max(0.25 * (ignition - lowest), 20.0);
-  const double top = ignition + beyond, bottom = lowest - beyond;
+  const double beyond = std::max(0.25 * (line - lowest), 20.0);
+  const double top = line + beyond, bottom = lowest - beyond;
   std::vector<Series> arrows;
   const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
     Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
