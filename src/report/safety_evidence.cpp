@@ -113,6 +113,13 @@ std::string contradiction_of(const CaseEvidence& judged, const Row& row) {
   const std::string kind = text_of(*judged.critical, "critical_gap_kind");
   // An earlier program took a bound up to the end of the search for known.
   const double known = study::known_part_of_search * number_of(*judged.critical, "critical_gap_lower_cm");
+  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
+  constexpr double widest_bracket = 1.01e-4;  // cm
+  if (kind == "value" && !closes(study) &&
+      !(number_of(*judged.critical, "critical_gap_upper_cm") -
+            number_of(*judged.critical, "critical_gap_lower_cm") <=
+        widest_bracket))
+    return "a bracket of its critical gap that is too wide for its bounds";
   const bool is_below =
       (kind == "all-safe" && gap <= at_least && gap <= known && margin > number_of(row, "uncertainty_K")) ||
       (kind == "value" && gap < at_least);

@@ -120,7 +120,7 @@ GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, cons
   const double from = towards ? 0.0 : critical.upper;
   const double to = towards ? (critical.kind == CriticalGapKind::value ? critical.upper : critical.lower)
                             : largest_gap(study);
-  return smallest_igniting_gap(thicker, from, to, study.tolerance);
+  return smallest_igniting_gap(thicker, from, to, bracket_width(study));
 }
 
 /// The case at the gap next to its critical one that does not ignite, or where the search ended.
@@ -196,7 +196,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
   if (outcome.completed() && outcome.evidence->validity_warnings.empty()) {
     const surface::SkinModel model = surface::skin_model(outcome.input.scene.scene);
     const surface::IgnitionOfGaps ignites(model, outcome.result.mechanics.trace);
-    outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), study.tolerance);
+    outcome.critical = find_critical_gap(std::cref(ignites), largest_gap(study), bracket_width(study));
   }
   if (GapReason reason = why_no_critical_gap(*outcome.evidence); reason.code != GapReasonCode::none)
     outcome.critical = {.reason = std::move(reason), .indicative = gap_or_bound(outcome.critical)};

@@ -148,7 +148,7 @@ OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface:
     answer.critical.lower = gaps.back();
     answer.critical.reason = {.code = GapReasonCode::none_of_gaps, .gap = gaps.back(), .gaps = gaps.size()};
   } else {
-    answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), study.tolerance);
+    answer.critical = find_critical_gap(std::cref(ignites), gaps.back(), bracket_width(study));
   }
   return answer;
 }

@@ -132,6 +132,21 @@ TEST(CriticalGapReport, WhatFollowsIgnitionUnderScaledInertiaIsIndicative) {
   }
 }
 
+// What a cause moves the critical gap by is less than a wide bracket: with 0.005 cm the shipped study had a
+// lower bound of 0.0317 cm, and with 0.0001 cm one of 0.0273 cm.
+TEST(CriticalGapReport, AWideToleranceRaisesNoLowerBound) {
+  const auto bounds_with = [](const std::string& tolerance) {
+    const std::string key = "tolerance = \"" + tolerance + "\"\n";
+    return run_critical_gap(study_of(key + study_text + synthetic_constants), synthetic_options())
+        .details.front()
+        .critical;
+  };
+  const CriticalGap fine = bounds_with("0.0001 cm"), wide = bounds_with("0.01 cm");
+  ASSERT_TRUE(std::isfinite(fine.bounds.at_least));
+  EXPECT_EQ(wide.bounds.at_least, fine.bounds.at_least);
+  EXPECT_EQ(wide.lower, fine.lower);
+}
+
 TEST(CriticalGapReport, ThePictureHasErrorBarsAndTheBandOfTheCriticalGap) {
   const CriticalGapResult result = one_case();
   const report::Plot plot = kinds::temperature_plot(result);

@@ -240,6 +240,11 @@ struct RaisedLaunch {
   double thicker = 0;                               ///< m, by which the gap is thicker
 };
 
+/// m: how wide the bracket of a critical gap by the reservoir may be at most, whatever wider one a study asks
+/// for. What causes of uncertainty change is a difference of such brackets: in wide ones it vanishes, and the
+/// lower bound rises. A gap on a trace costs little; gaps that close, a launch each, take the study's own.
+inline double bracket_width(const Study& study) { return std::min(study.tolerance, 1e-6); }
+
 /// The random causes of a case, one by one at their ends: the muzzle exit where its scene states a spread;
 /// peak pressure, length of the pulse and initial temperature where the study states no uncertainty of the
 /// inputs. The lower pressure was not run: its trace is the mirror of the raised one (trace::mirrored).
