@@ -137,6 +137,12 @@ void check_verdicts(const StudyEvidence& study) {
   if (!study.study.contains("extrapolated") || !std::ranges::all_of(verdicts, has_code))
     refuse(study, results, "an earlier program wrote these verdicts, without what they rest on as columns",
            "a study that this program made");
+  const auto is_no_verdict = [](const Row& row) {
+    const std::string word = text_of(row, "verdict");
+    return word != "SAFE" && word != "UNSAFE" && word != "INDETERMINATE";
+  };
+  if (std::ranges::any_of(verdicts, is_no_verdict))
+    refuse(study, results, "found a word that is no verdict", "SAFE, UNSAFE or INDETERMINATE");
   for (const CaseEvidence& judged : cases_of(study))
     for (const Row* verdict : judged.verdicts)
       if (text_of(*verdict, "verdict") == "SAFE")

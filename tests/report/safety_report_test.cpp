@@ -332,6 +332,15 @@ TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
   EXPECT_TRUE(has(fault_of({reservoir, closing}), "SAFE against its worst corner, for which fewer launches"));
 }
 
+// A blank behind the word made a row that reads SAFE, which nothing had checked.
+TEST_F(SafetyReport, AWordThatIsNoVerdictIsRefused) {
+  const path study = copy_of("critical_gap_155mm");
+  for (const char* word : {"SAFE ", "safe", ""}) {
+    change(study, [&](auto& results) { results["verdicts"][4]["verdict"] = word; });
+    EXPECT_TRUE(has(fault_of({study}), "found a word that is no verdict")) << word;
+  }
+}
+
 // A sweep of closing gaps looks for no worst corner: nothing is SAFE beside it alone.
 TEST_F(SafetyReport, NoGapIsSafeBesideASweepOfGapsThatCloseAlone) {
   const path reservoir = shipped("critical_gap_155mm"), sweep = shipped("closing_sweep_155mm");
