@@ -1,7 +1,7 @@
 // Cost of each material update, one particle at a time (double) and eight (Pack); items are particles.
-#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
 
 #include <benchmark/benchmark.h>

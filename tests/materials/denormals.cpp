@@ -1,7 +1,7 @@
 // No law answers a denormal argument with NaN or infinity. Runs flush denormals; studies do not.
-#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
 
 #include <gtest/gtest.h>

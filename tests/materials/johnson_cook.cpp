@@ -1,6 +1,5 @@
-#include "launchsafe/materials/steel.hpp"
-
 #include "first_of.hpp"
+#include "launchsafe/materials/steel.hpp"
 
 #include <gtest/gtest.h>
 

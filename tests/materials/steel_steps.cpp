@@ -1,7 +1,7 @@
 // Steel on a smooth path that turns in strain space: strength and pressure converge with the step. That the
 // charge does is in visco_scram.cpp, extreme_states.cpp and tests/error_of_parts.
-#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/steel.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,10 +6,10 @@
 // it ever changes: the test holds the file to the digest of the version that it names.
 
 #include "launchsafe/materials/ideal_gas.hpp"
-#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/kinetics.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
+#include "launchsafe/materials/steel.hpp"
 #include "launchsafe/materials/visco_scram.hpp"
 #include "launchsafe/materials/vlw.hpp"
 #include "launchsafe/run/run_case.hpp"
