@@ -70,7 +70,7 @@ std::string fact_text(const Row& fact) {
 }
 
 /// Facts by name, those that were pushed last first; behind bars in forms: "margin_K|down 1", where the
-/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger, "is 1"
+/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger (than a fact too), "is 1"
 /// where a number or a word is that one, "measured error_K" tells a number with that error, and "counted
 /// case" is "2 cases"; of a text "words" has blanks between them and "first 12" is its beginning; of a list
 /// "list 4" are its first texts, "joined" and "and" all of them, "some" is there where it has any, "any
@@ -144,7 +144,7 @@ class Facts : public mustache::basic_context<std::string> {
     } else if (form == "measured") {
       made = with_error(fact.get<double>(), stated.is_number() ? stated.get<double>() : 0.0);
     } else if (form == "over") {
-      made = fact.is_number() && fact.get<double>() > number;
+      made = fact.is_number() && fact.get<double>() > std::atof(digits.c_str());
     } else if (fact.is_number()) {
       made = digits_of(fact.get<double>(), form, number);
     }

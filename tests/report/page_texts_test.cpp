@@ -42,6 +42,13 @@ TEST(PageTexts, TellOneFromMany) {
   EXPECT_EQ(said_by(file, "cases", {{"cases", 3}}).front(), "3 other cases are");
 }
 
+// 526.8 is not over 526.9, which its whole part is not to hide.
+TEST(PageTexts, TellWhetherANumberIsOverAnotherFact) {
+  const std::string file = "@hot\n{{#hot_K|over limit_K}}over{{/hot_K|over limit_K}}\n";
+  EXPECT_EQ(said_by(file, "hot", {{"hot_K", 526.8}, {"limit_K", 526.7}}), std::vector<std::string>{"over"});
+  EXPECT_EQ(said_by(file, "hot", {{"hot_K", 526.8}, {"limit_K", 526.9}}), std::vector<std::string>{});
+}
+
 TEST(PageTexts, TellHowManyRowsHaveSomething) {
   const Row facts{{"rows",
                    {{{"verdict", "SAFE"}, {"warning", ""}, {"fault", nullptr}},

@@ -31,10 +31,10 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   const path study = copy_of("critical_gap_155mm");
   change(study, add_case);
   const std::string page = file_of({study}, "report.md");
-  EXPECT_TRUE(has(page, "Only this launch is covered: cracks of")) << "one of the two";
+  EXPECT_TRUE(has(page, "Only this launch is covered, with the spreads of section 2: cracks of")) << "one of the two";
   EXPECT_TRUE(has(page, "The smallest critical gap found in 2 cases is 0.038"));
   EXPECT_TRUE(has(page, "In 1 of them no gap is safe"));
-  EXPECT_TRUE(has(page, "no computed gap has the verdict SAFE in every case"));
+  EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE in every case"));
   EXPECT_TRUE(has(file_of({study, shipped("closing_gap_155mm")}, "report.md"),
                   "what title and colours call SAFE is so only where the table says so too"))
       << "the picture of several cases is that of the study";
