@@ -56,7 +56,7 @@ foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)
 endforeach()
 install(DIRECTORY src/report/templates DESTINATION "${data_dir}/src/report" COMPONENT program)
-install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION "${data_dir}" COMPONENT program)
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION "${data_dir}" COMPONENT program)
 install(FILES LICENSE CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT program)
 

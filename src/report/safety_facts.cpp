@@ -77,7 +77,6 @@ Row scene_facts(const StudyEvidence& study) {
   const scene::Scene& scene = study.scene.scene;
   const auto& strength = scene.charge().strength;
   Row facts{{"title", scene.title},
-            {"launch", scene::launch_sentence(scene)},
             {"end", scene::end_text(scene)},
             {"exit", scene::exit_text(scene)},
             {"peak_MPa", in(megapascal, own_value(study, "load.peak"))},
