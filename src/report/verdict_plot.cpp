@@ -70,7 +70,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   Series corner = points_of(verdicts, "temperature_max_corner_K", {.colour = purple, .mark = Mark::diamond});
   const bool corner_ignites =
       std::ranges::any_of(corner.y, [&](double temperature) { return temperature > ignition; });
-  corner.label = fmt::format("worst corner where it closes{}", corner_ignites ? ": ignites, hotter than shown" : "");
+  corner.label = fmt::format("closing, worst corner{}", corner_ignites ? ": ignites, hotter" : "");
   const bool closes = scene.surface.model == scene::GapModel::closing;
   const std::string by_whose_air = closes ? "" : " by a reservoir of air";
   const bool is_green =
@@ -81,7 +81,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 400};
+            .height = 370};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
   for (Series& series : std::array{

@@ -61,7 +61,7 @@ TEST(VerdictPlot, IsOfTheVerdictsThatWereHeldAgainstAGapThatCloses) {
   const Plot plot = verdict_plot(rows, scene_of_300K());
   EXPECT_TRUE(plot.title.starts_with("No computed gap is SAFE; critical gap by a reservoir of air 0.030"));
   EXPECT_EQ(named(plot, "SAFE"), nullptr);
-  EXPECT_NE(named(plot, "worst corner where it closes: ignites, hotter than shown"), nullptr);
+  EXPECT_NE(named(plot, "closing, worst corner: ignites, hotter"), nullptr);
 }
 
 TEST(VerdictPlot, IsNotGreenWhereSomethingIsAcceptedOrInvented) {
