@@ -92,18 +92,24 @@ Quantities<AnsweredCase> run_quantities(const Study& study) {
          [](const AnsweredCase& row) { return report::limiters_text(row.answer->run.limiters); }}}});
 }
 
-/// "SAFE 0.05, INDET. 0.08, UNSAFE 0.12": the largest gap (cm) of every row of equal verdicts.
+/// "SAFE to 0.05, INDET. to 0.08, UNSAFE from 0.1": the largest gap (cm) of every row of equal verdicts, of
+/// UNSAFE ones the smallest.
 std::string verdict_ranges(const std::vector<GapVerdict>& verdicts) {
   std::map<double, Verdict> by_gap;
   for (const GapVerdict& each : verdicts) by_gap[each.gap] = each.judgement.verdict;
-  std::string text;
+  std::vector<std::string> ranges;
+  double begin = not_a_number;
   for (auto each = by_gap.begin(); each != by_gap.end(); ++each) {
-    if (const auto next = std::next(each); next != by_gap.end() && next->second == each->second) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
-                        each->second == Verdict::indeterminate ? "INDET." : study::to_string(each->second),
-                        digits_of(each->first, quantity::gap.form));
+    const auto [gap, verdict] = *each;
+    if (std::isnan(begin)) begin = gap;
+    if (const auto next = std::next(each); next != by_gap.end() && next->second == verdict) continue;
+    const bool ignites = verdict == Verdict::unsafe;
+    ranges.push_back(
+        fmt::format("{} {} {}", verdict == Verdict::indeterminate ? "INDET." : to_string(verdict),
+                    ignites ? "from" : "to", digits_of(ignites ? begin : gap, quantity::gap.form)));
+    begin = not_a_number;
   }
-  return text;
+  return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
 const Column largest_safe_gap =
@@ -123,7 +129,7 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
        of_part<JudgedCase>(report::bounded_gap_quantities(), &AnsweredCase::answer, &CaseAnswer::critical),
        {{largest_safe_gap, &AnsweredCase::answer, &CaseAnswer::verdicts, study::largest_safe_gap}},
        in_detail ? confirmed
-                 : Quantities<JudgedCase>{{for_people(Column{"verdicts", "verdicts up to [cm]", text(),
+                 : Quantities<JudgedCase>{{for_people(Column{"verdicts", "verdicts [cm]", text(),
                                                              "Up to which gap a verdict holds."}),
                                            &AnsweredCase::answer, &CaseAnswer::verdicts, verdict_ranges}},
        closes && !in_detail ? of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer)

@@ -118,7 +118,8 @@ struct Sections {
     return verdict == "SAFE" && accepted ? "ACCEPTED" : verdict;
   }
 
-  /// Of a table without columns all that its rows have. Pages leave a column out that is empty.
+  /// Of a table without columns all that its rows have. Pages leave a column out that is empty, or says the
+  /// same sentence in all rows, which then stands above them.
   void add_table(const PageText& text, const std::vector<const Row*>& rows) {
     if (rows.empty()) return;
     std::vector<TextColumn> columns = text.columns;
@@ -136,7 +137,12 @@ struct Sections {
         cells.push_back(fill(column.cell, *row));
         is_number = is_number || found_in(*row, column.key).is_number();
       }
-      const bool is_empty = std::ranges::all_of(cells, &std::string::empty);
+      const bool is_one_sentence = cells.size() > 1 && cells.front().size() >= shortest_shared_sentence &&
+                                   std::ranges::count(cells, cells.front()) == std::ssize(cells);
+      if (is_one_sentence)
+        block["heading"] = text_of(block, "heading") + ". " +
+                           words("in_all_rows", {{"heading", heading}, {"text", cells.front()}});
+      const bool is_empty = is_one_sentence || std::ranges::all_of(cells, &std::string::empty);
       block["columns"].push_back(
           {{"key", column.key}, {"name", heading}, {"number", is_number}, {"empty", is_empty}});
       for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -317,6 +317,10 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_model
   if (!with_models || text_of(row, "verdict") == "UNSAFE") row.erase("model_form");
   for (const char* clause : {"limited", "noise", "ring", "model_form"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
+  // These tell what is extrapolated themselves.
+  if (const std::string reason = text_of(row, "reason_code");
+      reason == "validity-warning" || reason == "unaccepted")
+    row.erase("extrapolated");
   for (const char* clause : {"extrapolated", "accepted"})
     if (!text_of(row, clause).empty()) row["beside"].push_back(clause);
   return row;

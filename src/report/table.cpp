@@ -174,16 +174,33 @@ std::string cell_text(const Cell& cell, const Column& column) {
   return {};
 }
 
-/// What people read: the cells as text, the headings first.
+/// What people read: the cells as text, the headings first, and below it what all rows say alike.
 struct Grid {
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> lines;
+  std::vector<std::string> below;
 };
+
+/// The sentence that a column has in all rows, of which there are several; empty of one with short cells.
+std::string said_in_all(const Table& table, std::size_t place) {
+  if (table.rows.size() < 2 || !is_text(table.columns[place])) return {};
+  const auto text_in = [&](const auto& row) { return cell_text(row[place], table.columns[place]); };
+  const std::string text = text_in(table.rows.front());
+  const bool everywhere =
+      std::ranges::all_of(table.rows, [&](const auto& row) { return text_in(row) == text; });
+  return everywhere && text.size() >= shortest_shared_sentence ? text : std::string{};
+}
 
 template <class Escape>
 Grid grid_of(const Table& table, Escape escape) {
-  Grid grid{{}, std::vector<std::vector<std::string>>(1)};
-  const std::vector<std::size_t> places = places_for(table, Audience::people);
+  Grid grid{.lines = std::vector<std::vector<std::string>>(1)};
+  std::vector<std::size_t> places = places_for(table, Audience::people);
+  std::erase_if(places, [&](std::size_t place) {
+    const std::string said = said_in_all(table, place);
+    if (!said.empty())
+      grid.below.push_back(escape(fmt::format("{}, in all rows: {}", table.columns[place].label(), said)));
+    return !said.empty();
+  });
   for (const std::size_t place : places) {
     grid.columns.push_back(table.columns[place]);
     grid.lines.front().push_back(escape(table.columns[place].label()));
@@ -244,7 +261,7 @@ std::string lines_of(const Grid& grid, const Frame& frame) {
 
 /// The columns of these places.
 Grid part_of(const Grid& grid, const std::vector<std::size_t>& places) {
-  Grid part{{}, std::vector<std::vector<std::string>>(grid.lines.size())};
+  Grid part{.lines = std::vector<std::vector<std::string>>(grid.lines.size())};
   for (const std::size_t place : places) {
     part.columns.push_back(grid.columns[place]);
     for (std::size_t i = 0; i < grid.lines.size(); ++i) part.lines[i].push_back(grid.lines[i][place]);
@@ -356,7 +373,9 @@ std::string to_text(const Table& table, std::size_t width) {
   const Grid grid = grid_of(table, on_one_line);
   std::string text = table.title.empty() ? "" : table.title + "\n\n";
   text += text_parts(grid, width);
-  for (std::size_t i = 0; i < table.notes.size(); ++i) text += (i == 0 ? "\n" : "") + table.notes[i] + "\n";
+  std::vector<std::string> notes = grid.below;
+  notes.insert(notes.end(), table.notes.begin(), table.notes.end());
+  for (std::size_t i = 0; i < notes.size(); ++i) text += (i == 0 ? "\n" : "") + notes[i] + "\n";
   return text;
 }
 
@@ -364,6 +383,7 @@ std::string to_markdown(const Table& table) {
   const Grid grid = grid_of(table, markdown_escaped);
   std::string text = table.title.empty() ? "" : "**" + markdown_escaped(table.title) + "**\n\n";
   text += lines_of(grid, markdown_frame);
+  for (const std::string& note : grid.below) text += "\n" + note + "\n";
   for (const std::string& note : table.notes) text += "\n" + markdown_escaped(note) + "\n";
   return text;
 }

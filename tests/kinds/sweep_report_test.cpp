@@ -118,16 +118,16 @@ TEST(SweepReport, AFailedCaseHasItsReasonAndNoNumbers) {
 
 TEST(SweepReport, EveryCaseSaysUpToWhichGapAVerdictHolds) {
   const Table table = critical_gap_table(made_sweep());
-  EXPECT_EQ(shown_text(cell(table, 16, "verdicts")), "INDET. 0.04");
-  EXPECT_EQ(shown_text(cell(table, 0, "verdicts")), "SAFE 0.04");
-  EXPECT_EQ(shown_text(cell(table, 35, "verdicts")), "UNSAFE 0.04");
+  EXPECT_EQ(shown_text(cell(table, 16, "verdicts")), "INDET. to 0.04");
+  EXPECT_EQ(shown_text(cell(table, 0, "verdicts")), "SAFE to 0.04");
+  EXPECT_EQ(shown_text(cell(table, 35, "verdicts")), "UNSAFE from 0");
   CriticalGapResult mixed = made_sweep();
   for (std::size_t i = 0; i < mixed.answers[0].verdicts.size(); ++i)
     mixed.answers[0].verdicts[i].judgement.verdict = i == 0   ? Verdict::safe
                                                      : i == 2 ? Verdict::unsafe
                                                               : Verdict::indeterminate;
   EXPECT_EQ(shown_text(cell(critical_gap_table(mixed), 0, "verdicts")),
-            "SAFE 0, INDET. 0.01, UNSAFE 0.02, INDET. 0.04");
+            "SAFE to 0, INDET. to 0.01, UNSAFE from 0.02, INDET. to 0.04");
 }
 
 TEST(SweepReport, TheLongTableHasARowForEveryGap) {

@@ -92,6 +92,22 @@ TEST(Table, NotesStandUnderIt) {
   EXPECT_TRUE(to_markdown(table).ends_with("|\n\nOne row was calibrated.\n\nTwo were not.\n"));
 }
 
+// A reason that all rows share is read once, below them; files have it in every row.
+TEST(Table, ASentenceThatAllRowsShareStandsOnceBelowIt) {
+  const std::string sentence =
+      "extrapolated: the constants were calibrated on another launch, and it is long";
+  Table table{
+      "", {{"gap", "gap", keys::fixed(1, centimetre)}, {"reason", "reason"}}, {{0.1, sentence}}, {"A note."}};
+  EXPECT_NE(to_text(table).find("0.1  extrapolated"), std::string::npos) << "one row is no repetition";
+  table.rows.push_back({0.2, sentence});
+  EXPECT_EQ(to_text(table),
+            "gap [cm]\n--------\n     0.1\n     0.2\n\nreason, in all rows: " + sentence + "\nA note.\n");
+  EXPECT_NE(to_markdown(table).find("\n\nreason, in all rows: " + sentence), std::string::npos);
+  EXPECT_NE(to_csv(table).find("0.2," + std::string("\"") + sentence), std::string::npos);
+  table.rows.push_back({0.3, std::string("another")});
+  EXPECT_EQ(to_text(table).find("in all rows"), std::string::npos);
+}
+
 TEST(Table, MarkdownHasItsRuleAndAlignment) {
   EXPECT_EQ(to_markdown(verdicts()),
             "**Verdicts**\n"

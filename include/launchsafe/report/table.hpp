@@ -28,6 +28,9 @@ double round_distance(double least);
 /// A duration in seconds for people: "0.3 s", "42 s", "3 min 05 s", "2 h 14 min", "3 d 04 h".
 std::string duration(double seconds);
 
+/// Bytes of the shortest text that, where it is the same in all rows of a table, is said once beside them.
+constexpr std::size_t shortest_shared_sentence = 60;
+
 /// "1 case", "3 cases".
 std::string counted(std::int64_t count, std::string_view noun);
 
