@@ -97,7 +97,8 @@ class StudyWatch {
     if (snapshots.empty()) return;
     const std::time_t now = std::time(nullptr);
     const auto facts = report::status_facts(store_.folder().filename().string(), snapshots, now);
-    std::vector<std::string> linked{"report.html", "report.md", "ask.html"};
+    std::vector<std::string> linked{"report.html",       "report.md",       "ask.html",        "verdicts.csv",
+                                    "critical_gaps.csv", "temperature.svg", "critical_gap.svg"};
     std::error_code failed;
     std::erase_if(linked, [&](const std::string& name) {
       return !std::filesystem::exists(store_.folder() / name, failed);
