@@ -185,7 +185,10 @@ std::vector<Check> all_checks() {
   // What is known to a digit has half of that digit and a hair for its tolerance.
   return {
       {"steel", "Hugoniot pressure at mu = 0.01", 1.705489, 5.01e-7, "GPa", "Eq. 19 with s - 1",
-       [] { return hugoniot_pressure(MieGruneisenParameters{}, 0.01) / 1e9; }},
+       // A shock does half the pressure times the change of volume, which is one step from rest.
+       [] {
+         return mie_gruneisen_compress(MieGruneisenParameters{}, 0.0, 0.0, 0.0, 0.01, 0.0).pressure / 1e9;
+       }},
       {"steel", "flow stress at a strain of 1 and 1000/s", 1427.9146, 5.01e-5, "MPa",
        "Johnson-Cook: 1302 (1 + 0.014 ln 1000)",
        [] { return johnson_cook_flow_stress(JohnsonCookParameters{}, 1.0, 1000.0, 298.0) / 1e6; }},

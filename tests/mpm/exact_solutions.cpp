@@ -1,7 +1,7 @@
 #include "exact_solutions.hpp"
 
-#include "launchsafe/materials/mie_gruneisen.hpp"
 #include "launchsafe/mpm/conduction.hpp"
+#include "support/mie_gruneisen_pressure.hpp"
 
 #include <algorithm>
 
@@ -88,7 +88,7 @@ double bulk_modulus(const scene::Steel& steel) {
 }
 
 double compress(mpm::Simulation& simulation, double mu) {
-  const double pressure = materials::mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
+  const double pressure = mie_gruneisen_pressure(simulation.scene().steel().eos, mu, 0.0);
   for (mpm::Body<materials::Steel>& body : simulation.bodies_of<materials::Steel>()) {
     mpm::ParticleFields& p = body.particles;
     for (std::size_t i = 0; i < p.mass.size(); ++i) {

@@ -2,8 +2,8 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include "exact_solutions.hpp"
-#include "launchsafe/materials/mie_gruneisen.hpp"
 #include "scenes.hpp"
+#include "support/mie_gruneisen_pressure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,8 @@ TEST(PatchTest, PressureOnTheBaseBalancesUniformStress) {
   for (const scene::Scene& bar : patches()) {
     const double mu = 1e-3;
     scene::Scene loaded = bar;
-    loaded.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(bar.steel().eos, mu, 0.0));
+    loaded.load =
+        test_support::steady_pressure(test_support::mie_gruneisen_pressure(bar.steel().eos, mu, 0.0));
     mpm::Simulation simulation(loaded);
     test_support::compress(simulation, mu);
     const double dt = 1e-12;
@@ -68,7 +69,8 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       ring.frame = scene::Frame::lab;
       ring.numerics.formulation = scene::Formulation::updated_lagrangian;
       const double mu = 1e-3;
-      ring.load = test_support::steady_pressure(materials::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
+      ring.load =
+          test_support::steady_pressure(test_support::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
       mpm::Simulation simulation(ring);
       simulation.apply_bore_pressure(0, test_support::compress(simulation, mu));
       const double dt = 1e-12;
