@@ -202,14 +202,6 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   return best;
 }
 
-ProcessLikelihood process_likelihood(const GaussianProcess& process, const std::vector<double>& points,
-                                     const std::vector<double>& values) {
-  const Rows at = coordinates_of(process.inputs, points);
-  const Kriging of = kriging_of(process, at, Eigen::Map<const Vector>(values.data(), at.rows()));
-  const Vector gradient = slope_of(process, at, of).gradient;
-  return {of.likelihood, {gradient.begin(), gradient.end()}};
-}
-
 FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>& points,
                              const std::vector<double>& values)
     : process_(std::move(process)) {
@@ -223,19 +215,19 @@ FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>&
     form_.matrix.assign(functions * functions, form_.offset);
     return;
   }
-  variance_ = of.variance;
+  double left_out_variance = 0.0;  // mean, as a share of that of the deviations
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
     left_out_errors_.push_back(of.contrasted(i) / of.contrast(i, i));
-    left_out_variance_ += 1.0 / (of.contrast(i, i) * static_cast<double>(at.rows()));
+    left_out_variance += 1.0 / (of.contrast(i, i) * static_cast<double>(at.rows()));
   }
   const Vector line = of.line * Eigen::Map<const Vector>(values.data(), at.rows());
   form_.weights.assign(of.contrasted.begin(), of.contrasted.end());
   form_.weights.insert(form_.weights.end(), line.begin(), line.end());
   Matrix whole(at.rows() + line.size(), at.rows() + line.size());
   whole << -of.contrast, -of.line.transpose(), -of.line, of.line_inverse;
-  whole /= left_out_variance_;
+  whole /= left_out_variance;
   form_.matrix.assign(whole.data(), whole.data() + whole.size());
-  form_.offset = (1.0 + process_.nugget) / left_out_variance_;
+  form_.offset = (1.0 + process_.nugget) / left_out_variance;
 }
 
 std::vector<double> FittedProcess::functions_at(const std::vector<double>& point) const {
@@ -251,9 +243,5 @@ std::vector<double> FittedProcess::functions_at(const std::vector<double>& point
 }
 
 FitValue FittedProcess::at(const std::vector<double>& point) const { return form_.at(functions_at(point)); }
-
-double FittedProcess::variance_at(const std::vector<double>& point) const {
-  return variance_ * (at(point).leverage * left_out_variance_ - process_.nugget);
-}
 
 }  // namespace launchsafe::math

@@ -122,15 +122,6 @@ inline constexpr std::size_t most_process_points = 256;
 GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                             const std::vector<double>& values);
 
-/// The logarithm of that likelihood with the best variance of the deviations, but for a constant, and its
-/// derivatives by the logarithms of the lengths and of the nugget.
-struct ProcessLikelihood {
-  double value = 0;
-  std::vector<double> derivatives;
-};
-ProcessLikelihood process_likelihood(const GaussianProcess& process, const std::vector<double>& points,
-                                     const std::vector<double>& values);
-
 /// A process with the points that it was fitted to and their values, all finite. Predicts NaN where they
 /// leave the line open.
 class FittedProcess {
@@ -139,11 +130,9 @@ class FittedProcess {
                 const std::vector<double>& values);
 
   /// The leverage is the variance of an evaluation there, over the mean of those that the points have when
-  /// they are predicted from all others.
+  /// they are predicted from all others: universal kriging (Rasmussen & Williams, Gaussian Processes for
+  /// Machine Learning (2006), eq. 2.42).
   FitValue at(const std::vector<double>& point) const;
-  /// Variance of the output there without the nugget; the output's unit squared. Universal kriging (Rasmussen
-  /// & Williams, Gaussian Processes for Machine Learning (2006), eq. 2.42).
-  double variance_at(const std::vector<double>& point) const;
   /// What the points are above the prediction from all others, by Dubrule's formula (Math. Geol. 15 (1983)
   /// 687); the output's unit.
   const std::vector<double>& left_out_errors() const { return left_out_errors_; }
@@ -157,8 +146,6 @@ class FittedProcess {
 
   GaussianProcess process_;
   std::vector<double> coordinates_, left_out_errors_;
-  double variance_ = 0;           ///< of the deviations
-  double left_out_variance_ = 0;  ///< mean, as a share of that
   FittedForm form_;
 };
 
