@@ -199,7 +199,10 @@ std::vector<Check> all_checks() {
        "the literature's E0; D and P_CJ are rounded to three digits",
        [] { return chapman_jouguet_initial_energy(composition_b_products(), 7980.0, 29.5e9) / 1e9; }},
       {"virial gas", "Z of N2 at 1500 K, 50 cm3/mol", 2.07576984, 5.01e-9, "",
-       "Eq. 37 corrected, three terms", [] { return virial_compressibility(nitrogen(), 1500.0, 50e-6); }},
+       "Eq. 37 corrected, three terms",  // of 1 mol in a kg
+       [] {
+         return ProductGas({{nitrogen(), 1.0}}, 1780.0).at(1500.0, 50e-6).compressibility;
+       }},
       {"relaxation", "modulus after 10 us in 1000 steps", 1.356785, 5.01e-7, "GPa", "sum G_n exp(-t/tau_n)",
        [] { return relaxation_modulus(1e-5, 1000) / 1e9; }},
       {"cracks", "growth speed at K = 5e5", 20.09388, 5.01e-6, "m/s",

@@ -169,14 +169,6 @@ TEST(VirialGas, DiluteGasIsIdeal) {
   EXPECT_NEAR(state.compressibility, 1.0, 1e-4);
 }
 
-TEST(VirialGas, FurtherTermsFollowTheSeries) {
-  // x = b0/V = 0.6378 for N2 at 100 cm3/mol; the fourth term is B*/T*^(1/4) x^3/2^4.
-  const double t = 800.0 / 95.05, b = reduced_second_virial(t), x = 0.6378;
-  EXPECT_NEAR(virial_compressibility(nitrogen(), 800.0, 100e-6, 4) -
-                  virial_compressibility(nitrogen(), 800.0, 100e-6),
-              b / std::pow(t, 0.25) * x * x * x / 16.0, 1e-14);
-}
-
 TEST(VirialGas, PressureThatFallsOnCompressionIsAReportedLimit) {
   // The products at 300 K: Z is still 0.075 at 300 kg/m3, but the pressure is below that at 100 kg/m3.
   const ProductGas products(composition_b_gas(), 1780.0);
@@ -185,21 +177,6 @@ TEST(VirialGas, PressureThatFallsOnCompressionIsAReportedLimit) {
   EXPECT_GT(dense.compressibility, 0.0);
   EXPECT_LT(dense.compressibility * 300.0, thin.compressibility * 100.0);
   EXPECT_FALSE(dense.valid);
-}
-
-TEST(VirialGas, MixtureIsLinearInTheMoleFractions) {
-  const double density = 300.0, temperature = 2500.0;
-  const auto gases = composition_b_gas();
-  double amount = 0.0, expected = 0.0;
-  for (const auto& gas : gases) amount += gas.amount;
-  EXPECT_NEAR(amount, 30.447, 1e-12);  // mol per kg
-  for (const auto& gas : gases) {
-    expected +=
-        gas.amount / amount * virial_compressibility(gas.potential, temperature, 1.0 / (density * amount));
-  }
-  const GasState state = ProductGas(gases, 1780.0).at(temperature, 1.0 / density);
-  EXPECT_NEAR(state.compressibility, expected, 1e-11);
-  EXPECT_NEAR(state.pressure, expected * gas_constant * temperature * density * amount, 1.0);
 }
 
 TEST(ReactionDegree, RisesLinearlyBetweenItsTemperatures) {

@@ -44,9 +44,10 @@ TEST(VirialGas, HasTheStatedCoefficientsAndCompressibilities) {
   EXPECT_NEAR(reduced_second_virial(2.0), -0.627625288, digits(1e-9));
   EXPECT_NEAR(reduced_second_virial(5.0), 0.243343503, digits(1e-9));
   EXPECT_NEAR(reduced_second_virial(20.0), 0.525374204, digits(1e-9));
-  // Eq. 37 corrected, three terms.
-  EXPECT_NEAR(virial_compressibility(nitrogen(), 800.0, 100e-6), 1.37323443, digits(1e-8));
-  EXPECT_NEAR(virial_compressibility(nitrogen(), 1500.0, 50e-6), 2.07576984, digits(1e-8));
+  // Eq. 37 corrected, three terms, of 1 mol in a kg.
+  const ProductGas gas({{nitrogen(), 1.0}}, 1780.0);
+  EXPECT_NEAR(gas.at(800.0, 100e-6).compressibility, 1.37323443, digits(1e-8));
+  EXPECT_NEAR(gas.at(1500.0, 50e-6).compressibility, 2.07576984, digits(1e-8));
 }
 
 TEST(MieGruneisen, HasTheStatedHugoniot) {
