@@ -99,8 +99,6 @@ double Simulation::stable_time_step() const {
   return with(form_, [](const auto& form) { return form.stable_time_step(); });
 }
 
-double Simulation::frame_acceleration(double time) const { return acceleration_under(load_.at(time)); }
-
 double Simulation::acceleration_under(double pressure) const {
   return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
 }
@@ -177,18 +175,6 @@ double Simulation::change_of_bulk(const BulkMotion& bulk, const StepInput& step)
       (step.share_beyond(step.kick) * gained + step.share_beyond(step.kick_before) * bulk_gained_before_);
   bulk_gained_before_ = gained;
   return change;
-}
-
-double Simulation::kinetic_energy() const {
-  double total = 0.0;
-  for_each_body([&](const ParticleFields& p) {
-    double body = 0.0;
-    for (std::size_t i = 0; i < p.mass.size(); ++i)
-      body += 0.5 * (p.inertia_x[i] * p.velocity_x[i] * p.velocity_x[i] +
-                     p.inertia_r[i] * p.velocity_r[i] * p.velocity_r[i]);
-    total += body;
-  });
-  return total;
 }
 
 double Simulation::axial_momentum() const {

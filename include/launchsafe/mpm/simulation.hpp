@@ -55,13 +55,9 @@ class Simulation {
   double time() const { return time_; }
   const scene::Scene& scene() const { return scene_; }
   double chamber_pressure() const { return pressure_; }  ///< Pa
-  /// Acceleration (m/s2) of the co-moving frame at a time; 0 in the lab frame.
-  double frame_acceleration(double time) const;
   /// The balance at the begin of the last step, where all its parts are known at one time.
   const EnergyTotals& energy() const { return balance_; }
   const EventCounts& events() const { return events_; }
-  /// Kinetic energy of the particles relative to the frame with scaled inertia, J per radian or metre.
-  double kinetic_energy() const;
   /// Axial momentum relative to the frame, kg m/s per radian or metre, with the inertial factors that are not
   /// common to all: what no forces between particles change.
   double axial_momentum() const;
