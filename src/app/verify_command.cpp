@@ -78,15 +78,18 @@ void run_to(mpm::Simulation& simulation, double end, const std::function<void()>
   }
 }
 
-/// Rise (K) 10 µm deep in a half space of charge whose face is 1 K hotter for 1 ms.
+/// Rise (K) 10 µm deep in a half space of charge after 1 ms beside one that is 2 K hotter, so that the face
+/// between them is 1 K hotter.
 double conducted_rise() {
-  scene::Scene strip = block("charge", 1e-4, 0.5e-6, 0.5e-6);
+  constexpr double depth = 1e-4;
+  scene::Scene strip = block("charge", 2.0 * depth, 0.5e-6, 0.5e-6);
   strip.symmetry = scene::Symmetry::plane_strain;
   mpm::Simulation simulation(strip);
   mpm::Conduction conduction(simulation);
-  conduction.hold_base(strip.initial_temperature + 1.0);
+  mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
+  for (std::size_t i = 0; i < p.x.size(); ++i)
+    if (p.x[i] > depth) p.temperature[i] += 2.0;
   for (int step = 0; step < 1000; ++step) conduction.advance(simulation, 1e-6);
-  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const auto rise = [&](int i) { return p.temperature[p.lattice.slot(i, 0)] - strip.initial_temperature; };
   return 0.5 * (rise(179) + rise(180));
 }

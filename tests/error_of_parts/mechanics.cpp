@@ -120,7 +120,8 @@ std::vector<Setting> conduction_by_cell() {
 }  // namespace
 
 std::vector<ErrorSeries> mechanics_series() {
-  const std::string strip = "1 ms of a strip of 0.1 mm", half_space = "erfc of the half space, relative L2";
+  const std::string strip = "1 ms of two strips of 0.1 mm",
+                    half_space = "erfc of the half space, relative L2";
   const char* const pulse = "a pulse over 0.9 m of a strip";
   const char* const leapfrog = "uGIMP on smooth fields and the leapfrog are of second order";
   const char* const reproduced = "exact at any mesh: linear fields are reproduced";

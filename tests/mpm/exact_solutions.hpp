@@ -58,10 +58,11 @@ struct WaveError {
 };
 WaveError longitudinal_error(scene::Formulation formulation, int cells);
 
-/// Relative error of the temperature rise in a half space of charge whose face is held 1 K hotter, after
-/// 1 ms, in cells of `cell` (m) and so many equal steps: a strip of 0.1 mm, eleven diffusion lengths.
+/// Relative error of the temperature rise in a half space of charge whose face is 1 K hotter, as it meets
+/// another one that is 2 K hotter, after 1 ms, in cells of `cell` (m) and so many equal steps: strips of 0.1
+/// mm, eleven diffusion lengths.
 double half_space_error(double cell, int steps);
-inline constexpr double half_space_duration = 1e-3;  // s
+inline constexpr double half_space_duration = 1e-3, half_space_depth = 1e-4;  // s, m
 scene::Scene half_space(double cell);
 
 /// Changes of a block that flies freely under a uniform stress in balance: all 0 in exact arithmetic.
