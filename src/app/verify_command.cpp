@@ -25,9 +25,11 @@ double relaxation_modulus(double time, int steps) {
   constexpr double strain = 1e-4;
   for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
     state.elements[n].rx = 2.0 * solid.shear_moduli[n] * strain;
-  const auto step = materials::relaxation(solid, time / steps);
-  for (int k = 0; k < steps; ++k) materials::visco_scram_update<double>(solid, step, state, {}, 0.0);
-  return materials::total_deviator(state).rx / (2.0 * strain);
+  materials::ViscoScramStep law(solid);
+  law.set_step(time / steps);
+  auto now = law.state_of(state);
+  for (int k = 0; k < steps; ++k) now = law.update<double>(now, {}, 0.0).state;
+  return deviator_of(now.total).rx / (2.0 * strain);
 }
 
 // ---- the skin ----
