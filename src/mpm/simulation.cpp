@@ -1,7 +1,5 @@
 #include "launchsafe/mpm/simulation.hpp"
 
-#include <numeric>
-
 namespace launchsafe::mpm {
 namespace {
 
@@ -48,7 +46,6 @@ void Simulation::continue_from(const Simulation& other) {
         },
         bodies_[i]);
   std::get<TotalLagrangian>(form_).continue_from(std::get<TotalLagrangian>(other.form_));
-  body_force_on_bodies_ = other.body_force_on_bodies_;
   time_ = other.time_;
   pressure_ = load_.at(time_);
   energy_ = other.energy_;
@@ -83,16 +80,6 @@ bool Simulation::within_gas_law() const {
   bool within = true;
   for_each_body([&](const ParticleFields& p) { within = within && (!p.burning || p.burning->valid()); });
   return within;
-}
-
-void Simulation::apply_bore_pressure(int body, double pressure) {
-  with(form_, [&](auto& form) { form.apply_bore_pressure({body, pressure}); });
-}
-
-void Simulation::apply_body_force(int body, double acceleration_x, double acceleration_r) {
-  const ParticleFields& p = particle_fields_of(bodies_[static_cast<std::size_t>(body)]);
-  body_force_on_bodies_ += acceleration_x * std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
-  std::get<TotalLagrangian>(form_).apply_body_force({body, acceleration_x, acceleration_r});
 }
 
 double Simulation::stable_time_step() const {
@@ -143,8 +130,7 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
   const bool lab = scene_.frame == scene::Frame::lab;
   const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
-  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt + totals.bore_work;
-  energy_.external += totals.body_force_work - body_force_on_bodies_ * bulk_velocity * dt;
+  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt;
   energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);

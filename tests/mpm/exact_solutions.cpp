@@ -107,11 +107,14 @@ double compress(mpm::Simulation& simulation, double mu) {
   return pressure;
 }
 
-double run_to(mpm::Simulation& simulation, double end) {
+double run_to(mpm::Simulation& simulation, double end, const std::function<void()>& before_step) {
   const double span = end - simulation.time();
   const double steps = std::ceil(span / simulation.stable_time_step());
   const double dt = span / steps;
-  for (double step = 0.0; step < steps; step += 1.0) simulation.step(dt);
+  for (double step = 0.0; step < steps; step += 1.0) {
+    if (before_step) before_step();
+    simulation.step(dt);
+  }
   return dt;
 }
 

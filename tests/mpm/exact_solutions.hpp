@@ -4,6 +4,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace launchsafe::test_support {
@@ -28,7 +29,7 @@ double bulk_modulus(const scene::Steel& steel);
 /// still tile the body. Returns the pressure (Pa).
 double compress(mpm::Simulation& simulation, double mu);
 /// Runs to `end` (s) in equal steps no longer than the stable one at rest; returns the step (s).
-double run_to(mpm::Simulation& simulation, double end);
+double run_to(mpm::Simulation& simulation, double end, const std::function<void()>& before_step = {});
 /// Speed (m/s) towards the nose of a pulse between two times (s) at which it is whole and inside: of the
 /// centre of its momentum. Runs to `end`.
 double speed_of_pulse(mpm::Simulation& simulation, double begin, double end);

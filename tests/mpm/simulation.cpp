@@ -2,6 +2,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include "exact_solutions.hpp"
+#include "loads.hpp"
 #include "scenes.hpp"
 #include "support/mie_gruneisen_pressure.hpp"
 
@@ -72,10 +73,11 @@ TEST(PatchTest, PressureInTheBoreBalancesUniformStress) {
       ring.load =
           test_support::steady_pressure(test_support::mie_gruneisen_pressure(ring.steel().eos, mu, 0.0));
       mpm::Simulation simulation(ring);
-      simulation.apply_bore_pressure(0, test_support::compress(simulation, mu));
-      const double dt = 1e-12;
-      simulation.step(dt);
-      simulation.step(dt);
+      const double pressure = test_support::compress(simulation, mu), dt = 1e-12;
+      for (int step = 0; step < 2; ++step) {
+        test_support::press_bore(simulation, pressure);
+        simulation.step(dt);
+      }
       const mpm::Grid& grid = simulation.updated_lagrangian()->grid();
       for (int j = 0; j < grid.nodes_r; ++j)
         for (int i = 0; i < grid.nodes_x; ++i) {
