@@ -15,6 +15,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// No process is fitted to more: the time goes with their cube.
+constexpr std::size_t most_points = 256;
 constexpr double root5 = 2.23606797749978969;
 /// Of lengths, in coordinates from -1 to 1 or of standard normals; and of nuggets, the least of which leaves
 /// the inverse of the correlations enough digits.
@@ -172,7 +174,7 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   assert(!inputs.empty() && points.size() == inputs.size() * values.size());
   GaussianProcess best{.inputs = inputs, .lengths = std::vector<double>(inputs.size(), 1.0), .reason = {}};
   const FiniteRows rows = finite_rows(inputs.size(), points, values);
-  if (rows.values.size() < fewest_chaos_points(inputs.size()) || rows.values.size() > most_process_points) {
+  if (rows.values.size() < fewest_chaos_points(inputs.size()) || rows.values.size() > most_points) {
     best.reason = "too few or too many evaluations have a number for a process";
     return best;
   }

@@ -68,7 +68,7 @@ ReadError read_error(const Field& field, const mpm::Grid& grid) {
     for (std::size_t lane = 0; lane < math::pack_width; ++lane)
       x.set(lane, begin + grid.dx * static_cast<double>(lane));
     const mpm::GridToParticle read =
-        mpm::grid_to_particle(grid, mpm::stencil_of(context, x, Pack(r)), mpm::Mask::all());
+        mpm::grid_to_particle(grid, mpm::stencil_of(context, x, Pack(r)), Pack(0.0) <= Pack(0.0));
     for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
       value.add(read.velocity_x[lane], field.value(x[lane], r));
       slope.add(read.rate_xx[lane], field.slope(x[lane], r));

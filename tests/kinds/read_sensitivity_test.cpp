@@ -94,7 +94,7 @@ TEST(ReadSensitivity, ANormalMayBeCutOff) {
 TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
   const StudyFile file = study_of(
       sensitivity_start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + steepness + flaw);
-  const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, 3, 3);
+  const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, {1, 1, 1}, 3);
   ASSERT_EQ(file.cases.size(), design.evaluations());
   for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
     const auto point = design.point(evaluation);

@@ -59,8 +59,6 @@ struct PolynomialChaos {
   double leave_one_out = 0;
   std::string reason;  ///< why there is no fit; empty where there is one
 
-  /// The output at a point of the open unit cube.
-  double at(const std::vector<double>& point) const;
   double mean() const { return terms.front().coefficient; }
   double variance() const;
 };
@@ -112,12 +110,9 @@ struct GaussianProcess {
   std::string reason = {};  ///< why there is no fit; empty where there is one
 };
 
-/// No process is fitted to more points: the time goes with their cube.
-inline constexpr std::size_t most_process_points = 256;
-
 /// Lengths and nugget by the greatest restricted likelihood (Patterson & Thompson, Biometrika 58 (1971) 545),
 /// which is that of all combinations of the values in which the line does not show. Rows as in `fit_chaos`.
-/// No fit from fewer points than that, from more than `most_process_points`, or of an output that is a
+/// No fit from fewer points than that, from more than 256, or of an output that is a
 /// straight line.
 GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                             const std::vector<double>& values);
