@@ -28,7 +28,7 @@ SurrogateRecord read_record(const path& place, Console& console) {
   if (!text && text.error().file_missing)
     console.refuse(scene::error_at({file.string()}, {}, "no such file",
                                    "the folder of a finished study of kind sensitivity with method = "
-                                   "\"polynomial-chaos\", or of one with "
+                                   "\"polynomial-chaos\", or of a sweep with "
                                    "surrogate = true (launchsafe study --update fits a finished one)"));
   return console.value_of(study::parse_surrogate(console.value_of(text), file.string()));
 }

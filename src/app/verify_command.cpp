@@ -15,12 +15,6 @@ struct VerifyArguments {
 
 // ---- the laws ----
 
-double jwl_pressure_at_298_kelvin(double v) {
-  const materials::JwlParameters m = materials::unreacted_composition_b();
-  constexpr double heat_capacity = 2.487e6;  // J/(m3 K)
-  return materials::jwl_pressure(m, v, materials::jwl_energy_at_temperature(m, v, heat_capacity, 298.0));
-}
-
 /// Shear stress over twice the shear strain (Pa), `time` seconds after a sudden strain; with the relaxation
 /// times as the paper's Table 3 prints them (the law's default rates are these rounded to three digits).
 double relaxation_modulus(double time, int steps) {
@@ -31,9 +25,11 @@ double relaxation_modulus(double time, int steps) {
   constexpr double strain = 1e-4;
   for (std::size_t n = 0; n < materials::maxwell_elements; ++n)
     state.elements[n].rx = 2.0 * solid.shear_moduli[n] * strain;
-  const auto step = materials::relaxation(solid, time / steps);
-  for (int k = 0; k < steps; ++k) materials::visco_scram_update<double>(solid, step, state, {}, 0.0);
-  return materials::total_deviator(state).rx / (2.0 * strain);
+  materials::ViscoScramStep law(solid);
+  law.set_step(time / steps);
+  auto now = law.state_of(state);
+  for (int k = 0; k < steps; ++k) now = law.update<double>(now, {}, 0.0).state;
+  return deviator_of(now.total).rx / (2.0 * strain);
 }
 
 // ---- the skin ----
@@ -84,15 +80,18 @@ void run_to(mpm::Simulation& simulation, double end, const std::function<void()>
   }
 }
 
-/// Rise (K) 10 µm deep in a half space of charge whose face is 1 K hotter for 1 ms.
+/// Rise (K) 10 µm deep in a half space of charge after 1 ms beside one that is 2 K hotter, so that the face
+/// between them is 1 K hotter.
 double conducted_rise() {
-  scene::Scene strip = block("charge", 1e-4, 0.5e-6, 0.5e-6);
+  constexpr double depth = 1e-4;
+  scene::Scene strip = block("charge", 2.0 * depth, 0.5e-6, 0.5e-6);
   strip.symmetry = scene::Symmetry::plane_strain;
   mpm::Simulation simulation(strip);
   mpm::Conduction conduction(simulation);
-  conduction.hold_base(strip.initial_temperature + 1.0);
+  mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
+  for (std::size_t i = 0; i < p.x.size(); ++i)
+    if (p.x[i] > depth) p.temperature[i] += 2.0;
   for (int step = 0; step < 1000; ++step) conduction.advance(simulation, 1e-6);
-  const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const auto rise = [&](int i) { return p.temperature[p.lattice.slot(i, 0)] - strip.initial_temperature; };
   return 0.5 * (rise(179) + rise(180));
 }
@@ -185,18 +184,20 @@ std::vector<Check> all_checks() {
   // What is known to a digit has half of that digit and a hair for its tolerance.
   return {
       {"steel", "Hugoniot pressure at mu = 0.01", 1.705489, 5.01e-7, "GPa", "Eq. 19 with s - 1",
-       [] { return hugoniot_pressure(MieGruneisenParameters{}, 0.01) / 1e9; }},
+       // A shock does half the pressure times the change of volume, which is one step from rest.
+       [] {
+         return mie_gruneisen_compress(MieGruneisenParameters{}, 0.0, 0.0, 0.0, 0.01, 0.0).pressure / 1e9;
+       }},
       {"steel", "flow stress at a strain of 1 and 1000/s", 1427.9146, 5.01e-5, "MPa",
        "Johnson-Cook: 1302 (1 + 0.014 ln 1000)",
        [] { return johnson_cook_flow_stress(JohnsonCookParameters{}, 1.0, 1000.0, 298.0) / 1e6; }},
-      {"jwl", "pressure at V = 0.95, 298 K", 6.71521900e-3, 5.01e-12, "Mbar",
-       "temperature form of the same law, nine digits",
-       [] { return jwl_pressure_at_298_kelvin(0.95) / 1e11; }},
-      {"jwl", "energy of the products before detonation (Eq. 34)", 8.5, 0.0425, "GJ/m3",
-       "the literature's E0; D and P_CJ are rounded to three digits",
-       [] { return chapman_jouguet_initial_energy(composition_b_products(), 7980.0, 29.5e9) / 1e9; }},
+      {"jwl", "bulk modulus of the charge at rest", 10.297, 5.01e-4, "GPa", "-V dp/dV with dE = -p dV",
+       [] { return UnreactedJwl{}.bulk_modulus_at_rest() / 1e9; }},
       {"virial gas", "Z of N2 at 1500 K, 50 cm3/mol", 2.07576984, 5.01e-9, "",
-       "Eq. 37 corrected, three terms", [] { return virial_compressibility(nitrogen(), 1500.0, 50e-6); }},
+       "Eq. 37 corrected, three terms",  // of 1 mol in a kg
+       [] {
+         return ProductGas({{nitrogen(), 1.0}}, 1780.0).at(1500.0, 50e-6).compressibility;
+       }},
       {"relaxation", "modulus after 10 us in 1000 steps", 1.356785, 5.01e-7, "GPa", "sum G_n exp(-t/tau_n)",
        [] { return relaxation_modulus(1e-5, 1000) / 1e9; }},
       {"cracks", "growth speed at K = 5e5", 20.09388, 5.01e-6, "m/s",
@@ -216,8 +217,6 @@ std::vector<Check> all_checks() {
        [] { return setback_pressure() / 1e6; }},
       {"launch", "imbalance of energy under a pulse of 100 MPa, of the largest energy", 0.0, 1e-6, "",
        "conservation of energy", energy_imbalance},
-      {"statistics", "one-sided tolerance factor 95/95, n = 10", 2.9110, 5.01e-5, "",
-       "noncentral t; ISO 16269-6 tables", [] { return math::one_sided_tolerance_factor(10, 0.95, 0.95); }},
   };
 }
 

@@ -43,10 +43,6 @@ const std::vector<Key<SensitivitySettings>> sensitivity_keys{
     number_key("most_samples", Dimension::count, between(2, 1e6), assumed,
                "With such an error: samples that are fitted at the most.",
                &SensitivitySettings::most_samples),
-    flag_key("surrogate", assumed,
-             "Of sobol: a fit to the samples A, held against B, from which launchsafe ask answers. "
-             "polynomial-chaos always has one.",
-             &SensitivitySettings::surrogate),
 };
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
@@ -102,18 +98,6 @@ void make_saltelli(StudyFile& study) {
   });
 }
 
-/// Of sobol half of the draws are fitted, and half are held out; a fit of more takes long.
-void check_fit_of_draws(const StudyFile& study) {
-  constexpr std::size_t most_fitted = 2000;
-  const auto& own = settings_of<SensitivitySettings>(study);
-  const auto samples = static_cast<std::size_t>(own.samples);
-  const std::size_t fewest =
-      std::max(study::fewest_held_out, math::fewest_chaos_points(study.study.axes.size()));
-  if (own.surrogate && (samples < fewest || samples > most_fitted))
-    refuse_at(study, "surrogate", fmt::format("{} samples to be fitted, and as many held out", own.samples),
-              fmt::format("{} to {} samples", fewest, most_fitted));
-}
-
 bool is_closing(const StudyFile& study) { return study.scene.scene.surface.model == GapModel::closing; }
 
 /// Errors are asked of a fit, and leave it room for more samples.
@@ -165,7 +149,6 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
         taken(scene::with_keys(study.scene, {{"gap.thickness", gaps, place_of_key(study, "gaps")}}));
   check_asked_errors(study);
   if (is_by_fit(study.study)) return make_chaos_samples(study);
-  check_fit_of_draws(study);
   make_saltelli(study);
 }
 
@@ -190,10 +173,9 @@ void summarise(const Study& study, OutputSensitivity& output) {
 
 void estimate(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
-  const auto& own = settings_of<SensitivitySettings>(study);
   if (is_by_fit(study)) return estimate_by_chaos(result, output);
-  if (own.surrogate) output.fit = fit_of(result, output);
-  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values, own.bootstrap());
+  output.sobol = math::sobol_indices(inputs_of(study).size(), output.values,
+                                     settings_of<SensitivitySettings>(study).bootstrap());
   output.reason = output.sobol.reason;
 }
 
@@ -282,7 +264,7 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       study, options,
       [&](SensitivityResult& result) {
         result.answers = answer_cases(study, options, result.timing);
-        if (!is_by_fit(study.study) && !settings_of<SensitivitySettings>(study.study).surrogate) return;
+        if (!is_by_fit(study.study)) return;
         result.points = design_points(study.study);
         add_launches(result, options);
       },

@@ -7,41 +7,25 @@ using study::Surrogate, study::SurrogateOutput, study::SurrogateRecord;
 
 namespace {
 
-/// The evaluations that a fit knows: all of its own; of a Saltelli design those of A, which are fitted, and
-/// then those of B, which are held out.
-std::vector<std::size_t> known_evaluations(const SensitivityResult& result) {
-  const Study& study = result.study.study;
-  const std::size_t blocks = is_by_fit(study) ? 1 : inputs_of(study).size() + 2;
-  std::vector<std::size_t> known;
-  for (std::size_t block = 0; block < std::min<std::size_t>(blocks, 2); ++block)
-    for (std::size_t each = block; each < result.answers.size(); each += blocks) known.push_back(each);
-  return known;
-}
-
 SurrogateRecord launches_of(const SensitivityResult& result) {
   const Study& study = result.study.study;
   const auto& own = settings_of<SensitivitySettings>(study);
-  const int held_out = is_by_fit(study) ? own.held_out : own.samples;
   SurrogateRecord record{.scene = result.study.scene.scene,
                          .gap = study.gaps.front(),
                          .keys = of_each(study.axes, [](const Axis& axis) { return axis.key.name; }),
                          .inputs = uncertain_inputs(study),
-                         .held_out = std::vector<std::size_t>(static_cast<std::size_t>(held_out))};
+                         .points = result.points,
+                         .held_out = std::vector<std::size_t>(static_cast<std::size_t>(own.held_out))};
   std::iota(record.held_out.begin(), record.held_out.end(), static_cast<std::size_t>(own.samples));
   scene::clear_remarks(record.scene);
-  for (const std::size_t evaluation : known_evaluations(result)) {
-    const std::vector<double> point = math::point_of_row(result.points, evaluation, study.axes.size());
-    record.points.insert(record.points.end(), point.begin(), point.end());
-  }
   return record;
 }
 
 SurrogateOutput unfitted(const SensitivityResult& result, const OutputSensitivity& output) {
-  return {
-      .name = shown_output(output.output).column.name,
-      .gap = result.study.study.gaps.front(),
-      .inert = output.inert,
-      .values = of_each(known_evaluations(result), [&](std::size_t each) { return output.values[each]; })};
+  return {.name = shown_output(output.output).column.name,
+          .gap = result.study.study.gaps.front(),
+          .inert = output.inert,
+          .values = output.values};
 }
 
 std::vector<std::size_t> columns_of(const Study& study) {
@@ -224,7 +208,7 @@ SurrogateRecord surrogate_record(const SensitivityResult& result) {
   for (const OutputSensitivity& output : result.outputs) {
     if (output.output == SensitivityOutput::margin) continue;  // of T max and the ignition temperature
     record.outputs.push_back(output.fit ? *output.fit : unfitted(result, output));
-    if (!output.fit || is_by_fit(result.study.study)) record.outputs.back().reason = output.reason;
+    record.outputs.back().reason = output.reason;
   }
   predict_from_sound_launches(record, result.answers);
   return record;

@@ -146,10 +146,6 @@ std::vector<std::string> asked_text(const SensitivityResult& result) {
   });
 }
 
-bool has_fit(const SensitivityResult& result) {
-  return is_by_fit(result.study.study) || settings_of<SensitivitySettings>(result.study).surrogate;
-}
-
 // --- tables ---
 
 struct IndexRow {
@@ -306,7 +302,8 @@ std::string answer(const SensitivityResult& result) {
 Report report_of(const SensitivityResult& result) {
   Report report{result.study.study.title, answer(result), report::remaking_command(result.study)};
   report.add({sensitivity_table(result), "sensitivity.csv", "indices", Shown::terminal});
-  report.add({output_table(result), "", "outputs", has_fit(result) ? Shown::page_and_terminal : Shown::file});
+  report.add({output_table(result), "", "outputs",
+              is_by_fit(result.study.study) ? Shown::page_and_terminal : Shown::file});
   for (const OutputSensitivity& output : result.outputs) {
     report.add({.table = sensitivity_table(result, output), .shown = Shown::page});
     // That of T max is the margin's, where the ignition temperature is one more input.
@@ -324,7 +321,7 @@ Report report_of(const SensitivityResult& result) {
   report.say(said_below("sensitivity.rests"));
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
-  if (has_fit(result) && !result.outputs.empty())
+  if (is_by_fit(result.study.study) && !result.outputs.empty())
     report.files = surrogate_files(surrogate_record(result), result.study);
   Row method = method_facts(result);
   method["text"] = method_text(result);

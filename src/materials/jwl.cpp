@@ -2,45 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <tuple>
 
 namespace launchsafe::materials {
 
 using keys::above_to, keys::between, keys::Dimension, keys::Key, keys::Standing, keys::then;
 
-JwlParameters unreacted_composition_b() {
-  JwlParameters parameters;  // the defaults are the unreacted explosive
-  parameters.initial_energy = -jwl_cold_pressure(parameters, 1.0) / parameters.omega;
-  return parameters;
-}
-
-JwlParameters composition_b_products() {
-  JwlParameters parameters;
-  parameters.a = 5.242e11;
-  parameters.b = 7.678e9;
-  parameters.r1 = 4.2;
-  parameters.r2 = 1.1;
-  parameters.omega = 0.34;
-  parameters.initial_energy = 8.5e9;
-  return parameters;
-}
-
-double jwl_energy_at_temperature(const JwlParameters& m, double v, double heat_capacity, double temperature) {
-  return m.a / m.r1 * std::exp(-m.r1 * v) + m.b / m.r2 * std::exp(-m.r2 * v) + heat_capacity * temperature;
-}
-
-double chapman_jouguet_volume(const JwlParameters& m, double velocity, double pressure) {
-  return 1.0 - pressure / (m.initial_density * velocity * velocity);
-}
-
-double chapman_jouguet_initial_energy(const JwlParameters& m, double velocity, double pressure) {
-  const double volume = chapman_jouguet_volume(m, velocity, pressure);
-  const double energy = (pressure - jwl_cold_pressure(m, volume)) * volume / m.omega;
-  return energy - 0.5 * pressure * (1.0 - volume);
-}
-
 namespace {
+
+/// The part of the pressure (Pa) at V = 1 that does not depend on the energy.
+double cold_pressure_at_rest(const JwlParameters& m) {
+  return m.a * (1.0 - m.omega / m.r1) * std::exp(-m.r1) + m.b * (1.0 - m.omega / m.r2) * std::exp(-m.r2);
+}
+
+/// The initial energy follows from the other constants, so that p(V = 1) = 0.
+void balance(JwlParameters& m) { m.initial_energy = -cold_pressure_at_rest(m) / m.omega; }
 
 /// A e^(-R1 V), B e^(-R2 V) and w K V^(-1-w) of the isentrope, in more digits than the fit keeps.
 struct Terms {
@@ -61,6 +37,12 @@ Terms terms(const JwlParameters& m, long double v) {
 double round_off(const Terms& t) { return static_cast<double>(4.0L * 0x1p-52L * t.size()); }
 
 }  // namespace
+
+JwlParameters unreacted_composition_b() {
+  JwlParameters parameters;  // the defaults are the unreacted explosive
+  balance(parameters);
+  return parameters;
+}
 
 JwlIsentrope::JwlIsentrope(const JwlParameters& law) : law_(law) {
   const Terms rest = terms(law, 1.0L);
@@ -85,13 +67,11 @@ bool JwlIsentrope::fit() {
   coefficients_ = math::chebyshev_fit<std::tuple_size_v<decltype(coefficients_)>>(secant, lowest_, highest_);
   constexpr int points = 1000;
   bool as_exact = true;
-  error_ = 0;
   for (int k = 0; k <= points; ++k) {
     const double x = lowest_ + (highest_ - lowest_) * k / points;
     const double near = at_rest_ + x * math::polynomial(coefficients_, x);
     const Terms exact = terms(law_, 1.0L + x);
     const double error = std::abs(static_cast<double>(near - exact.sum()));
-    error_ = std::max(error_, error);
     as_exact = as_exact && error <= round_off(exact);  // false for NaN
   }
   return as_exact;
@@ -100,9 +80,6 @@ bool JwlIsentrope::fit() {
 // --- before it reacts ---
 
 namespace {
-
-/// Whenever a JWL constant changes, the initial energy follows, so that p(V = 1) = 0.
-void balance(JwlParameters& eos) { eos.initial_energy = -jwl_cold_pressure(eos, 1.0) / eos.omega; }
 
 std::vector<Key<JwlParameters>> constants_keys() {
   const auto constant = [](const char* name, Dimension dimension, keys::Limits limits, const char* sentence,
@@ -126,6 +103,15 @@ std::vector<Key<JwlParameters>> constants_keys() {
 }
 
 }  // namespace
+
+double UnreactedJwl::bulk_modulus_at_rest() const {
+  const JwlParameters& m = constants;
+  const double pressure = cold_pressure_at_rest(m) + m.omega * m.initial_energy;
+  const double slope = m.a * std::exp(-m.r1) * (m.omega / m.r1 - m.r1 + m.omega) +
+                       m.b * std::exp(-m.r2) * (m.omega / m.r2 - m.r2 + m.omega) -
+                       m.omega * m.initial_energy;  // dp/dV at constant energy
+  return m.omega * pressure - slope;
+}
 
 double UnreactedJwl::energy(double volume) const {
   const JwlParameters& m = constants;

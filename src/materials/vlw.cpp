@@ -37,12 +37,11 @@ Curve curve_at(const std::array<double, count>& coefficients, double temperature
 
 }  // namespace
 
-LennardJones nitrogen() { return {"N2", 95.05, 63.78 * cubic_centimetre}; }
-LennardJones water() { return {"H2O", 380.0, 23.5 * cubic_centimetre}; }
+LennardJones nitrogen() { return {95.05, 63.78 * cubic_centimetre}; }
+LennardJones water() { return {380.0, 23.5 * cubic_centimetre}; }
 
 std::vector<GasComponent> composition_b_gas() {
-  return {
-      {nitrogen(), 10.645}, {water(), 13.097}, {LennardJones{"CO2", 189.0, 113.9 * cubic_centimetre}, 6.705}};
+  return {{nitrogen(), 10.645}, {water(), 13.097}, {LennardJones{189.0, 113.9 * cubic_centimetre}, 6.705}};
 }
 
 double reduced_second_virial(double reduced_temperature) {
@@ -62,15 +61,6 @@ double reduced_second_virial(double reduced_temperature) {
     total -= partial;
   }
   return total;
-}
-
-double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume, int terms) {
-  const double reduced = temperature / gas.temperature;
-  const double second = reduced_second_virial(reduced);
-  const double x = gas.covolume / molar_volume;
-  double higher = 0.0;
-  for (int n = 3; n <= terms; ++n) higher += std::pow(n - 2.0, -n) * std::pow(x, n - 1);
-  return 1.0 + second * x + second / std::pow(reduced, 0.25) * higher;
 }
 
 double GasState::isentropic_modulus(double temperature, double volume) const {

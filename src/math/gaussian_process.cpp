@@ -15,6 +15,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// No process is fitted to more: the time goes with their cube.
+constexpr std::size_t most_points = 256;
 constexpr double root5 = 2.23606797749978969;
 /// Of lengths, in coordinates from -1 to 1 or of standard normals; and of nuggets, the least of which leaves
 /// the inverse of the correlations enough digits.
@@ -172,7 +174,7 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   assert(!inputs.empty() && points.size() == inputs.size() * values.size());
   GaussianProcess best{.inputs = inputs, .lengths = std::vector<double>(inputs.size(), 1.0), .reason = {}};
   const FiniteRows rows = finite_rows(inputs.size(), points, values);
-  if (rows.values.size() < fewest_chaos_points(inputs.size()) || rows.values.size() > most_process_points) {
+  if (rows.values.size() < fewest_chaos_points(inputs.size()) || rows.values.size() > most_points) {
     best.reason = "too few or too many evaluations have a number for a process";
     return best;
   }
@@ -202,14 +204,6 @@ GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::ve
   return best;
 }
 
-ProcessLikelihood process_likelihood(const GaussianProcess& process, const std::vector<double>& points,
-                                     const std::vector<double>& values) {
-  const Rows at = coordinates_of(process.inputs, points);
-  const Kriging of = kriging_of(process, at, Eigen::Map<const Vector>(values.data(), at.rows()));
-  const Vector gradient = slope_of(process, at, of).gradient;
-  return {of.likelihood, {gradient.begin(), gradient.end()}};
-}
-
 FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>& points,
                              const std::vector<double>& values)
     : process_(std::move(process)) {
@@ -223,19 +217,19 @@ FittedProcess::FittedProcess(GaussianProcess process, const std::vector<double>&
     form_.matrix.assign(functions * functions, form_.offset);
     return;
   }
-  variance_ = of.variance;
+  double left_out_variance = 0.0;  // mean, as a share of that of the deviations
   for (Eigen::Index i = 0; i < at.rows(); ++i) {
     left_out_errors_.push_back(of.contrasted(i) / of.contrast(i, i));
-    left_out_variance_ += 1.0 / (of.contrast(i, i) * static_cast<double>(at.rows()));
+    left_out_variance += 1.0 / (of.contrast(i, i) * static_cast<double>(at.rows()));
   }
   const Vector line = of.line * Eigen::Map<const Vector>(values.data(), at.rows());
   form_.weights.assign(of.contrasted.begin(), of.contrasted.end());
   form_.weights.insert(form_.weights.end(), line.begin(), line.end());
   Matrix whole(at.rows() + line.size(), at.rows() + line.size());
   whole << -of.contrast, -of.line.transpose(), -of.line, of.line_inverse;
-  whole /= left_out_variance_;
+  whole /= left_out_variance;
   form_.matrix.assign(whole.data(), whole.data() + whole.size());
-  form_.offset = (1.0 + process_.nugget) / left_out_variance_;
+  form_.offset = (1.0 + process_.nugget) / left_out_variance;
 }
 
 std::vector<double> FittedProcess::functions_at(const std::vector<double>& point) const {
@@ -251,9 +245,5 @@ std::vector<double> FittedProcess::functions_at(const std::vector<double>& point
 }
 
 FitValue FittedProcess::at(const std::vector<double>& point) const { return form_.at(functions_at(point)); }
-
-double FittedProcess::variance_at(const std::vector<double>& point) const {
-  return variance_ * (at(point).leverage * left_out_variance_ - process_.nugget);
-}
 
 }  // namespace launchsafe::math

@@ -233,14 +233,6 @@ FitValue FittedForm::at(const std::vector<double>& functions) const {
   return {of.dot(by), offset + of.dot(products * of)};
 }
 
-double PolynomialChaos::at(const std::vector<double>& point) const {
-  assert(point.size() == inputs.size());
-  const auto of_inputs = polynomials_at(inputs, degree, point.data());
-  double value = 0.0;
-  for (const ChaosTerm& term : terms) value += term.coefficient * product(term.degrees, of_inputs);
-  return value;
-}
-
 double PolynomialChaos::variance() const {
   double sum = 0.0;
   for (std::size_t i = 1; i < terms.size(); ++i) sum += terms[i].coefficient * terms[i].coefficient;

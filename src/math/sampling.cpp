@@ -20,11 +20,6 @@ constexpr double root_half = boost::math::constants::one_div_root_two<double>();
 double normal_below(double z) { return 0.5 * std::erfc(-z * root_half); }
 double normal_above(double z) { return 0.5 * std::erfc(z * root_half); }
 
-/// Density of the standard normal.
-double normal_density(double z) {
-  return boost::math::constants::one_div_root_two_pi<double>() * std::exp(-0.5 * z * z);
-}
-
 /// Probability of the standard normal between a <= b, without cancellation of numbers near 1.
 double normal_between(double a, double b) {
   if (a >= 0.0) return normal_above(a) - normal_above(b);
@@ -60,12 +55,6 @@ double normal_quantile(const Distribution& distribution, double u) {
   // The smaller probability is the one that is known to its last digits.
   const double z = below < above ? lower_normal_quantile(below) : -lower_normal_quantile(above);
   return distribution.centre + distribution.deviation * z;
-}
-
-double normal_mean(const Distribution& distribution) {
-  const auto [begin, end] = standard_ends(distribution);
-  const double shift = (normal_density(begin) - normal_density(end)) / normal_between(begin, end);
-  return distribution.centre + distribution.deviation * shift;
 }
 
 /// ln(x/lower), also close to the lower end.
@@ -181,22 +170,6 @@ double cumulative(const Distribution& distribution, double x) {
   }
   const auto [begin, end] = standard_ends(distribution);
   return normal_between(begin, standardised(distribution, x)) / normal_between(begin, end);
-}
-
-double mean_of(const Distribution& distribution) {
-  assert(is_valid(distribution));
-  const double lower = distribution.lower, upper = distribution.upper;
-  switch (distribution.kind) {
-    case Distribution::Kind::uniform:
-      return std::midpoint(lower, upper);
-    case Distribution::Kind::log_uniform:
-      return std::clamp((upper - lower) / log_ratio(distribution, upper), lower, upper);
-    case Distribution::Kind::log_normal:
-      return distribution.centre * std::exp(0.5 * distribution.deviation * distribution.deviation);
-    case Distribution::Kind::normal:
-      break;
-  }
-  return std::clamp(normal_mean(distribution), lower, upper);
 }
 
 std::optional<std::vector<double>> covariance_factor(const std::vector<double>& covariance,

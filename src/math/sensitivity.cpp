@@ -168,21 +168,13 @@ Estimate with_interval(double value, std::vector<double> replicates, std::size_t
   return {value, sorted_quantile(replicates, tail), sorted_quantile(replicates, 1.0 - tail)};
 }
 
-std::vector<double> SaltelliDesign::point(std::size_t block, std::size_t row) const {
-  assert(block < blocks() && row < rows);
-  const std::size_t columns = begins.back();
+std::vector<double> SaltelliDesign::point(std::size_t evaluation) const {
+  assert(evaluation < evaluations());
+  const std::size_t block = evaluation % blocks(), row = evaluation / blocks(), columns = begins.back();
   std::vector<double> values = point_of_row(block == block_b ? b : a, row, columns);
   if (block > block_b)
     for (std::size_t i = begins[block - 2]; i < begins[block - 1]; ++i) values[i] = b[row * columns + i];
   return values;
-}
-
-std::vector<double> SaltelliDesign::point(std::size_t evaluation) const {
-  return point(evaluation % blocks(), evaluation / blocks());
-}
-
-SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed) {
-  return saltelli_design(design, rows, std::vector<std::size_t>(inputs, 1), seed);
 }
 
 SaltelliDesign saltelli_design(Design design, std::size_t rows, const std::vector<std::size_t>& columns,

@@ -2,8 +2,6 @@
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/non_central_t.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -123,14 +121,6 @@ std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::ve
   std::vector<std::vector<double>> rows;
   for (const double value : x) rows.push_back(polynomial_row(value, 1));
   return least_squares(rows, y);
-}
-
-double one_sided_tolerance_factor(int n, double coverage, double confidence) {
-  if (n < 2 || !(coverage > 0.0 && coverage < 1.0) || !(confidence > 0.0 && confidence < 1.0))
-    return not_a_number;
-  const double root = std::sqrt(static_cast<double>(n));
-  const double shift = boost::math::quantile(boost::math::normal(), coverage) * root;
-  return boost::math::quantile(boost::math::non_central_t(n - 1, shift), confidence) / root;
 }
 
 double exponential_tolerance_factor(int n, double coverage, double confidence) {

@@ -59,11 +59,6 @@ class Network {
   }
   Eigen::SparseMatrix<double> take() { return std::move(matrix_); }
 
-  /// Area (m2 per radian or metre) across x of the ring between two radii.
-  double axial_area(double r_begin, double r_end) const {
-    return axisymmetric_ ? 0.5 * (r_end - r_begin) * (r_end + r_begin) : r_end - r_begin;
-  }
-
  private:
   struct Part {
     Lattice lattice;
@@ -74,6 +69,10 @@ class Network {
     }
   };
 
+  /// Areas (m2 per radian or metre) across x, of the ring between two radii, and across r.
+  double axial_area(double r_begin, double r_end) const {
+    return axisymmetric_ ? 0.5 * (r_end - r_begin) * (r_end + r_begin) : r_end - r_begin;
+  }
   double radial_area(double r, double length) const { return axisymmetric_ ? r * length : length; }
 
   void link(Eigen::Index a, Eigen::Index b, double conductance) {
@@ -143,38 +142,17 @@ class Network {
 }  // namespace
 
 Conduction::Conduction(const Simulation& simulation) {
-  const scene::Scene& scene = simulation.scene();
-  Network network(scene, simulation.bodies());
-  conductance_ = network.take();
+  conductance_ = Network(simulation.scene(), simulation.bodies()).take();
   capacity_.resize(conductance_.rows());
-  const scene::Extent extent = scene::extent_of(scene);
   Eigen::Index next = 0;
   for (const AnyBody& body : simulation.bodies()) {
     const materials::Law law = law_of(body);
     const ParticleFields& p = particle_fields_of(body);
-    const Lattice& lattice = p.lattice;
-    const Eigen::Index first = next;
-    for_each_particle(lattice, next, [&](Eigen::Index number, std::size_t slot) {
+    for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
       capacity_[number] = p.mass[slot] * materials::heat_capacity(law);
     });
-    const bool at_base =
-        std::abs(lattice.x_end() - extent.x_end) <= coincidence * (extent.x_end - extent.x_begin);
-    for (int j = 0; at_base && j < lattice.rows(); ++j) {
-      const auto row = static_cast<std::size_t>(j);
-      const double area = network.axial_area(lattice.r_edges[row], lattice.r_edges[row + 1]);
-      base_.push_back(
-          {first + static_cast<Eigen::Index>(j + 1) * lattice.columns() - 1, area,
-           materials::heat_conductivity(law) * area / (0.5 * lattice.length_x(lattice.columns() - 1))});
-    }
   }
 }
-
-void Conduction::hold_base(double temperature) {
-  held_ = true;
-  held_temperature_ = temperature;
-}
-
-void Conduction::heat_base(double flux) { flux_ = flux; }
 
 void Conduction::advance(Simulation& simulation, double dt) {
   Eigen::VectorXd temperature(capacity_.size());
@@ -184,27 +162,12 @@ void Conduction::advance(Simulation& simulation, double dt) {
       temperature[number] = p.temperature[slot];
     });
   });
-  // (C + dt K) change = -dt K T + dt q: solved for the change, so that heat is conserved to round-off.
-  Eigen::VectorXd gain = -dt * (conductance_ * temperature);
-  Eigen::VectorXd diagonal = capacity_;
-  for (const BaseFace& face : base_) {
-    gain[face.particle] += dt * face.area * flux_;
-    if (!held_) continue;
-    gain[face.particle] += dt * face.conductance * (held_temperature_ - temperature[face.particle]);
-    diagonal[face.particle] += dt * face.conductance;
-  }
+  // (C + dt K) change = -dt K T: solved for the change, so that heat is conserved to round-off.
   Eigen::SparseMatrix<double> system = dt * conductance_;
-  system.diagonal() += diagonal;
-  Eigen::VectorXd change = solve(system, gain);
-  // The mean is the solve's least certain mode, and known: what the faces let in.
-  double entered = 0.0;
-  for (const BaseFace& face : base_) {
-    entered += dt * face.area * flux_;
-    if (held_)
-      entered +=
-          dt * face.conductance * (held_temperature_ - temperature[face.particle] - change[face.particle]);
-  }
-  change.array() += (entered - capacity_.dot(change)) / capacity_.sum();
+  system.diagonal() += capacity_;
+  Eigen::VectorXd change = solve(system, -dt * (conductance_ * temperature));
+  // The mean is the solve's least certain mode, and known: no heat enters.
+  change.array() -= capacity_.dot(change) / capacity_.sum();
 
   next = 0;
   const auto apply = [&]<class Law>(Body<Law>& body) {
@@ -217,17 +180,6 @@ void Conduction::advance(Simulation& simulation, double dt) {
     });
   };
   for (AnyBody& body : simulation.bodies()) std::visit(apply, body);
-}
-
-double Conduction::heat(const Simulation& simulation) const {
-  double total = 0.0;
-  Eigen::Index next = 0;
-  simulation.for_each_body([&](const ParticleFields& p) {
-    for_each_particle(p.lattice, next, [&](Eigen::Index number, std::size_t slot) {
-      total += capacity_[number] * p.temperature[slot];
-    });
-  });
-  return total;
 }
 
 }  // namespace launchsafe::mpm

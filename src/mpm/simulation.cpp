@@ -1,7 +1,5 @@
 #include "launchsafe/mpm/simulation.hpp"
 
-#include <numeric>
-
 namespace launchsafe::mpm {
 namespace {
 
@@ -48,7 +46,6 @@ void Simulation::continue_from(const Simulation& other) {
         },
         bodies_[i]);
   std::get<TotalLagrangian>(form_).continue_from(std::get<TotalLagrangian>(other.form_));
-  body_force_on_bodies_ = other.body_force_on_bodies_;
   time_ = other.time_;
   pressure_ = load_.at(time_);
   energy_ = other.energy_;
@@ -85,21 +82,9 @@ bool Simulation::within_gas_law() const {
   return within;
 }
 
-void Simulation::apply_bore_pressure(int body, double pressure) {
-  with(form_, [&](auto& form) { form.apply_bore_pressure({body, pressure}); });
-}
-
-void Simulation::apply_body_force(int body, double acceleration_x, double acceleration_r) {
-  const ParticleFields& p = particle_fields_of(bodies_[static_cast<std::size_t>(body)]);
-  body_force_on_bodies_ += acceleration_x * std::accumulate(p.mass.begin(), p.mass.end(), 0.0);
-  std::get<TotalLagrangian>(form_).apply_body_force({body, acceleration_x, acceleration_r});
-}
-
 double Simulation::stable_time_step() const {
   return with(form_, [](const auto& form) { return form.stable_time_step(); });
 }
-
-double Simulation::frame_acceleration(double time) const { return acceleration_under(load_.at(time)); }
 
 double Simulation::acceleration_under(double pressure) const {
   return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
@@ -145,8 +130,7 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   balance_.kinetic = sum(p.centred_kinetic) - 0.5 * bulk.old_momentum * bulk_velocity;
   const bool lab = scene_.frame == scene::Frame::lab;
   const double bulk_flow = lab ? -loaded_area_ * bulk_velocity : 0.0;
-  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt + totals.bore_work;
-  energy_.external += totals.body_force_work - body_force_on_bodies_ * bulk_velocity * dt;
+  energy_.external += pressure * (totals.chamber_flow - bulk_flow) * dt;
   energy_.body_force += acceleration * (sum(n.momentum) + totals.contact.momentum) * dt;
   energy_.internal += sum(p.internal) + sum(p.hourglass);
   energy_.hourglass += sum(p.hourglass);
@@ -177,18 +161,6 @@ double Simulation::change_of_bulk(const BulkMotion& bulk, const StepInput& step)
       (step.share_beyond(step.kick) * gained + step.share_beyond(step.kick_before) * bulk_gained_before_);
   bulk_gained_before_ = gained;
   return change;
-}
-
-double Simulation::kinetic_energy() const {
-  double total = 0.0;
-  for_each_body([&](const ParticleFields& p) {
-    double body = 0.0;
-    for (std::size_t i = 0; i < p.mass.size(); ++i)
-      body += 0.5 * (p.inertia_x[i] * p.velocity_x[i] * p.velocity_x[i] +
-                     p.inertia_r[i] * p.velocity_r[i] * p.velocity_r[i]);
-    total += body;
-  });
-  return total;
 }
 
 double Simulation::axial_momentum() const {

@@ -165,13 +165,10 @@ void TotalLagrangian::continue_from(const TotalLagrangian& other) {
   nodes_ = other.nodes_;
   *contact_ = *other.contact_;
   contact_totals_ = other.contact_totals_;
-  bores_ = other.bores_;
-  body_forces_ = other.body_forces_;
   damped_before_ = other.damped_before_;
 }
 
 void TotalLagrangian::reset_grid() {
-  StepInput still;
   damped_before_ = 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     std::visit([&](auto& body) { momentum_to_nodes(body.particles, nodes_[b], parts_[b].rows); }, bodies_[b]);
@@ -201,42 +198,11 @@ double TotalLagrangian::stable_time_step() const {
   return scene_.numerics.time_step_factor * shortest;
 }
 
-/// The inner faces as radial nodal forces at their present radius.
-template <class F>
-void TotalLagrangian::for_each_bore_share(F&& f) const {
-  for (const BorePressure& bore : bores_) {
-    const auto b = static_cast<std::size_t>(bore.body);
-    const Nodes& n = nodes_[b];
-    const double r = lines_.r[static_cast<std::size_t>(n.first_r)];
-    for (int i = 0; i + 1 < n.columns; ++i) {
-      const auto line = static_cast<std::size_t>(n.first_x + i);
-      const std::size_t node = n.index(i, 0);
-      const double face = r + 0.5 * (n.displacement_r[node] + n.displacement_r[node + 1]);
-      const double force =
-          0.5 * bore.pressure * radial_measure(axisymmetric_, face) * (lines_.x[line + 1] - lines_.x[line]);
-      f(b, node, force);
-      f(b, node + 1, force);
-    }
-  }
-}
-
 void TotalLagrangian::load_nodes(const StepInput& input) {
   for (const LoadShare& share : axial_load_)
     nodes_[share.body].written(share.row).force_x[share.index] += input.pressure * share.force;
   for (const LoadShare& share : radial_load_)
     nodes_[share.body].written(share.row).force_r[share.index] += input.pressure * share.force;
-  for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
-    nodes_[body].written(0).force_r[node] += force;
-  });
-  for (const BodyForce& force : body_forces_) {
-    Nodes& n = nodes_[static_cast<std::size_t>(force.body)];
-    for (int j = 0; j < n.rows; ++j)
-      for (int i = 0; i < n.columns; ++i) {
-        const std::size_t node = n.index(i, j);
-        n.written(j).force_x[node] += force.acceleration_x * n.mass[node];
-        n.written(j).force_r[node] += force.acceleration_r * n.mass[node];
-      }
-  }
   bond(ties_, nodes_);
 }
 
@@ -246,25 +212,6 @@ double TotalLagrangian::chamber_flow() const {
   for (const LoadShare& share : radial_load_)
     flow += share.force * nodes_[share.body].velocity_r[share.index];
   return flow;
-}
-
-double TotalLagrangian::bore_work(double dt) const {
-  double work = 0.0;
-  for_each_bore_share([&](std::size_t body, std::size_t node, double force) {
-    work += force * nodes_[body].velocity_r[node] * dt;
-  });
-  return work;
-}
-
-double TotalLagrangian::body_force_work(double dt) const {
-  double work = 0.0;
-  for (const BodyForce& force : body_forces_) {
-    const Nodes& n = nodes_[static_cast<std::size_t>(force.body)];
-    for (std::size_t node = 0; node < n.mass.size(); ++node)
-      work += n.mass[node] * dt *
-              (force.acceleration_x * n.velocity_x[node] + force.acceleration_r * n.velocity_r[node]);
-  }
-  return work;
 }
 
 /// J. Where steps differ, a force acts on velocities for the mean of two of them, but does its work over each
@@ -416,8 +363,6 @@ StepTotals TotalLagrangian::step(const StepInput& input) {
     totals.bulk.momentum += sum(body.inertial_momentum);
   }
   totals.chamber_flow = chamber_flow();
-  totals.bore_work = bore_work(input.dt);
-  totals.body_force_work = body_force_work(input.dt);
   totals.contact = contact_totals_;
   return totals;
 }

@@ -179,32 +179,6 @@ void UpdatedLagrangian::locate_load() {
   }
 }
 
-/// The inner faces as radial nodal forces, cut by the linear hat functions in r at their present place and
-/// weighted in x like their particles.
-void UpdatedLagrangian::locate_bores() {
-  bore_shares_.clear();
-  for (const BorePressure& bore : bores_) {
-    const ParticleFields& p = particle_fields_of(bodies_[static_cast<std::size_t>(bore.body)]);
-    const StencilContext context{grid_, grid_.origin_x, half_x(p), half_r(p), axisymmetric_};
-    for (int i = 0; i < p.lattice.columns(); ++i) {
-      const std::size_t slot = p.lattice.slot(i, 0);
-      const Stencil stencil = stencil_of(context, Pack(p.x[slot]), Pack(p.r[slot]));
-      if (stencil.inside.lanes[0] == 0) continue;
-      const double face = p.r[slot] - half_r(p);
-      const double force = bore.pressure * radial_measure(axisymmetric_, face) * p.lattice.length_x(i);
-      const double coordinate = face / grid_.dr + Grid::radial_padding;
-      const double cell = std::floor(coordinate), share = coordinate - cell;
-      const auto nodes_x = static_cast<std::size_t>(grid_.nodes_x);
-      const std::size_t column = static_cast<std::size_t>(stencil.first[0]) % nodes_x;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t node = static_cast<std::size_t>(cell) * nodes_x + column + k;
-        bore_shares_.push_back({node, force * (1.0 - share) * stencil.axial.value[k][0]});
-        bore_shares_.push_back({node + nodes_x, force * share * stencil.axial.value[k][0]});
-      }
-    }
-  }
-}
-
 void UpdatedLagrangian::update_grid(const StepInput& input, NodeTotals& totals) {
   const double scaling = scene_.numerics.inertial_scaling;
   const double dt = input.dt, damping_factor = input.damping_factor;
@@ -246,15 +220,11 @@ StepTotals UpdatedLagrangian::step(const StepInput& input) {
   StepTotals totals;
   locate_load();
   for (const LoadShare& share : load_shares_) grid_.force_x[share.node] += input.pressure * share.force;
-  locate_bores();
-  for (const LoadShare& share : bore_shares_) grid_.force_r[share.node] += share.force;
   update_grid(input, totals.nodes);
   const double scaling = scene_.numerics.inertial_scaling;
   totals.bulk = {scaling * total_mass_, sum(totals.nodes.old_momentum), sum(totals.nodes.inertial_momentum)};
   for (const LoadShare& share : load_shares_)
     totals.chamber_flow += share.force * grid_.velocity_x[share.node];
-  for (const LoadShare& share : bore_shares_)
-    totals.bore_work += share.force * grid_.velocity_r[share.node] * input.dt;
 
   Transfer transfer{input.dt, grid_.origin_x, 0.0, input.pic_fraction, axisymmetric_};
   grid_.origin_x = transfer.write_origin = window_origin();

@@ -25,10 +25,10 @@ double shortened(const IntervalPressure& pressure, double lowest, double length,
 
 }  // namespace
 
-FilmStation::FilmStation(const SkinModel& model, const FilmGrid& grid, const FilmNumerics& numerics,
+FilmStation::FilmStation(const SkinModel& model, const FilmGrid& grid, double tolerance,
                          double start_pressure, double lowest_pressure)
     : model_(&model),
-      numerics_(numerics),
+      tolerance_(tolerance),
       grid_(&grid),
       lowest_pressure_(lowest_pressure),
       trigger_(trigger_of(model)),
@@ -46,29 +46,25 @@ void FilmStation::advance(const IntervalPressure& pressure, double length, doubl
   if (point_.ignited || failed_) return;
   failed_ = !std::isfinite(pressure.begin) || !std::isfinite(pressure.end) || !std::isfinite(pressure.mean) ||
             !std::isfinite(heating) || !std::isfinite(length);
-  const bool fixed = numerics_.fixed_steps > 0;
-  if (fixed) wanted_ = length / numerics_.fixed_steps;
   if (!(wanted_ > 0.0)) wanted_ = length;
   for (double at = 0.0; at < length && !point_.ignited && !failed_;) {
     const double left = length - at;
-    double h = left / std::ceil(left / std::min(wanted_, left) - 1e-9);
-    if (!fixed) h = shortened(pressure, lowest_pressure_, length, at, h);
+    const double h = shortened(pressure, lowest_pressure_, length, at,
+                               left / std::ceil(left / std::min(wanted_, left) - 1e-9));
     kept_ = column_.state();
     kept_melted_ = melted_;
     const bool finite = try_step(pressure, length, at, h, heating);
     const bool shortest = h <= shortest_share * length;
     if (!finite && shortest) failed_ = true;
-    if (!fixed) {
-      const double factor = finite ? 0.9 / std::cbrt(std::max(error_, 1e-3)) : 0.1;
-      wanted_ = std::max(h * std::clamp(factor, 0.1, 5.0), shortest_share * length);
-    }
-    const bool accepted = finite && (fixed || error_ <= 1.0 || shortest);
+    const double factor = finite ? 0.9 / std::cbrt(std::max(error_, 1e-3)) : 0.1;
+    wanted_ = std::max(h * std::clamp(factor, 0.1, 5.0), shortest_share * length);
+    const bool accepted = finite && (error_ <= 1.0 || shortest);
     if (accepted && !point_.ignited) {
       at = left <= h * (1.0 + 1e-9) ? length : at + h;
       energy_.work += column_.heat().work;
       energy_.friction += column_.heat().friction;
       energy_.reaction += reaction_;
-      if (!fixed) wanted_ = std::min(wanted_, longest_step());
+      wanted_ = std::min(wanted_, longest_step());
     } else {
       // Also before the step in which it ignites: what burns is no longer this column's account.
       column_.restore(kept_);
@@ -90,7 +86,7 @@ bool FilmStation::try_step(const IntervalPressure& pressure, double length, doub
   if (point_.ignited) return true;
   const double surface_before = column_.charge_surface();
   for (std::size_t i = 0; i < warmed_.size(); ++i) warmed_[i] = -column_.temperature(i) / h;
-  error_ = column_.step(h, {at(0.0), at(inner_stage), at(1.0)}, heating) / numerics_.tolerance;
+  error_ = column_.step(h, {at(0.0), at(inner_stage), at(1.0)}, heating) / tolerance_;
   if (!std::isfinite(error_)) return false;
   for (std::size_t i = 0; i < warmed_.size(); ++i) warmed_[i] += column_.temperature(i) / h;
   melt();
@@ -235,7 +231,7 @@ FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& tra
   const auto grid = detail::film_grid(model, gap, trace.time.back() - trace.time.front(), numerics);
   const std::vector<double> shares = area_shares(trace);
   std::vector<detail::FilmStation> stations(
-      trace.stations.size(), detail::FilmStation(model, grid, numerics, intervals.pressure_at(0),
+      trace.stations.size(), detail::FilmStation(model, grid, numerics.tolerance, intervals.pressure_at(0),
                                                  model.surface.air.initial_pressure));
   record(stations, shares, result.skin);
   // Before anything conducts the surface is as warm as the charge, whatever air it then meets.

@@ -62,7 +62,7 @@ GapColumns::GapColumns(const SkinModel& model, std::size_t columns, double gap, 
                        const FilmNumerics& numerics)
     : model_(model), grid_(detail::film_grid(model, gap, duration, numerics)), intervals_(columns) {
   const double rest = model.surface.air.initial_pressure;
-  columns_.assign(columns, detail::FilmStation(model_, grid_, numerics, rest, lowest_share * rest));
+  columns_.assign(columns, detail::FilmStation(model_, grid_, numerics.tolerance, rest, lowest_share * rest));
 }
 
 void GapColumns::advance(std::size_t column, double length, double begin, double end, double mean,

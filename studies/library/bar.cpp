@@ -48,8 +48,8 @@ int main() {
   const LinearElastic glass{.density = 2500, .bulk = 40e9, .shear = 30e9};  // kg/m3, Pa, Pa
   const scene::Scene scene = bar_scene(glass);
   const scene::PressureHistory pressure(scene.load);
-  // m/s, of waves much longer than the bar is thick.
-  const double speed = std::sqrt(glass.young_modulus() / glass.density);
+  const double young = 9.0 * glass.bulk * glass.shear / (3.0 * glass.bulk + glass.shear);  // Pa
+  const double speed = std::sqrt(young / glass.density);  // m/s, of waves much longer than the bar is thick
 
   mpm::Simulation simulation(scene);
   // Bodies are arrays of particles. Column i of the lattice lies at x_of(i), row 0 next to the axis.

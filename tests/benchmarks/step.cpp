@@ -49,7 +49,7 @@ template <class Operation>
 void over_the_charge(benchmark::State& state, Operation&& operation) {
   scene::Scene scene = shipped_scene(2.5e-3);
   scene.numerics.formulation = scene::Formulation::updated_lagrangian;
-  const mpm::Simulation simulation(scene);
+  mpm::Simulation simulation(scene);
   mpm::Grid grid = simulation.updated_lagrangian()->grid();
   const mpm::ParticleFields& p = simulation.bodies_of<materials::Charge>()[0].get().particles;
   const mpm::StencilContext context{grid, grid.origin_x, 0.5 * p.lattice.length_x(0),

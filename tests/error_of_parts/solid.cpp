@@ -1,5 +1,5 @@
 // Visco-SCRAM: relaxation and loading without cracks, which it integrates exactly, and with growing cracks.
-#include "launchsafe/materials/visco_scram.hpp"
+#include "launchsafe/materials/visco_scram_step.hpp"
 #include "series.hpp"
 
 #include <cmath>
@@ -8,17 +8,17 @@ namespace launchsafe::error_of_parts {
 namespace {
 
 using materials::ViscoScramParameters;
-using math::Deviator;
 using math::Pack;
 using State = materials::ViscoScramState<Pack>;
 
 /// Shear at a constant rate (1/s) for a time (s), of equal particles in one Pack, as the program does.
 State sheared(const ViscoScramParameters& solid, State state, double rate, double time, int steps) {
-  const auto step = materials::relaxation(solid, time / steps);
-  const Deviator<Pack> increment{Pack(0.0), Pack(0.0), Pack(rate * time / steps)};
-  for (int k = 0; k < steps; ++k)
-    materials::visco_scram_update<Pack>(solid, step, state, increment, Pack(0.0));
-  return state;
+  materials::ViscoScramStep law(solid);
+  law.set_step(time / steps);
+  const auto increment = vector_of(math::Deviator<Pack>{Pack(0.0), Pack(0.0), Pack(rate * time / steps)});
+  auto now = law.state_of(state);
+  for (int k = 0; k < steps; ++k) now = law.update(now, increment, Pack(0.0)).state;
+  return law.elements_of(now);
 }
 
 double shear_stress(const State& state) { return materials::total_deviator(state).rx[0]; }

@@ -94,7 +94,7 @@ TEST(ReadSensitivity, ANormalMayBeCutOff) {
 TEST(ReadSensitivity, SobolCasesFollowTheDesign) {
   const StudyFile file = study_of(
       sensitivity_start + "design = \"scrambled-sobol\"\nsamples = 4\nseed = 3\n" + crack + steepness + flaw);
-  const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, 3, 3);
+  const auto design = math::saltelli_design(math::Design::scrambled_sobol, 4, {1, 1, 1}, 3);
   ASSERT_EQ(file.cases.size(), design.evaluations());
   for (std::size_t evaluation = 0; evaluation < file.cases.size(); ++evaluation) {
     const auto point = design.point(evaluation);
@@ -132,8 +132,7 @@ TEST(ReadSensitivity, FaultsOfKeysNameFileLineKeyFoundAndAllowed) {
   expect_line_error("samples = 400000", {4, "samples", "1200000 mechanical runs", "at most 1000000"});
   expect_line_error("seed = -1", {4, "seed", "-1"});
   expect_line_error("resamples = 0", {4, "resamples", "0"});
-  expect_line_error("surrogate = true\nsamples = 8",
-                    {4, "surrogate", "8 samples to be fitted", "30 to 2000 samples"});
+  expect_line_error("surrogate = true", {4, "surrogate"});
   expect_line_error("confidence = 0.4", {4, "confidence", "0.4", "0.5 to 0.999"});
   expect_line_error("confidence = 1", {4, "confidence", "1"});
   expect_line_error("reference = [{ gap = \"0 cm\" }]", {4, "reference", "\"critical-gap\"", "sensitivity"});

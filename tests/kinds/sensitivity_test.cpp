@@ -224,29 +224,6 @@ TEST(Sensitivity, LaunchesAreAddedUntilTheErrorIsWhatIsAsked) {
   EXPECT_LE(beyond, 8);
 }
 
-// T max is linear in the inputs, so that the fit has nothing to miss.
-TEST(Sensitivity, FitsTheDrawsOfSobolWhereAskedWithoutAnotherLaunch) {
-  const std::string draws = no_search + "method = \"sobol\"\nsamples = 32\n";
-  const Counted plain, fitted;
-  const SensitivityResult without = run_sensitivity(study_of(linear_text(draws)), plain.options);
-  const SensitivityResult with =
-      run_sensitivity(study_of(linear_text(draws + "surrogate = true\n")), fitted.options);
-  EXPECT_EQ(*fitted.runs, *plain.runs);
-  EXPECT_TRUE(report_of(without).files.empty());
-  const OutputSensitivity& temperature = output_of(with, SensitivityOutput::maximum_temperature);
-  EXPECT_EQ(temperature.sobol.inputs[0].total.value,
-            output_of(without, SensitivityOutput::maximum_temperature).sobol.inputs[0].total.value);
-  const SurrogateRecord record =
-      parse_surrogate(report_of(with).files.front().text, "surrogate.json").value();
-  EXPECT_EQ(record.fitted(), 32u);
-  EXPECT_EQ(record.held_out.size(), 32u);
-  const Surrogate surrogate(record, *record.predicted("temperature_max"));
-  for (const double localisation : {1100.0, 1300.0, 1500.0})
-    EXPECT_NEAR(surrogate.at(record.inputs.point_of({localisation, 530.0, 475e6})).value,
-                300.0 + 116.1 * localisation / 1700.0, 1e-3);
-  EXPECT_FALSE(output_of(with, SensitivityOutput::critical_gap).fit);  // all are bounds
-}
-
 TEST(Sensitivity, AnErrorThatIsOutOfReachUsesUpTheLaunchesAndSaysSo) {
   const StudyFile study =
       study_of(linear_text(few_samples + "error_of_temperature = \"0.0001 K\"\nmost_samples = 26\n"));

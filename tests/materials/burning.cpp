@@ -23,8 +23,15 @@ const ProductGas& products() {
   return gas;
 }
 /// Molecules without size and attraction: the ideal gas.
-ProductGas ideal_gas() { return ProductGas({{{"point", 100.0, 0.0}, 30.0}}, 1200.0); }
+ProductGas ideal_gas() { return ProductGas({{{100.0, 0.0}, 30.0}}, 1200.0); }
 BurningMixture mixture() { return BurningMixture(UnreactedJwl{}, 1717.0, products(), tension_cutoff); }
+
+/// Z of one gas at T (K) and molar volume V (m3/mol), Eq. 37 corrected: 1 + B* x + B*/T*^(1/4) x^2, x = b0/V.
+double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume) {
+  const double reduced = temperature / gas.temperature, x = gas.covolume / molar_volume;
+  const double second = reduced_second_virial(reduced);
+  return 1.0 + second * x + second / std::pow(reduced, 0.25) * x * x;
+}
 
 constexpr double amount = 30.447;  // mol per kg of the products
 /// Z of the products at a density (kg/m3): the mean over their moles.

@@ -6,6 +6,8 @@
 #include "launchsafe/materials/jwl.hpp"
 #include "launchsafe/materials/mie_gruneisen.hpp"
 #include "launchsafe/materials/vlw.hpp"
+#include "support/jwl_energy_form.hpp"
+#include "support/mie_gruneisen_pressure.hpp"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <gtest/gtest.h>
@@ -18,7 +20,8 @@ namespace {
 
 using namespace launchsafe::materials;
 using launchsafe::math::Pack;
-using launchsafe::test_support::first_of;
+using launchsafe::test_support::composition_b_products, launchsafe::test_support::first_of,
+    launchsafe::test_support::jwl_pressure, launchsafe::test_support::mie_gruneisen_pressure;
 
 const double not_a_number = std::nan("");
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -41,7 +44,7 @@ double isentrope_pressure(const JwlParameters& m, double v) {
 TEST(Jwl, IsentropeFarFromRestIsTheClosedFormAndTheLawItself) {
   for (const JwlParameters& m : {unreacted_composition_b(), composition_b_products()})
     for (const double v : {0.3, 0.31, 0.5, 0.95, 1.05, 2.0, 5.0}) {
-      const double closed = isentrope_pressure(m, v), scale = std::abs(closed) + m.initial_density * 1e3;
+      const double closed = isentrope_pressure(m, v), scale = std::abs(closed) + 1.7e6;
       EXPECT_NEAR(jwl_isentropic_pressure(m, v), closed, 1e-12 * scale) << v;
       EXPECT_NEAR(first_of(jwl_isentropic_pressure(m, Pack(v))), closed, 1e-12 * scale) << v;
       EXPECT_NEAR(jwl_pressure(m, v, isentrope_energy(m, v)), closed, 1e-9 * scale) << v;
@@ -53,10 +56,9 @@ TEST(Jwl, TensionCutOffActsBeforeTheSoundSpeedCeasesToBeReal) {
   const JwlParameters m = unreacted_composition_b();
   double acted_at = infinity, soft_at = infinity;
   for (int k = 1; k <= 4000; ++k) {
-    const double v = 1.0 + 1e-3 * k, energy = isentrope_energy(m, v),
-                 modulus = jwl_bulk_modulus(m, v, energy);
+    const double v = 1.0 + 1e-3 * k, modulus = jwl_isentropic_bulk_modulus(m, v);
     ASSERT_TRUE(std::isfinite(modulus)) << v;
-    if (jwl_pressure(m, v, energy) < -Charge{}.tension_cutoff) acted_at = std::min(acted_at, v);
+    if (jwl_isentropic_pressure(m, v) < -Charge{}.tension_cutoff) acted_at = std::min(acted_at, v);
     if (modulus <= 0.0) soft_at = std::min(soft_at, v);
   }
   EXPECT_LT(soft_at, 5.0);
@@ -128,7 +130,8 @@ TEST(MieGruneisen, IsValidUpToTheGuardAndNowhereElse) {
   const MieGruneisenParameters m;
   const double bound = largest_compression(m);
   EXPECT_NEAR(bound, 0.9 / 0.73, 1e-14);
-  EXPECT_EQ(hugoniot_pressure(m, 2.0 * bound), hugoniot_pressure(m, bound));
+  const auto at_rest = [&](double mu) { return mie_gruneisen_compress(m, mu, 0.0, 0.0, mu, 0.0).pressure; };
+  EXPECT_EQ(at_rest(2.0 * bound), at_rest(bound));
   for (const double mu : {-1.0 + 1e-12, -0.5, 0.0, 0.5, bound})
     EXPECT_TRUE(mie_gruneisen_is_valid(m, mu)) << mu;
   for (const double mu :

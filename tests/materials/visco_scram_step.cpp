@@ -1,5 +1,5 @@
 // The charge's step of Visco-SCRAM against the plain form of the same equations.
-#include "launchsafe/materials/visco_scram_step.hpp"
+#include "support/visco_scram_update.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@ namespace {
 using namespace launchsafe::materials;
 using launchsafe::math::Deviator;
 using launchsafe::math::Pack;
+using launchsafe::test_support::plain_update;
 namespace math = launchsafe::math;
 
 struct Solid {
@@ -51,16 +52,10 @@ std::vector<Solid> solids() {
 
 /// A particle in both forms.
 struct Twin {
-  ViscoScramState<double> plain{};
-  ViscoScramStep::State<double> lean{};
+  ViscoScramState<double> plain;
+  ViscoScramStep::State<double> lean;
 
-  void relax_into(const ViscoScramState<double>& state) {
-    plain = state;
-    lean.total = vector_of(total_deviator(state));
-    for (std::size_t n = 0; n < ViscoScramStep::kept_elements; ++n)
-      lean.elements[n] = vector_of(state.elements[n + 1]);
-    lean.crack_radius = state.crack_radius;
-  }
+  explicit Twin(const ViscoScramState<double>& state) : plain(state), lean(ViscoScramStep::state_of(state)) {}
 };
 
 /// Random states of up to `stress` (Pa) an element, cracks of up to 30 times the initial radius.
@@ -72,9 +67,7 @@ Twin random_twin(const ViscoScramParameters& p, double stress, std::mt19937_64& 
     state.elements[n] = {size * share(random), size * share(random), size * share(random)};
   }
   state.crack_radius = p.initial_crack_radius * std::pow(30.0, std::abs(share(random)));
-  Twin twin;
-  twin.relax_into(state);
-  return twin;
+  return Twin(state);
 }
 
 double size_of(const ViscoScramState<double>& s) {
@@ -98,7 +91,7 @@ TEST(ViscoScramStep, IsThePlainFormToRoundOff) {
         const double strain = 2e-4 * std::pow(share(random), 3.0), pressure = 2e8 * share(random);
         const Deviator<double> de{strain * share(random), strain * share(random), strain * share(random)};
         const auto old = twin.plain;
-        const auto lost = visco_scram_update(p, factors, twin.plain, de, pressure);
+        const auto lost = plain_update(p, factors, twin.plain, de, pressure);
         const auto end = law.update(twin.lean, vector_of(de), pressure);
         // Of the stresses that came together 1e-12, and of q S, which cancels in the strain applied,
         // round-off.
@@ -138,9 +131,8 @@ TEST(ViscoScramStep, SlowGrowthIsThePlainFormsToTheLastDigits) {
       ViscoScramState<double> state{};
       state.elements[0].rx = stress;
       state.crack_radius = p.initial_crack_radius;
-      Twin twin;
-      twin.relax_into(state);
-      visco_scram_update<double>(p, relaxation(p, dt), twin.plain, {}, pressure);
+      Twin twin(state);
+      plain_update(p, relaxation(p, dt), twin.plain, {}, pressure);
       const auto end = law.update<double>(twin.lean, {}, pressure);
       const double grown = twin.plain.crack_radius - p.initial_crack_radius;
       EXPECT_NEAR(end.state.crack_radius - p.initial_crack_radius, grown,

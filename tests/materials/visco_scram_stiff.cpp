@@ -5,7 +5,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
 
-#include "launchsafe/materials/visco_scram.hpp"
+#include "support/visco_scram_update.hpp"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -18,6 +18,7 @@ namespace {
 
 using namespace launchsafe::materials;
 namespace math = launchsafe::math;
+namespace test_support = launchsafe::test_support;
 using MaxwellSolid = ViscoScramParameters;
 using SolidState = ViscoScramState<double>;
 
@@ -32,7 +33,7 @@ MaxwellSolid solid_with(double tau) {
 
 ViscoScramDissipation<double> advance_solid(const MaxwellSolid& solid, double dt, SolidState& state,
                                             double shear, double pressure = 0.0) {
-  return visco_scram_update<double>(solid, relaxation(solid, dt), state, {0.0, 0.0, shear}, pressure);
+  return test_support::charge_update(test_support::step_of(solid, dt), state, {0.0, 0.0, shear}, pressure);
 }
 
 /// Elastic energy (J/m3) of the elements and of the open cracks: sum S_n:S_n/(4 G_n) + q S:S/(4 G).

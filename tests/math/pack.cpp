@@ -106,11 +106,12 @@ TEST(PackSelect, ChoosesLaneByLane) {
   for (std::size_t lane = 0; lane < math::pack_width; ++lane) {
     EXPECT_EQ(y[lane], lane < 3 ? -1.0 : static_cast<double>(lane));
   }
-  const int width = static_cast<int>(math::pack_width), below_three = std::min(width, 3);
-  EXPECT_EQ(math::count(low), below_three);
-  EXPECT_EQ(math::count(!low), width - below_three);
-  EXPECT_EQ(math::count(low & (x > Pack(0.0))), below_three - 1);
-  EXPECT_EQ(math::count(low | (x >= Pack(width - 1.0))), std::min(width, 4));
+  const auto count = [](math::Mask lanes) { return math::sum(math::select(lanes, Pack(1.0), Pack(0.0))); };
+  const double width = static_cast<double>(math::pack_width), below_three = std::min(width, 3.0);
+  EXPECT_EQ(count(low), below_three);
+  EXPECT_EQ(count(!low), width - below_three);
+  EXPECT_EQ(count(low & (x > Pack(0.0))), below_three - 1.0);
+  EXPECT_EQ(count(low | (x >= Pack(width - 1.0))), std::min(width, 4.0));
 }
 
 TEST(PackAny, SeesASingleLane) {

@@ -69,18 +69,6 @@ TEST(LeastSquares, WithoutFreedomThereIsNoUncertaintyToState) {
   EXPECT_TRUE(std::isnan(fit->prediction_half_width({1.0, 0.5}, 0.95)));
 }
 
-TEST(ToleranceFactor, IsThatOfTheTables) {
-  // One-sided, 95/95: noncentral t; ISO 16269-6.
-  EXPECT_NEAR(math::one_sided_tolerance_factor(5, 0.95, 0.95), 4.2027, 5.01e-5);
-  EXPECT_NEAR(math::one_sided_tolerance_factor(10, 0.95, 0.95), 2.9110, 5.01e-5);
-  EXPECT_NEAR(math::one_sided_tolerance_factor(20, 0.95, 0.95), 2.3960, 5.01e-5);
-}
-
-TEST(ToleranceFactor, OfOneSampleOrOfCertaintyIsNotANumber) {
-  EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(1, 0.95, 0.95)));
-  EXPECT_TRUE(std::isnan(math::one_sided_tolerance_factor(5, 1.0, 0.95)));
-}
-
 TEST(GridConvergence, FindsTheOrderOfAnExactPowerLaw) {
   const std::array<double, 3> sizes{1.0, 1.5, 3.0};  // unequal ratios
   const auto value = [](double h) { return 7.0 + 0.2 * std::pow(h, 1.7); };

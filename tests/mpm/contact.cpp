@@ -19,7 +19,7 @@ TEST(Contact, ABondHeldByContactIsTheTie) {
     shell.load = steady_pressure(300e6);
     shell.numerics.inertial_scaling = 4.0;
     if (by_contact) shell.interfaces = {held("wall"), held("base"), held("nose")};
-    mpm::Simulation simulation(shell);
+    LoadedSimulation simulation(shell);
     go_until(simulation, 2e-4);
     std::vector<double> all;
     simulation.for_each_body(
@@ -43,7 +43,7 @@ TEST(Contact, ClosesTheEnergyBalance) {
       scene::Scene shell = held_shell();
       shell.numerics.particles_per_cell = per_cell;
       shell.interfaces = {sliding("wall", friction), sliding("base", friction), sliding("nose", friction)};
-      mpm::Simulation simulation(shell);
+      LoadedSimulation simulation(shell);
       double largest = 0.0, scale = 0.0;
       while (simulation.time() < 2e-3) {
         simulation.step(simulation.stable_time_step());
@@ -65,7 +65,7 @@ TEST(Contact, ABlockOnAnInclineSticksOrSlides) {
   const double g = 1e4;
   for (const double friction : {0.0, 0.1, 0.3, 0.7})
     for (const double slope : {0.05, 0.25, 0.5}) {
-      mpm::Simulation simulation(block_on_floor(sliding("", friction)));
+      LoadedSimulation simulation(block_on_floor(sliding("", friction)));
       const double angle = std::atan(slope);
       pull_slowly(simulation, g * std::sin(angle), -g * std::cos(angle), 400);
       const double begin = simulation.time(), before = velocity_of(simulation, 1);
@@ -83,7 +83,7 @@ TEST(Contact, UniformPressurePassesASlippedInterface) {
   scene.numerics.growth_x = 1.2;
   scene.numerics.refined_x = {0.03};
   scene.numerics.largest_cell = 5e-3;
-  mpm::Simulation simulation(scene);
+  LoadedSimulation simulation(scene);
   const double pressure = 1e5 * block_density * block_height;
   pull_slowly(simulation, 1e5, -1e5, 400);
   double worst = 0.0;
@@ -102,7 +102,7 @@ TEST(Contact, UniformPressurePassesASlippedInterface) {
 
 TEST(Contact, ABouncingBlockGainsNoEnergy) {
   // Thrown up askew and drawn back, it falls on one edge, tilts, slides and bounces.
-  mpm::Simulation simulation(block_on_floor(sliding("", 0.3)));
+  LoadedSimulation simulation(block_on_floor(sliding("", 0.3)));
   simulation.apply_body_force(1, 0.0, -1e4);
   std::visit(
       [](auto& body) {
@@ -146,7 +146,7 @@ TEST(Contact, ABondBreaksAtItsStrength) {
     bond.shear_strength = shear ? strength : 1e12;
     scene::Scene scene = block_on_floor(bond);
     scene.numerics.damping_time = 2e-5;
-    mpm::Simulation simulation(scene);
+    LoadedSimulation simulation(scene);
     const auto pull = [&](double force, int steps) {
       pull_slowly(simulation, shear ? force : 0.0, shear ? 0.0 : force, steps);
       const auto nodes = simulation.total_lagrangian()->contact().state_of(0);
@@ -175,7 +175,7 @@ TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
   scene.bodies = {{"bar", "bar", 0.0, 0.2, 0.0, 0.01}, {"sleeve", "sleeve", 0.08, 0.12, 0.01, 0.02}};
   scene.interfaces = {sliding("sleeve", 0.3)};
   scene.interfaces[0].against = "bar";
-  mpm::Simulation simulation(scene);
+  LoadedSimulation simulation(scene);
   const double grip = 8000.0 * 0.01 * 1e4 * 0.04, friction = 0.3 * grip, mass = 2000.0 * 0.2 * 0.01;
   for (int step = 0; step < 400; ++step) {
     simulation.apply_body_force(0, 5e3 / 400, 0.0);
@@ -226,7 +226,7 @@ scene::Scene column_in_tube(double friction, double whole) {
 /// Force on the column's bottom and along its side, over that of the whole column without friction.
 std::pair<double, double> bottom_and_side(double friction) {
   const double whole = 1e6, area = 0.5 * 0.02 * 0.02;
-  mpm::Simulation simulation(column_in_tube(friction, whole));
+  LoadedSimulation simulation(column_in_tube(friction, whole));
   go_until(simulation, 2.5e-3);
   const mpm::Contact& contact = simulation.total_lagrangian()->contact();
   std::pair<double, double> shares;
@@ -266,7 +266,7 @@ TEST(Contact, WhatIsLoosenedBearsTheShareOfWhatItBore) {
   for (const auto& [along, across] : {std::pair{1000.0, 0.0}, {0.0, 1000.0}}) {
     scene::Scene scene = block_on_floor(sliding("", 0.0));
     scene.numerics.damping_time = 2e-5;
-    mpm::Simulation simulation(scene);
+    LoadedSimulation simulation(scene);
     mpm::Contact& contact = simulation.total_lagrangian()->contact();
     contact.hold(0);
     pull_slowly(simulation, along, across, 800);
@@ -297,7 +297,7 @@ TEST(Contact, NoNumberOfThreadsChangesABitOfSliding) {
   const auto run = [](int threads) {
     scene::Scene shell = held_shell();
     shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
-    mpm::Simulation simulation(shell, threads);
+    LoadedSimulation simulation(shell, threads);
     for (int step = 0; step < 300; ++step) simulation.step(simulation.stable_time_step());
     math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).velocity_r;
     all.push_back(simulation.energy().contact);

@@ -1,7 +1,7 @@
 // Scenes of the tests of contact, and what they look at.
 #pragma once
 
-#include "launchsafe/mpm/simulation.hpp"
+#include "loads.hpp"
 #include "scenes.hpp"
 
 #include <cmath>
@@ -35,7 +35,7 @@ inline scene::Interface held(const std::string& body) {
           .shear_strength = 1e18};
 }
 
-inline void go_until(mpm::Simulation& simulation, double end) {
+inline void go_until(LoadedSimulation& simulation, double end) {
   while (simulation.time() < end) simulation.step(simulation.stable_time_step());
 }
 
@@ -71,7 +71,7 @@ inline scene::Scene block_on_floor(scene::Interface faces) {
 }
 
 /// Turns the block's body force (m/s2) on in equal parts over some steps.
-inline void pull_slowly(mpm::Simulation& simulation, double along, double across, int steps) {
+inline void pull_slowly(LoadedSimulation& simulation, double along, double across, int steps) {
   for (int step = 0; step < steps; ++step) {
     simulation.apply_body_force(1, along / steps, across / steps);
     simulation.step(simulation.stable_time_step());

@@ -21,7 +21,7 @@ struct ContactWatch {
   double least_pressure = 0, largest = 0;    ///< Pa
   bool sound = true;
 
-  void look(const mpm::Simulation& simulation) {
+  void look(const LoadedSimulation& simulation) {
     const mpm::EnergyTotals& e = simulation.energy();
     scale = std::max(scale, std::abs(e.kinetic) + e.internal);
     drift = std::max(drift, std::abs(ledger(e) - initial));
@@ -38,7 +38,7 @@ struct ContactWatch {
   }
 };
 
-ContactWatch watched(mpm::Simulation& simulation, double end) {
+ContactWatch watched(LoadedSimulation& simulation, double end) {
   ContactWatch watch;
   for (bool first = true; simulation.time() < end && watch.sound; first = false) {
     simulation.step(simulation.stable_time_step());
@@ -52,7 +52,7 @@ ContactWatch watched_launch(const std::function<void(scene::Scene&)>& change) {
   scene::Scene shell = held_shell();
   shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
   change(shell);
-  mpm::Simulation simulation(shell);
+  LoadedSimulation simulation(shell);
   return watched(simulation, scene::end_time(shell.load));
 }
 
@@ -60,7 +60,7 @@ void set_friction(scene::Scene& scene, double friction) {
   for (scene::Interface& faces : scene.interfaces) faces.friction = friction;
 }
 
-void throw_block(mpm::Simulation& simulation, double along, double across) {
+void throw_block(LoadedSimulation& simulation, double along, double across) {
   std::visit(
       [&](auto& body) {
         mpm::ParticleFields& block = body.particles;
@@ -90,7 +90,7 @@ TEST(ContactStressTests, TheLedgerClosesWithScaledInertiaAndWithDamping) {
     }
   scene::Scene shell = held_shell();
   shell.numerics.inertial_scaling = 4.0;
-  mpm::Simulation tied(shell);
+  LoadedSimulation tied(shell);
   const ContactWatch watch = watched(tied, 2e-3);
   EXPECT_LT(watch.drift / watch.scale, 1e-5);
 }
@@ -128,7 +128,7 @@ TEST(ContactStressTests, ABlockThatLeavesTheFloorMeetsNothing) {
     for (const bool floor_has_rows : {false, true}) {
       scene::Scene scene = block_on_floor(sliding("", friction));
       if (floor_has_rows) std::swap(scene.interfaces[0].body, scene.interfaces[0].against);
-      mpm::Simulation simulation(scene);
+      LoadedSimulation simulation(scene);
       simulation.apply_body_force(1, 0.0, -1e4);
       throw_block(simulation, 25.0, 0.0);
       const ContactWatch watch = watched(simulation, 6e-3);
@@ -150,7 +150,7 @@ TEST(ContactStressTests, AChargePastTheEndOfItsWallIsHeldByTheRestOfIt) {
     shell.load.peak = 50e6;
     shell.bodies[2].x_begin = 0.2;
     shell.interfaces = {sliding("wall", friction), sliding("base", friction), sliding("nose", friction)};
-    mpm::Simulation simulation(shell);
+    LoadedSimulation simulation(shell);
     const ContactWatch watch = watched(simulation, 2e-3);
     EXPECT_TRUE(watch.sound);
     EXPECT_LT(watch.drift / watch.scale, 1e-4);
@@ -186,7 +186,7 @@ TEST(ContactStressTests, TheFirstBounceCostsTheMotionOfTheNodesThatMeet) {
   for (const int cells : {4, 16}) {
     scene::Scene scene = block_on_floor(sliding("", 0.2));
     scene.numerics.cell_size = block_height / cells;
-    mpm::Simulation simulation(scene);
+    LoadedSimulation simulation(scene);
     throw_block(simulation, 0.0, -0.1);
     const double thrown = 0.5 * block_density * block_height * block_length * 0.1 * 0.1;
     double contact_time = 0.0;
@@ -207,7 +207,7 @@ TEST(ContactStressTests, AHeavyBlockRestsOnASoftLightFloor) {
   scene::Scene scene = block_on_floor(sliding("", 0.1));
   scene.materials[0] = plain("floor", 1e6, 0.0, 200.0);
   scene.numerics.damping_time = 2e-4;
-  mpm::Simulation simulation(scene);
+  LoadedSimulation simulation(scene);
   const double acceleration = 1e-2 * 2e6 / (block_density * block_height);
   for (int part = 0; part < 100; ++part) {
     simulation.apply_body_force(1, 0.0, -acceleration / 100);
@@ -237,7 +237,7 @@ RodForces forces_round_a_rod(double friction) {
   }
   scene.numerics.damping_time = 5e-5;
   scene.load = steady_pressure(0.0);
-  mpm::Simulation simulation(scene);
+  LoadedSimulation simulation(scene);
   // Slower and slower, so that nothing slides back at the end.
   const int parts = 400;
   for (int part = 0; part < parts; ++part) {
@@ -286,7 +286,7 @@ TEST(ContactStressTests, TheLargestFrictionIsABond) {
   const auto run = [](const scene::Interface& faces) {
     scene::Scene scene = block_on_floor(faces);
     scene.numerics.damping_time = 2e-5;
-    mpm::Simulation simulation(scene);
+    LoadedSimulation simulation(scene);
     pull_slowly(simulation, 0.0, -1e5, 400);
     pull_slowly(simulation, 1e4, 0.0, 400);
     go_until(simulation, simulation.time() + 5e-4);
@@ -383,7 +383,7 @@ TEST(ContactStressTests, NoNumberOfThreadsChangesABitOfBreakingBonds) {
     shell.bodies[2].x_begin = 0.2;
     shell.load = steady_pressure(100e6);
     break_bonds_of(shell, 1e6);
-    mpm::Simulation simulation(shell, threads);
+    LoadedSimulation simulation(shell, threads);
     for (int step = 0; step < 400; ++step) simulation.step(simulation.stable_time_step());
     math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).velocity_r;
     all.push_back(simulation.energy().contact);

@@ -4,6 +4,7 @@
 #include "launchsafe/mpm/simulation.hpp"
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace launchsafe::test_support {
@@ -28,7 +29,7 @@ double bulk_modulus(const scene::Steel& steel);
 /// still tile the body. Returns the pressure (Pa).
 double compress(mpm::Simulation& simulation, double mu);
 /// Runs to `end` (s) in equal steps no longer than the stable one at rest; returns the step (s).
-double run_to(mpm::Simulation& simulation, double end);
+double run_to(mpm::Simulation& simulation, double end, const std::function<void()>& before_step = {});
 /// Speed (m/s) towards the nose of a pulse between two times (s) at which it is whole and inside: of the
 /// centre of its momentum. Runs to `end`.
 double speed_of_pulse(mpm::Simulation& simulation, double begin, double end);
@@ -58,10 +59,11 @@ struct WaveError {
 };
 WaveError longitudinal_error(scene::Formulation formulation, int cells);
 
-/// Relative error of the temperature rise in a half space of charge whose face is held 1 K hotter, after
-/// 1 ms, in cells of `cell` (m) and so many equal steps: a strip of 0.1 mm, eleven diffusion lengths.
+/// Relative error of the temperature rise in a half space of charge whose face is 1 K hotter, as it meets
+/// another one that is 2 K hotter, after 1 ms, in cells of `cell` (m) and so many equal steps: strips of 0.1
+/// mm, eleven diffusion lengths.
 double half_space_error(double cell, int steps);
-inline constexpr double half_space_duration = 1e-3;  // s
+inline constexpr double half_space_duration = 1e-3, half_space_depth = 1e-4;  // s, m
 scene::Scene half_space(double cell);
 
 /// Changes of a block that flies freely under a uniform stress in balance: all 0 in exact arithmetic.

@@ -16,14 +16,14 @@ constexpr double atmosphere = 101325.0;                   // Pa
 constexpr double load_per_area = 1717.0 * 0.56 * 1000.0;  // Pa: rho L a of the charge at 1000 m/s2
 constexpr double fall = load_per_area / (block_density * block_height);  // m/s2 of the block for that load
 
-mpm::Contact& contact_of(mpm::Simulation& simulation) { return simulation.total_lagrangian()->contact(); }
+mpm::Contact& contact_of(LoadedSimulation& simulation) { return simulation.total_lagrangian()->contact(); }
 
 /// Whether each node has gas of its own, or all share it.
 enum class Gas { of_nodes, common };
 
 /// A block above the floor by a gap (m), down to a floor, with gas that is compressed by `exponent`; 0: none.
-void part_block(mpm::Simulation& simulation, double gap, double floor, double exponent, double covolume = 0.0,
-                Gas kind = Gas::of_nodes) {
+void part_block(LoadedSimulation& simulation, double gap, double floor, double exponent,
+                double covolume = 0.0, Gas kind = Gas::of_nodes) {
   mpm::Contact& contact = contact_of(simulation);
   contact.part(0, gap, floor);
   if (!(exponent > 0.0)) return;
@@ -34,7 +34,7 @@ void part_block(mpm::Simulation& simulation, double gap, double floor, double ex
 }
 
 /// Lets the block fall; the first step moves it by half a step's speed, as that is at the middle of a step.
-void let_fall(mpm::Simulation& simulation, double acceleration, double step) {
+void let_fall(LoadedSimulation& simulation, double acceleration, double step) {
   simulation.apply_body_force(1, 0.0, -0.5 * acceleration);
   simulation.step(step);
   simulation.apply_body_force(1, 0.0, -0.5 * acceleration);
@@ -47,12 +47,12 @@ scene::Scene block_of(double shear) {
   return scene;
 }
 
-double opening_of(mpm::Simulation& simulation) { return contact_of(simulation).opening(0, 2); }
+double opening_of(LoadedSimulation& simulation) { return contact_of(simulation).opening(0, 2); }
 
 /// m, the smallest opening that a block falls to with its gas.
 double smallest_opening(double shear, double gap, double exponent, double step_share = 1.0,
                         double acceleration = fall, double covolume = 0.0, Gas kind = Gas::of_nodes) {
-  mpm::Simulation simulation(block_of(shear));
+  LoadedSimulation simulation(block_of(shear));
   part_block(simulation, gap, 1e-3 * gap, exponent, covolume, kind);
   let_fall(simulation, acceleration, step_share * simulation.stable_time_step());
   // The parabola through the three lowest, so that no step has to meet the turning point.
@@ -96,7 +96,7 @@ TEST(GapGas, ABlockBouncesLaterWhereItsGasStaysCold) {
 }
 
 TEST(GapGas, PushesNothingAtThePressureOutside) {
-  mpm::Simulation simulation(block_of(1e9));
+  LoadedSimulation simulation(block_of(1e9));
   part_block(simulation, 1e-3, 1e-6, 1.4);
   for (int step = 0; step < 1000; ++step) simulation.step(simulation.stable_time_step());
   EXPECT_DOUBLE_EQ(opening_of(simulation), 1e-3);
@@ -105,7 +105,7 @@ TEST(GapGas, PushesNothingAtThePressureOutside) {
 TEST(GapGas, ABodyFliesAndMeetsTheFloorWithItsImpedance) {
   // t = sqrt(2 h0/a), v = sqrt(2 a h0), then p = Z (v + a t) until a wave has been to the far end and back.
   const double gap = 1e-4, acceleration = 1e6, shear = 1e9;
-  mpm::Simulation simulation(block_of(shear));
+  LoadedSimulation simulation(block_of(shear));
   part_block(simulation, gap, 1e-9, 0.0);
   simulation.apply_body_force(1, 0.0, -acceleration);
   double before = gap, time = 0.0;
@@ -148,7 +148,7 @@ TEST(GapGas, ClosesTheEnergyBalanceWithItsWork) {
   for (const auto& [exponent, limit, kind] :
        {Row{0.0, 1e-4, Gas::of_nodes}, Row{1.0, 1e-4, Gas::of_nodes}, Row{1.4, 2e-7, Gas::of_nodes},
         Row{1.0, 1e-4, Gas::common}, Row{1.4, 2e-7, Gas::common}}) {
-    mpm::Simulation simulation(block_of(1e12));
+    LoadedSimulation simulation(block_of(1e12));
     part_block(simulation, 1e-3, 1e-5, exponent, 0.0, kind);
     let_fall(simulation, fall, simulation.stable_time_step());
     double largest = 0.0, scale = 0.0;
@@ -166,7 +166,7 @@ TEST(GapGas, ClosesTheEnergyBalanceWithItsWork) {
 TEST(GapGas, ItsWorkIsThatOfTheLaw) {
   // U = p h/(gamma - 1) of the gas, less the work against the pressure outside.
   for (const Gas kind : {Gas::of_nodes, Gas::common}) {
-    mpm::Simulation simulation(block_of(1e12));
+    LoadedSimulation simulation(block_of(1e12));
     const double gap = 1e-3;
     part_block(simulation, gap, 1e-6, 1.4, 0.0, kind);
     let_fall(simulation, fall, simulation.stable_time_step());

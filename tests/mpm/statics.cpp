@@ -1,5 +1,6 @@
 // States of rest, reached by dynamic relaxation, against closed forms, in either formulation.
 #include "exact_solutions.hpp"
+#include "loads.hpp"
 #include "scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -55,8 +56,7 @@ Tube relaxed_tube(scene::Formulation formulation, int radial_cells) {
   ring.numerics.damping_time = 6.8e-6;  // critical for the breathing mode
   ring.steel().strength.a = 1e15;       // never yields
   mpm::Simulation simulation(ring);
-  simulation.apply_bore_pressure(0, pressure);
-  run_to(simulation, 3e-4);
+  run_to(simulation, 3e-4, [&] { press_bore(simulation, pressure); });
   const mpm::Body<materials::Steel>& body = simulation.bodies_of<materials::Steel>()[0];
   const mpm::ParticleFields& p = body.particles;
   const int begin = 2, end = p.lattice.columns() - 3;  // clear of the ends

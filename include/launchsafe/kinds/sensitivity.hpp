@@ -30,7 +30,6 @@ struct SensitivitySettings {
   double temperature_error = study::not_a_number;   ///< K
   double critical_gap_error = study::not_a_number;  ///< m
   int most_samples = 256;
-  bool surrogate = false;  ///< of sobol: A is fitted too, and held against B
   std::uint64_t seed = 1;  ///< of design and bootstrap
   int resamples = 1000;    ///< of the bootstrap
   double confidence = 0.95;
@@ -86,7 +85,7 @@ struct OutputSensitivity {
   double mean = study::not_a_number,
          deviation = study::not_a_number;          ///< over the evaluations that sample the inputs
   math::SobolIndices sobol;                        ///< where there are indices, of every input
-  std::optional<study::SurrogateOutput> fit = {};  ///< where something is fitted
+  std::optional<study::SurrogateOutput> fit = {};  ///< of a study by fit
   /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
   /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
   std::string reason;
@@ -95,7 +94,7 @@ struct OutputSensitivity {
 struct SensitivityResult : StudyResult {
   std::vector<study::CaseAnswer> answers;  ///< one for each of StudyFile::cases
   std::vector<OutputSensitivity> outputs;
-  /// Where something is fitted: points of the unit cube, a row a case. Behind those of the design are those
+  /// Of a fit: points of the unit cube, a row a case. Behind those of the design are those
   /// that were added, where the fit was least sure, for the errors that are asked of it.
   std::vector<double> points = {};
   bool any_indeterminate() const;  ///< an output without indices, or with a larger error than is asked

@@ -1,4 +1,4 @@
-// Jones-Wilkins-Lee equation of state in energy form (paper Eq. 32; unreacted explosive and products).
+// Jones-Wilkins-Lee equation of state of the unreacted explosive, on its isentrope (paper Eq. 32).
 #pragma once
 
 #include "launchsafe/keys/key.hpp"
@@ -17,53 +17,11 @@ struct JwlParameters {
   double r1 = 11.3;                    ///< R1 [P]
   double r2 = 1.13;                    ///< R2 [P]
   double omega = 0.8938;               ///< w [P]
-  double initial_density = 1717.0;     ///< kg/m3 [P]
   double initial_energy = -6.11861e8;  ///< E(V = 1), J per m3 of initial volume; makes p(V = 1) vanish [D]
 };
 
 /// Unreacted Composition B. The initial energy is computed so that p(V = 1) = 0 to round-off.
 JwlParameters unreacted_composition_b();
-/// Detonation products of Composition B [L].
-JwlParameters composition_b_products();
-
-/// The part of the pressure (Pa) that does not depend on the energy, at relative volume V > 0.
-template <class Real>
-Real jwl_cold_pressure(const JwlParameters& m, Real v) {
-  using math::exp;
-  const Real inverse_v = Real(1.0) / v;
-  return Real(m.a) * (Real(1.0) - Real(m.omega / m.r1) * inverse_v) * exp(Real(-m.r1) * v) +
-         Real(m.b) * (Real(1.0) - Real(m.omega / m.r2) * inverse_v) * exp(Real(-m.r2) * v);
-}
-
-/// Energy E (J per m3 of initial volume) at V and temperature T (K) with rho0 Cv = `heat_capacity` (J/(m3
-/// K)): A/R1 exp(-R1 V) + B/R2 exp(-R2 V) + rho0 Cv T. With it the energy form and the temperature form p = A
-/// exp(-R1 V) + B exp(-R2 V) + w rho0 Cv T/V are one law. Unreacted Composition B: 2.487e6 J/(m3 K) [L].
-double jwl_energy_at_temperature(const JwlParameters& m, double v, double heat_capacity, double temperature);
-
-/// Relative volume V_CJ = 1 - P_CJ/(rho0 D^2) behind a detonation of velocity D (m/s) and pressure P_CJ (Pa).
-double chapman_jouguet_volume(const JwlParameters& m, double velocity, double pressure);
-
-/// Energy E0 (J/m3) of the products' law before detonation, Eq. 34: E_CJ - 1/2 P_CJ (1 - V_CJ), with E_CJ
-/// from the law itself at (V_CJ, P_CJ).
-double chapman_jouguet_initial_energy(const JwlParameters& m, double velocity, double pressure);
-
-/// Pressure (Pa, compression positive) at relative volume V > 0 and energy E (J per m3 of initial volume).
-template <class Real>
-Real jwl_pressure(const JwlParameters& m, Real v, Real energy) {
-  return jwl_cold_pressure(m, v) + Real(m.omega) * energy / v;
-}
-
-/// Isentropic bulk modulus -V dp/dV|_s (Pa), using dE = -p dV.
-template <class Real>
-Real jwl_bulk_modulus(const JwlParameters& m, Real v, Real energy) {
-  using math::exp;
-  const Real p = jwl_pressure(m, v, energy);
-  const Real exp1 = Real(m.a) * exp(Real(-m.r1) * v), exp2 = Real(m.b) * exp(Real(-m.r2) * v);
-  const Real dp_dv = exp1 * (Real(m.omega) / (Real(m.r1) * v * v) - Real(m.r1) + Real(m.omega) / v) +
-                     exp2 * (Real(m.omega) / (Real(m.r2) * v * v) - Real(m.r2) + Real(m.omega) / v) -
-                     Real(m.omega) * energy / (v * v);
-  return -v * (dp_dv - Real(m.omega) * p / v);
-}
 
 /// Energy (J per m3 of initial volume) that belongs to the two exponentials of the isentrope, A/R1 exp(-R1 V)
 /// + B/R2 exp(-R2 V).
@@ -116,11 +74,6 @@ class JwlIsentrope {
     return math::select(inside, near, far_pressure(x));
   }
 
-  /// The interval of x, and the largest difference (Pa) from the closed form found in it when this was made.
-  double lowest() const { return lowest_; }
-  double highest() const { return highest_; }
-  double error() const { return error_; }
-
  private:
   template <class Real>
   [[gnu::noinline, gnu::cold]] Real far_pressure(Real x) const {
@@ -131,7 +84,7 @@ class JwlIsentrope {
 
   JwlParameters law_;
   std::array<double, 16> coefficients_{};
-  double at_rest_ = 0, lowest_ = -0.15, highest_ = 0.1, error_ = 0;
+  double at_rest_ = 0, lowest_ = -0.15, highest_ = 0.1;
 };
 
 // --- an explosive before it reacts, on the isentrope through V = 1, where its pressure vanishes ---
@@ -143,7 +96,7 @@ struct ConstantsFault {
 };
 
 struct UnreactedJwl {
-  JwlParameters constants = unreacted_composition_b();  ///< their density is none of the pressure's matter
+  JwlParameters constants = unreacted_composition_b();
 
   using Isentrope = JwlIsentrope;
   Isentrope isentrope() const { return JwlIsentrope(constants); }
@@ -157,7 +110,7 @@ struct UnreactedJwl {
   }
   double energy(double volume) const;
   /// Pa, at rest.
-  double bulk_modulus_at_rest() const { return jwl_bulk_modulus(constants, 1.0, constants.initial_energy); }
+  double bulk_modulus_at_rest() const;
   /// Grueneisen coefficient: temperature on the isentrope goes with V to its negative.
   double grueneisen() const { return constants.omega; }
 

@@ -12,10 +12,6 @@ struct LinearElastic {
   double specific_heat = 460.0;  ///< J/(kg K)
   double conductivity = 38.0;    ///< W/(m K)
 
-  /// E, Pa.
-  double young_modulus() const { return 9.0 * bulk * shear / (3.0 * bulk + shear); }
-  double poisson_ratio() const { return (3.0 * bulk - 2.0 * shear) / (6.0 * bulk + 2.0 * shear); }
-
   static constexpr std::string_view name = "elastic";
   static constexpr bool heats_itself = false;
   static constexpr bool is_explosive = false;

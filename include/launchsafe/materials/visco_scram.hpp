@@ -79,19 +79,6 @@ Real toughening(Real ratio) {
   return Real(1.0) + Real(pi) * ratio * (Real(1.0) + ratio);
 }
 
-/// d ln(dc/dt)/d ln c at constant stress. Below K' the speed goes with K^m, above it d ln v/d ln K is 2 (1 -
-/// w)/w, w = v/v_max, which meets m at K'; K goes with c^(1/2), less what the toughness gains with c.
-template <class Real>
-Real growth_sensitivity(const ViscoScramParameters& m, Real pressure, Real crack_radius, Real speed) {
-  using math::max;
-  using math::min;
-  const Real ratio = friction_ratio(m, pressure, crack_radius);
-  const Real gain = Real(0.25 * pi) * ratio * (Real(1.0) + Real(2.0) * ratio) / toughening(ratio);
-  const Real share = max(speed * Real(1.0 / m.largest_growth_speed), Real(1e-300));
-  const Real exponent = min(Real(m.growth_exponent), Real(2.0) * (Real(1.0) - share) / share);
-  return exponent * (Real(0.5) - gain);
-}
-
 }  // namespace detail
 
 /// Toughness (Pa m^0.5) raised by friction between closed crack faces under pressure p (Pa, compression
@@ -162,12 +149,11 @@ struct ViscoScramState {
   Real crack_radius;                                            ///< c, m
 };
 
-/// What one step dissipated.
+/// What a step dissipated.
 template <class Real>
 struct ViscoScramDissipation {
-  Real viscous{0.0};           ///< J/m3
-  Real crack{0.0};             ///< J/m3
-  Real inelastic_strain{0.0};  ///< equivalent of the viscous and crack strain increment
+  Real viscous{0.0};  ///< J/m3
+  Real crack{0.0};    ///< J/m3
 };
 
 template <class Real>
@@ -197,46 +183,22 @@ Real crack_growth_speed_under(const ViscoScramParameters& m, math::Deviator<Real
                 Real(0.0));
 }
 
-namespace detail {
-
-/// What all elements together come to over a step before the cracks are known.
-template <class Real>
-struct Response {
-  math::Deviator<Real> before;     ///< S at the begin, Pa
-  math::Deviator<Real> uncracked;  ///< S at the end if the crack strain did not change, Pa
-  Real ratio;                      ///< stress at the end per unit of q S at the begin or end, 1
-};
-
+/// One implicit step of the element stresses for a strain increment `de` while q goes from q0 to q1: exact in
+/// the relaxation, second order in the crack strain, unconditionally stable. Adds what it dissipates.
 template <class Real, class Factor>
-Response<Real> response(const ViscoScramParameters& m, const ViscoScramState<Real>& state,
-                        math::Deviator<Real> de, const Relaxation<Factor>& step) {
+void relax(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::Deviator<Real> de, Real q0,
+           Real q1, const Relaxation<Factor>& step, ViscoScramDissipation<Real>& dissipation) {
   math::Deviator<Real> relaxed{};
   Real effective(0.0);  // sum G_n mean_n
   for (std::size_t n = 0; n < maxwell_elements; ++n) {
     relaxed = relaxed + Real(step.decay[n]) * state.elements[n];
     effective = effective + Real(m.shear_moduli[n]) * Real(step.mean[n]);
   }
-  return {total_deviator(state), relaxed + (Real(2.0) * effective) * de,
-          effective * Real(1.0 / m.shear_modulus())};
-}
-
-/// S at the end when q goes from q0 to q1.
-template <class Real>
-math::Deviator<Real> stress_after(const Response<Real>& response, Real q0, Real q1) {
-  return (Real(1.0) / (Real(1.0) + response.ratio * q1)) *
-         (response.uncracked + (response.ratio * q0) * response.before);
-}
-
-}  // namespace detail
-
-/// One implicit step of the element stresses for a strain increment `de` while q goes from q0 to q1: exact in
-/// the relaxation, second order in the crack strain, unconditionally stable. Adds what it dissipates.
-template <class Real, class Factor>
-void relax(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::Deviator<Real> de, Real q0,
-           Real q1, const Relaxation<Factor>& step, ViscoScramDissipation<Real>& dissipation) {
-  const auto response = detail::response(m, state, de, step);
-  const math::Deviator<Real> before = response.before;
-  const math::Deviator<Real> after = detail::stress_after(response, q0, q1);
+  const Real share = effective * Real(1.0 / m.shear_modulus());
+  const math::Deviator<Real> before = total_deviator(state),
+                             uncracked = relaxed + (Real(2.0) * effective) * de;
+  const math::Deviator<Real> after =
+      (Real(1.0) / (Real(1.0) + share * q1)) * (uncracked + (share * q0) * before);
   const Real compliance = Real(0.5 / m.shear_modulus());
   const math::Deviator<Real> applied = de - compliance * (q1 * after - q0 * before);
   // Viscous loss = work put into the elements - change of what they store, S_n:S_n/(4 G_n).
@@ -271,7 +233,6 @@ inline constexpr double growth_per_substep = 0.01;
 inline constexpr double largest_coupling = 0.3;
 inline constexpr double largest_crack_relaxation = 2.0;
 inline constexpr double coupling_share_of_substep = 0.7;
-inline constexpr double largest_uneven_relaxation = 3e-4;
 
 /// So many of the shortest relaxation times after the begin of a step, what relaxes fastest follows the rest,
 /// and a sub-step may be a share of the time since the begin: the number of sub-steps then goes with the
@@ -289,26 +250,6 @@ auto couples_too_strongly(double x, Real q) {
   return (Real(x * x) * q >
           Real(largest_coupling * largest_coupling) * stiffening * stiffening * stiffening) |
          (Real(x) * q > Real(largest_crack_relaxation) * stiffening);
-}
-
-/// True where it matters that they do. The stress of an element that follows an even strain is 2 G_n a/x_n,
-/// with the strain a that elements take in the step; what it lacks of that relaxes within the step by x_n
-/// times as much, a share of q/(1 + q) of it into the cracks. Bound on the root of the sum of squares of
-/// that, over S at both ends. In a launch, whose strain hardly changes within a step, what relaxes fast has
-/// followed long ago. `element`: S_n by its number.
-template <class Real, class Vector, class Element>
-auto relaxes_unevenly(const ViscoScramParameters& m, double dt, Element element, Vector applied,
-                      Vector before, Vector after, Real q) {
-  Real uneven(0.0);
-  for (std::size_t n = 0; n < maxwell_elements; ++n) {
-    const double x = dt * m.relaxation_rates[n];
-    if (!(x > 0.0)) continue;
-    const Vector relaxing = Real(x) * element(n) - Real(2.0 * m.shear_moduli[n]) * applied;
-    uneven += contract(relaxing, relaxing);
-  }
-  const Real share = q / (Real(1.0) + q);
-  return share * share * uneven > Real(largest_uneven_relaxation * largest_uneven_relaxation) *
-                                      (contract(before, before) + contract(after, after));
 }
 
 /// Longest step, in units of the fastest relaxation time, within those bounds.
@@ -386,54 +327,5 @@ void substep(const ViscoScramParameters& m, ViscoScramState<Real>& state, math::
 }
 
 }  // namespace detail
-
-/// Advances the state by a deviatoric strain increment `de` over step.dt under the pressure p (Pa,
-/// compression positive, held over the step). Rotate the state first (Jaumann). One step where cracks hardly
-/// grow, by the midpoint rule for c; Heun sub-steps with lane-wise length where they do. Second order in dt.
-/// The plain form: what the charge's law takes where it divides steps, and what its leaner step is held
-/// against.
-template <class Real>
-ViscoScramDissipation<Real> visco_scram_update(const ViscoScramParameters& m, const Relaxation<double>& step,
-                                               ViscoScramState<Real>& state, math::Deviator<Real> de,
-                                               Real pressure) {
-  using math::any;
-  using math::max;
-  using math::min;
-  double fastest_rate = 0.0;
-  for (const double rate : m.relaxation_rates) fastest_rate = max(fastest_rate, rate);
-  const Real c0 = state.crack_radius;
-  const Real q0 = crack_strain_ratio(m, c0);
-  const auto response = detail::response(m, state, de, step);
-  const math::Deviator<Real> after = detail::stress_after(response, q0, q0);
-  const math::Deviator<Real> middle = Real(0.5) * (response.before + after);
-  const Real speed = crack_growth_speed_under(m, middle, pressure, c0);
-  const Real growth = Real(step.dt) * speed;
-  ViscoScramDissipation<Real> dissipation;
-  const ViscoScramState<Real> start = state;
-  auto divided = growth > Real(detail::growth_of_whole_step) * c0;
-  if (const auto couples = detail::couples_too_strongly(step.dt * fastest_rate, q0); any(couples)) {
-    const math::Deviator<Real> applied =
-        de - (Real(0.5 / m.shear_modulus()) * q0) * (after - response.before);
-    const auto element = [&](std::size_t n) { return start.elements[n]; };
-    divided = divided |
-              (couples & detail::relaxes_unevenly(m, step.dt, element, applied, response.before, after, q0));
-  }
-  if (any(!divided)) {
-    const Real sensitivity = detail::growth_sensitivity(m, pressure, c0, speed);
-    const Real curved = Real(1.0) + Real(0.5) * sensitivity * growth / max(c0, Real(1e-300));
-    state.crack_radius = max(c0, min(c0 + growth * curved, Real(max(m.largest_crack_radius, 0.0))));
-    relax(m, state, de, q0, crack_strain_ratio(m, state.crack_radius), step, dissipation);
-  }
-  if (any(divided)) {
-    ViscoScramState<Real> parts = start;
-    ViscoScramDissipation<Real> lost;
-    detail::substep(m, parts, de, pressure, step.dt, fastest_rate, lost);
-    detail::take(divided, parts, lost, state, dissipation);
-  }
-  const math::Deviator<Real> elastic =
-      Real(0.5 / m.shear_modulus()) * (total_deviator(state) - response.before);
-  dissipation.inelastic_strain = math::equivalent_strain(de - elastic);
-  return dissipation;
-}
 
 }  // namespace launchsafe::materials

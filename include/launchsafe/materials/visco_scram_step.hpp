@@ -1,4 +1,4 @@
-// The step of Visco-SCRAM as the charge takes it: what `visco_scram_update` does, in fewer operations.
+// The step of Visco-SCRAM as the charge takes it, in few operations.
 //
 // Deviators are vectors by orthonormal components. The state holds their total S and, of the elements, all
 // but the first, S_1 = S - sum of the others: S is what the cracks ask for, and an elastic first element
@@ -35,10 +35,18 @@ class ViscoScramStep {
   /// Sets the factors of steps of dt > 0 (s).
   void set_step(double dt);
 
-  /// From a state that is already turned, by a deviatoric strain increment under the pressure p (Pa).
+  /// From a state that is already turned (Jaumann), by a deviatoric strain increment under the pressure p
+  /// (Pa), which is held over the step. One step where cracks hardly grow, by the midpoint rule for c, and
+  /// sub-steps where they do; of second order in dt.
   template <class Real>
   [[gnu::always_inline]] inline Result<Real> update(const State<Real>& start,
                                                     math::DeviatorVector<Real> strain, Real pressure) const;
+
+  /// A state by all its elements, and back.
+  template <class Real>
+  static ViscoScramState<Real> elements_of(const State<Real>& state);
+  template <class Real>
+  static State<Real> state_of(const ViscoScramState<Real>& elements);
 
  private:
   /// c at the end of the step, and where the step has to be divided.
@@ -71,9 +79,9 @@ class ViscoScramStep {
                                                                   math::DeviatorVector<Real> after,
                                                                   Real ratio) const;
   template <class Real>
-  [[gnu::noinline, gnu::cold]] Result<Real> plain_update(const State<Real>& start,
-                                                         math::DeviatorVector<Real> strain,
-                                                         Real pressure) const;
+  [[gnu::noinline, gnu::cold]] Result<Real> divided_update(const State<Real>& start,
+                                                           math::DeviatorVector<Real> strain,
+                                                           Real pressure) const;
 
   /// Of one element: what it loses and gains in a step, and its share of the dashpots' loss per S_n:S_n,
   /// S_n:a and a:a.
@@ -132,43 +140,69 @@ auto ViscoScramStep::grow(Real crack_radius, Real intensity, Real pressure) cons
   const Real growth = select(crack_radius < Real(parameters_.largest_crack_radius),
                              Real(relaxation_.dt * parameters_.largest_growth_speed) * speed, Real(0.0));
   const auto divided = growth > Real(detail::growth_of_whole_step) * crack_radius;
-  // d ln(dc/dt)/d ln c as in detail::growth_sensitivity.
+  // d ln(dc/dt)/d ln c at constant stress: below K' the speed goes with K^m, above it d ln v/d ln K is 2 (1 -
+  // w)/w, w = v/v_max, which meets m at K'; K goes with c^(1/2), less what the toughness gains with c.
   const Real gain = Real(0.25 * detail::pi) * friction * (Real(1.0) + Real(2.0) * friction) * per_toughening;
   const Real relative = growth * per_both * toughening;
   const Real curved = Real(1.0) + Real(0.5) * exponent * (Real(0.5) - gain) * relative;
   return {max(crack_radius, min(crack_radius + growth * curved, Real(largest_radius_))), divided};
 }
 
+/// True where it matters that cracks and elements relax together. The stress of an element that follows an
+/// even strain is 2 G_n a/x_n, x_n = dt/tau_n, with the strain a that elements take in the step; what it
+/// lacks of that relaxes within the step by x_n times as much, a share of q/(1 + q) of it into the cracks.
+/// Bound on the root of the sum of squares of that, over S at both ends. In a launch, whose strain hardly
+/// changes within a step, what relaxes fast has followed long ago.
 template <class Real>
 auto ViscoScramStep::relaxes_unevenly(const State<Real>& start, math::DeviatorVector<Real> strain,
                                       math::DeviatorVector<Real> after, Real ratio) const
     -> ConditionOf<Real> {
+  constexpr double largest = 3e-4;
   auto first = start.total;
   for (const auto& element : start.elements) first = first - element;
-  const auto element = [&](std::size_t n) { return n == 0 ? first : start.elements[n - 1]; };
   const auto applied = strain - (Real(compliance_) * ratio) * (after - start.total);
-  return detail::relaxes_unevenly(parameters_, relaxation_.dt, element, applied, start.total, after, ratio);
+  Real uneven(0.0);
+  for (std::size_t n = 0; n < maxwell_elements; ++n) {
+    const double x = relaxation_.dt * parameters_.relaxation_rates[n];
+    if (!(x > 0.0)) continue;
+    const auto relaxing = Real(x) * (n == 0 ? first : start.elements[n - 1]) -
+                          Real(2.0 * parameters_.shear_moduli[n]) * applied;
+    uneven += contract(relaxing, relaxing);
+  }
+  const Real share = ratio / (Real(1.0) + ratio);
+  return share * share * uneven >
+         Real(largest * largest) * (contract(start.total, start.total) + contract(after, after));
 }
 
 template <class Real>
-auto ViscoScramStep::plain_update(const State<Real>& start, math::DeviatorVector<Real> strain,
-                                  Real pressure) const -> Result<Real> {
-  ViscoScramState<Real> plain;
-  auto first = start.total;
+ViscoScramState<Real> ViscoScramStep::elements_of(const State<Real>& state) {
+  ViscoScramState<Real> result;
+  auto first = state.total;
   for (std::size_t n = 0; n < kept_elements; ++n) {
-    first = first - start.elements[n];
-    plain.elements[n + 1] = deviator_of(start.elements[n]);
+    first = first - state.elements[n];
+    result.elements[n + 1] = deviator_of(state.elements[n]);
   }
-  plain.elements[0] = deviator_of(first);
-  plain.crack_radius = start.crack_radius;
-  const auto lost = visco_scram_update(parameters_, relaxation_, plain, deviator_of(strain), pressure);
-  Result<Real> result;
-  result.state.total = vector_of(total_deviator(plain));
-  for (std::size_t n = 0; n < kept_elements; ++n) result.state.elements[n] = vector_of(plain.elements[n + 1]);
-  result.state.crack_radius = plain.crack_radius;
-  result.viscous = lost.viscous;
-  result.crack = lost.crack;
+  result.elements[0] = deviator_of(first);
+  result.crack_radius = state.crack_radius;
   return result;
+}
+
+template <class Real>
+auto ViscoScramStep::state_of(const ViscoScramState<Real>& elements) -> State<Real> {
+  State<Real> result;
+  result.total = vector_of(total_deviator(elements));
+  for (std::size_t n = 0; n < kept_elements; ++n) result.elements[n] = vector_of(elements.elements[n + 1]);
+  result.crack_radius = elements.crack_radius;
+  return result;
+}
+
+template <class Real>
+auto ViscoScramStep::divided_update(const State<Real>& start, math::DeviatorVector<Real> strain,
+                                    Real pressure) const -> Result<Real> {
+  ViscoScramState<Real> elements = elements_of(start);
+  ViscoScramDissipation<Real> lost;
+  detail::substep(parameters_, elements, deviator_of(strain), pressure, relaxation_.dt, fastest_rate_, lost);
+  return {state_of(elements), lost.viscous, lost.crack};
 }
 
 namespace detail {
@@ -255,7 +289,7 @@ auto ViscoScramStep::update(const State<Real>& start, math::DeviatorVector<Real>
     begin.total = start.total;
     begin.crack_radius = radius;
     detail::for_each_index<kept_elements>([&](std::size_t n) { begin.elements[n] = start.elements[n]; });
-    const Result<Real> parts = plain_update(begin, strain, pressure);
+    const Result<Real> parts = divided_update(begin, strain, pressure);
     detail::take(divided, parts.state.total, result.state.total);
     detail::for_each_index<kept_elements>(
         [&](std::size_t n) { detail::take(divided, parts.state.elements[n], result.state.elements[n]); });

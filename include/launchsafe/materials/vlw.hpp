@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 namespace launchsafe::materials {
@@ -12,7 +11,6 @@ inline constexpr double gas_constant = 8.31446261815324;  ///< J/(mol K), exact 
 
 /// Lennard-Jones potential of one gas.
 struct LennardJones {
-  std::string name;
   double temperature = 0;  ///< theta = epsilon/k_B, K
   double covolume = 0;     ///< b0, m3/mol
 };
@@ -34,12 +32,7 @@ std::vector<GasComponent> composition_b_gas();
 /// >= 0.3 (cancellation is mild there); NaN for T* <= 0.
 double reduced_second_virial(double reduced_temperature);
 
-/// Z of one gas at T (K) and molar volume V (m3/mol): 1 + B* x + B*/T*^(1/4) sum_{n=3}^{terms} (n-2)^(-n)
-/// x^(n-1), x = b0/V.
-double virial_compressibility(const LennardJones& gas, double temperature, double molar_volume,
-                              int terms = 3);
-
-// The gas that a burnt charge turns into: that pressure with the internal energy that belongs to it,
+// The gas that a burnt charge turns into: its pressure with the internal energy that belongs to it,
 // tabulated over temperature so that a step of a burning particle costs no series.
 
 /// Pressure and energy of the gas at one temperature and specific volume, with what solvers need of them.

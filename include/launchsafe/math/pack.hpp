@@ -8,7 +8,6 @@
 
 #include <boost/align/aligned_allocator.hpp>
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +35,6 @@ inline constexpr std::size_t pack_width = 2;
 struct Mask {
   using Lanes = std::int64_t __attribute__((vector_size(pack_width * sizeof(std::int64_t))));
   Lanes lanes;
-  static Mask all() { return {~Lanes{}}; }
   friend Mask operator&(Mask a, Mask b) { return {a.lanes & b.lanes}; }
   friend Mask operator|(Mask a, Mask b) { return {a.lanes | b.lanes}; }
   friend Mask operator!(Mask a) { return {~a.lanes}; }
@@ -89,19 +87,15 @@ constexpr auto each_lane(Work work) {
 inline double select(bool condition, double yes, double no) { return condition ? yes : no; }
 inline Pack select(Mask condition, Pack yes, Pack no) { return Pack(condition.lanes ? yes.lanes : no.lanes); }
 
-/// One byte a lane, all bits set where true: narrowing is three instructions, a sum over the lanes ten.
-inline std::uint64_t bytes_of(Mask condition) {
+inline bool any(bool condition) { return condition; }
+/// By one byte a lane, all bits set where true: narrowing is three instructions, a sum over the lanes ten.
+inline bool any(Mask condition) {
   using Bytes = std::int8_t __attribute__((vector_size(pack_width)));
   const Bytes narrow = __builtin_convertvector(condition.lanes, Bytes);
   std::uint64_t bytes = 0;
   std::memcpy(&bytes, &narrow, sizeof(narrow));
-  return bytes;
+  return bytes != 0;
 }
-inline bool any(bool condition) { return condition; }
-inline bool any(Mask condition) { return bytes_of(condition) != 0; }
-/// Number of true lanes (0 or 1 for a bool).
-inline int count(bool condition) { return condition ? 1 : 0; }
-inline int count(Mask condition) { return std::popcount(bytes_of(condition)) / 8; }
 
 inline double max(double a, double b) { return a < b ? b : a; }
 inline double min(double a, double b) { return b < a ? b : a; }

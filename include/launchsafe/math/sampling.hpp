@@ -47,10 +47,6 @@ double quantile(const Distribution& distribution, double u);
 /// Share in [0, 1] below x, the inverse of `quantile`.
 double cumulative(const Distribution& distribution, double x);
 
-/// Expected value, unit of the input; of a normal after it is cut off, to about 1e-16 deviation^2/(upper -
-/// lower).
-double mean_of(const Distribution& distribution);
-
 /// The factor L of a covariance matrix L L^T of `size` variables, row by row, lower triangular: L z has that
 /// covariance where z are independent standard normals. Nothing where the matrix is not symmetric and
 /// positive definite.

@@ -43,20 +43,16 @@ struct SaltelliDesign {
 
   std::size_t blocks() const { return inputs + 2; }
   std::size_t evaluations() const { return rows * blocks(); }
-  /// Number of the evaluation of a block in a row.
-  std::size_t index(std::size_t block, std::size_t row) const { return row * blocks() + block; }
-  /// The point of the unit cube to evaluate for a block in a row, and for an evaluation by its number.
-  std::vector<double> point(std::size_t block, std::size_t row) const;
+  /// The point of the unit cube of an evaluation.
   std::vector<double> point(std::size_t evaluation) const;
 };
 
-/// Column i of A and of B are columns 2i and 2i + 1 of one design of 2*inputs dimensions, so that a further
-/// input leaves the others' points as they are; on test functions this also gave Sobol's sequence errors 0.87
-/// times those with A and B from the two halves of the columns. With scrambled_sobol take a power of two
-/// rows, and 256 or more: with fewer a few pairs of its dimensions are correlated, which can double the error
-/// of an index against independent points. A longer design of the same seed then starts with the shorter.
-SaltelliDesign saltelli_design(Design design, std::size_t rows, std::size_t inputs, std::uint64_t seed);
-/// Likewise of inputs with so many columns each, at least one.
+/// Of inputs with so many columns each, at least one. Column i of A and of B are columns 2i and 2i + 1 of one
+/// design of 2*inputs dimensions, so that a further input leaves the others' points as they are; on test
+/// functions this also gave Sobol's sequence errors 0.87 times those with A and B from the two halves of the
+/// columns. With scrambled_sobol take a power of two rows, and 256 or more: with fewer a few pairs of its
+/// dimensions are correlated, which can double the error of an index against independent points. A longer
+/// design of the same seed then starts with the shorter.
 SaltelliDesign saltelli_design(Design design, std::size_t rows, const std::vector<std::size_t>& columns,
                                std::uint64_t seed);
 

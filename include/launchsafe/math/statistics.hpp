@@ -53,11 +53,6 @@ std::vector<double> polynomial_row(double x, int degree);
 /// Straight line y = coefficients[0] + coefficients[1] x.
 std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// One-sided normal tolerance factor k1: mean + k1 * deviation of a sample of n >= 2 lies above the share
-/// `coverage` of the population with probability `confidence`. Exact, from the noncentral t distribution (ISO
-/// 16269-6).
-double one_sided_tolerance_factor(int n, double coverage, double confidence);
-
 /// Of errors about 0 whose tails are exponential (Laplace's distribution): the factor of the mean magnitude
 /// of n >= 1 of them above which the share 1 - coverage (below a half) of all lies, on one side, with
 /// probability `confidence` or less. Exact, from the chi-squared distribution of the sum of magnitudes.

@@ -59,8 +59,6 @@ struct PolynomialChaos {
   double leave_one_out = 0;
   std::string reason;  ///< why there is no fit; empty where there is one
 
-  /// The output at a point of the open unit cube.
-  double at(const std::vector<double>& point) const;
   double mean() const { return terms.front().coefficient; }
   double variance() const;
 };
@@ -112,24 +110,12 @@ struct GaussianProcess {
   std::string reason = {};  ///< why there is no fit; empty where there is one
 };
 
-/// No process is fitted to more points: the time goes with their cube.
-inline constexpr std::size_t most_process_points = 256;
-
 /// Lengths and nugget by the greatest restricted likelihood (Patterson & Thompson, Biometrika 58 (1971) 545),
 /// which is that of all combinations of the values in which the line does not show. Rows as in `fit_chaos`.
-/// No fit from fewer points than that, from more than `most_process_points`, or of an output that is a
+/// No fit from fewer points than that, from more than 256, or of an output that is a
 /// straight line.
 GaussianProcess fit_process(const std::vector<ChaosBasis>& inputs, const std::vector<double>& points,
                             const std::vector<double>& values);
-
-/// The logarithm of that likelihood with the best variance of the deviations, but for a constant, and its
-/// derivatives by the logarithms of the lengths and of the nugget.
-struct ProcessLikelihood {
-  double value = 0;
-  std::vector<double> derivatives;
-};
-ProcessLikelihood process_likelihood(const GaussianProcess& process, const std::vector<double>& points,
-                                     const std::vector<double>& values);
 
 /// A process with the points that it was fitted to and their values, all finite. Predicts NaN where they
 /// leave the line open.
@@ -139,11 +125,9 @@ class FittedProcess {
                 const std::vector<double>& values);
 
   /// The leverage is the variance of an evaluation there, over the mean of those that the points have when
-  /// they are predicted from all others.
+  /// they are predicted from all others: universal kriging (Rasmussen & Williams, Gaussian Processes for
+  /// Machine Learning (2006), eq. 2.42).
   FitValue at(const std::vector<double>& point) const;
-  /// Variance of the output there without the nugget; the output's unit squared. Universal kriging (Rasmussen
-  /// & Williams, Gaussian Processes for Machine Learning (2006), eq. 2.42).
-  double variance_at(const std::vector<double>& point) const;
   /// What the points are above the prediction from all others, by Dubrule's formula (Math. Geol. 15 (1983)
   /// 687); the output's unit.
   const std::vector<double>& left_out_errors() const { return left_out_errors_; }
@@ -157,8 +141,6 @@ class FittedProcess {
 
   GaussianProcess process_;
   std::vector<double> coordinates_, left_out_errors_;
-  double variance_ = 0;           ///< of the deviations
-  double left_out_variance_ = 0;  ///< mean, as a share of that
   FittedForm form_;
 };
 

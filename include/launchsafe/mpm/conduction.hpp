@@ -15,36 +15,17 @@
 namespace launchsafe::mpm {
 
 /// Backward Euler in time: stable and free of new extremes for any step, conserves heat, first order in the
-/// step. Second order in the particle spacing. All outer faces are adiabatic unless `hold_base` or
-/// `heat_base` says otherwise.
+/// step. Second order in the particle spacing. All outer faces are adiabatic.
 class Conduction {
  public:
   explicit Conduction(const Simulation& simulation);
 
-  /// Keeps the base-side face of the scene at a temperature (K) from now on.
-  void hold_base(double temperature);
-  /// Heat flux (W/m2) into the base-side face of the scene from now on.
-  void heat_base(double flux);
-
   /// Conducts over dt > 0 (s) and refreshes what the steel keeps of its temperature.
   void advance(Simulation& simulation, double dt);
 
-  /// Heat content sum m c T, J per radian (axisymmetric) or per metre of depth.
-  double heat(const Simulation& simulation) const;
-
  private:
-  /// A particle on the base-side face of the scene.
-  struct BaseFace {
-    Eigen::Index particle;
-    double area;         ///< m2 per radian or metre
-    double conductance;  ///< W/K from the particle's centre to the face
-  };
-
   Eigen::VectorXd capacity_;                 ///< J/K by particle, body after body
   Eigen::SparseMatrix<double> conductance_;  ///< W/K, symmetric, rows sum to 0
-  std::vector<BaseFace> base_;
-  double held_temperature_ = 0, flux_ = 0;
-  bool held_ = false;
 };
 
 }  // namespace launchsafe::mpm

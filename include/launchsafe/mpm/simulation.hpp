@@ -55,13 +55,9 @@ class Simulation {
   double time() const { return time_; }
   const scene::Scene& scene() const { return scene_; }
   double chamber_pressure() const { return pressure_; }  ///< Pa
-  /// Acceleration (m/s2) of the co-moving frame at a time; 0 in the lab frame.
-  double frame_acceleration(double time) const;
   /// The balance at the begin of the last step, where all its parts are known at one time.
   const EnergyTotals& energy() const { return balance_; }
   const EventCounts& events() const { return events_; }
-  /// Kinetic energy of the particles relative to the frame with scaled inertia, J per radian or metre.
-  double kinetic_energy() const;
   /// Axial momentum relative to the frame, kg m/s per radian or metre, with the inertial factors that are not
   /// common to all: what no forces between particles change.
   double axial_momentum() const;
@@ -94,7 +90,7 @@ class Simulation {
   /// The formulation of the scene; null for the other one.
   const TotalLagrangian* total_lagrangian() const { return std::get_if<TotalLagrangian>(&form_); }
   TotalLagrangian* total_lagrangian() { return std::get_if<TotalLagrangian>(&form_); }
-  const UpdatedLagrangian* updated_lagrangian() const { return std::get_if<UpdatedLagrangian>(&form_); }
+  UpdatedLagrangian* updated_lagrangian() { return std::get_if<UpdatedLagrangian>(&form_); }
 
   /// Lets a share of the mass of a charge's particle burn in the next step, into gas of `fresh_energy` (J/kg,
   /// thermal, from 0 K); beyond what is left of it nothing more does. `body`: index into Scene::bodies.
@@ -102,14 +98,8 @@ class Simulation {
   /// False once a burning particle was in a state that the gas law does not cover.
   bool within_gas_law() const;
 
-  /// Recomputes the nodal momenta and velocities from the particles, after a test has set their velocities.
+  /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
   void reset_grid();
-  /// Puts a steady pressure (Pa) on the inner radial face of a body (index into Scene::bodies) from now on.
-  /// Its work counts as external. No scene asks for it; the thick-walled tube of the tests does.
-  void apply_bore_pressure(int body, double pressure);
-  /// Puts a steady body force, in m/s2 of the true mass, on a body (index into Scene::bodies) from now on;
-  /// total-Lagrangian only. Its work counts as external. No scene asks for it; checks of contact do.
-  void apply_body_force(int body, double acceleration_x, double acceleration_r);
 
  private:
   /// The bodies of a law, each as One.
@@ -129,9 +119,8 @@ class Simulation {
   scene::PressureHistory load_;
   std::vector<AnyBody> bodies_;
   std::variant<std::monostate, TotalLagrangian, UpdatedLagrangian> form_;
-  double total_mass_ = 0;            ///< kg per radian or metre
-  double loaded_area_ = 0;           ///< m2 per radian or metre
-  double body_force_on_bodies_ = 0;  ///< N per radian or metre, axial, of body forces on single bodies
+  double total_mass_ = 0;   ///< kg per radian or metre
+  double loaded_area_ = 0;  ///< m2 per radian or metre
   double time_ = 0;
   double pressure_ = 0;  ///< Pa, in the chamber at the present time
   bool centres_kicks_ = false;

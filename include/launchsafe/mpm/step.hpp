@@ -72,22 +72,8 @@ struct StepTotals {
   ParticleTotals particles;
   NodeTotals nodes;
   BulkMotion bulk;
-  double chamber_flow = 0;     ///< volume by which the faces give way to the chamber's gas, m3/s
-  double bore_work = 0;        ///< of bore pressures, J
-  double body_force_work = 0;  ///< of body forces on single bodies, J
+  double chamber_flow = 0;  ///< volume by which the faces give way to the chamber's gas, m3/s
   ContactTotals contact;
-};
-
-/// A steady pressure on the inner radial face of a body.
-struct BorePressure {
-  int body = 0;         ///< index into Scene::bodies
-  double pressure = 0;  ///< Pa
-};
-
-/// A steady body force on one body.
-struct BodyForce {
-  int body = 0;                                   ///< index into Scene::bodies
-  double acceleration_x = 0, acceleration_r = 0;  ///< m/s2, of its true mass
 };
 
 inline void ParticleTotals::add(const ParticleTotals& other) {

@@ -2,11 +2,11 @@
 // configuration at rest, so that weights are constants of a rectilinear lattice whose lines run through every
 // edge of every body, and no particle ever crosses a cell.
 //
-// A step has these stages: nodal forces of the chamber pressure, bore pressures and body forces; the ties of
-// bodies that are bonded; the update of the nodal velocities; contact of faces that can slide; and one pass
-// over the particles, which interpolates the nodal velocities, updates deformation and stress and sums
-// momentum and internal force at the nodes for the next step. With the deformation gradient F of a particle
-// and its Cauchy stress sigma, forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
+// A step has these stages: nodal forces of the chamber pressure; the ties of bodies that are bonded; the
+// update of the nodal velocities; contact of faces that can slide; and one pass over the particles, which
+// interpolates the nodal velocities, updates deformation and stress and sums momentum and internal force at
+// the nodes for the next step. With the deformation gradient F of a particle and its Cauchy stress sigma,
+// forces come from P = J sigma F^-T: f = -sum V0 P grad0 N.
 #pragma once
 
 #include "launchsafe/mpm/body.hpp"
@@ -37,8 +37,6 @@ class TotalLagrangian {
   void continue_from(const TotalLagrangian& other);
   /// Recomputes the nodal momenta and velocities from the particles, after velocities were set.
   void reset_grid();
-  void apply_bore_pressure(const BorePressure& bore) { bores_.push_back(bore); }
-  void apply_body_force(const BodyForce& force) { body_forces_.push_back(force); }
   /// Largest stable step (s): CFL times the smallest height of a cell, as it is deformed, over the sound
   /// speed in it, with the inertial factors.
   double stable_time_step() const;
@@ -48,6 +46,8 @@ class TotalLagrangian {
   double helpers_processor_time() const { return team_->helpers_processor_time(); }
 
   const std::vector<Nodes>& nodes() const { return nodes_; }
+  /// Forces that are added to `Nodes::written` before a step act in it; the ledger does not know their work.
+  std::vector<Nodes>& nodes() { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
   const Contact& contact() const { return *contact_; }
   Contact& contact() { return *contact_; }
@@ -88,10 +88,6 @@ class TotalLagrangian {
   void load_along(const scene::ChamberFace& face);
   void load_nodes(const StepInput& input);
   double chamber_flow() const;
-  double bore_work(double dt) const;
-  double body_force_work(double dt) const;
-  template <class F>
-  void for_each_bore_share(F&& f) const;
   Pack change_of_step(const Nodes& nodes, int row, const StepInput& input) const;
   void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
   void advance_rows(const Rows& rows, const StepInput& input);
@@ -108,9 +104,7 @@ class TotalLagrangian {
   std::vector<Tie> ties_;
   std::vector<LoadShare> axial_load_, radial_load_;
   std::unique_ptr<Contact> contact_;
-  ContactTotals contact_totals_;  ///< of the step
-  std::vector<BorePressure> bores_;
-  std::vector<BodyForce> body_forces_;
+  ContactTotals contact_totals_;                              ///< of the step
   std::vector<std::vector<Rows>> particle_rows_, node_rows_;  ///< by thread
   std::vector<std::vector<ParticleTotals>> particle_totals_;  ///< by body and row
   std::vector<std::vector<NodeTotals>> node_totals_;          ///< by body and row

@@ -18,11 +18,11 @@ class UpdatedLagrangian {
 
   /// Clears the grid and sums the particles' mass and momentum on it again.
   void reset_grid();
-  void apply_bore_pressure(const BorePressure& bore) { bores_.push_back(bore); }
   /// Largest stable step (s): CFL min(dx, dr)/(c_L + |v|), times sqrt(inertial_scaling).
   double stable_time_step() const;
   StepTotals step(const StepInput& input);
-  const Grid& grid() const { return grid_; }
+  /// Forces that are added to its nodes before a step act in it.
+  Grid& grid() { return grid_; }
 
  private:
   /// A particle whose base-side face carries the chamber pressure.
@@ -37,13 +37,12 @@ class UpdatedLagrangian {
     std::size_t slot;
     double initial_x;  ///< m
   };
-  /// Force per radian or metre on one node: of the chamber pressure N per Pa, of the bores N.
+  /// Force of the chamber pressure on one node, N per Pa, per radian or metre.
   struct LoadShare {
     std::size_t node;
     double force;
   };
   void locate_load();
-  void locate_bores();
   double window_origin() const;
   void update_grid(const StepInput& input, NodeTotals& totals);
 
@@ -54,11 +53,9 @@ class UpdatedLagrangian {
   std::vector<LoadedFace> faces_;
   std::vector<Anchor> anchors_;
   std::vector<LoadShare> load_shares_;
-  std::vector<BorePressure> bores_;
-  std::vector<LoadShare> bore_shares_;  ///< radial
-  double travel_ = 0;                   ///< m, of the window's target in the lab frame
-  double base_origin_ = 0;              ///< m, of the grid at rest
-  double total_mass_ = 0;               ///< kg per radian or metre
+  double travel_ = 0;       ///< m, of the window's target in the lab frame
+  double base_origin_ = 0;  ///< m, of the grid at rest
+  double total_mass_ = 0;   ///< kg per radian or metre
 };
 
 }  // namespace launchsafe::mpm

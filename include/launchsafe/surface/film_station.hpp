@@ -127,9 +127,9 @@ class FilmColumn {
 
 class FilmStation {
  public:
-  /// No pressure below `lowest_pressure` (Pa) acts.
-  FilmStation(const SkinModel& model, const FilmGrid& grid, const FilmNumerics& numerics,
-              double start_pressure, double lowest_pressure);
+  /// `tolerance`: of FilmNumerics. No pressure below `lowest_pressure` (Pa) acts.
+  FilmStation(const SkinModel& model, const FilmGrid& grid, double tolerance, double start_pressure,
+              double lowest_pressure);
 
   /// Over an interval of `length` s with friction heating (K/s). Nothing happens once it has ignited.
   void advance(const IntervalPressure& pressure, double length, double heating);
@@ -168,7 +168,7 @@ class FilmStation {
   void close_account();
 
   const SkinModel* model_;
-  FilmNumerics numerics_;
+  double tolerance_;
   const FilmGrid* grid_;
   double lowest_pressure_;  // Pa
   Trigger trigger_;

@@ -133,7 +133,6 @@ struct FilmNumerics {
   std::size_t gas_cells = 32;     ///< by mass, from 0.3 % of it at each wall
   std::size_t base_cells = 24;    ///< from 8 µm at the surface to 3.5 mm deep
   double tolerance = 1e-5;        ///< local error of a step, relative to the temperature
-  int fixed_steps = 0;            ///< steps in each interval of the trace; 0: by the tolerance
 };
 
 /// Where the energy of one column came from and went to since the start, J/m2 of bottom:
