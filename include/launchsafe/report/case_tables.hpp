@@ -36,9 +36,6 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
 /// and went. No rows where none did.
 Table closing_table(const run::CaseResult& result);
 
-/// At most `rows` samples of one of them, from ignition to the end.
-Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
-
 /// What the columns of the energy of the air are.
 std::vector<Column> air_energy_columns();
 
@@ -59,10 +56,6 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
 /// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.
 /// Without rows where there is no gap.
 Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing = false);
-
-/// "runs away by itself in 341 ms from 519 K and in 29.3 ms from 550 K": adiabatic, specific heat in J/(kg
-/// K). 519 K is where the air of a gap takes the skin of the 155 mm shell, 550 K what cook-off tests go to.
-std::string runaway_text(const materials::KineticsParameters& kinetics, double specific_heat);
 
 /// A sentence: which decomposition the flame of a coupled run lives on, and which decides ignition.
 std::string flame_kinetics_note(const scene::Scene& scene);
