@@ -1,5 +1,5 @@
 // What a scene and a study will compute and what that will cost, for people and programs; how fast this
-// machine is; and what the program says of itself, and of materials.
+// machine is; and what the program says of itself.
 #pragma once
 
 #include "console.hpp"
@@ -8,8 +8,8 @@ namespace launchsafe::app {
 
 struct ExplainArguments {
   path file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
-  bool keys = false, results = false, materials = false;
-  bool lists() const { return keys || results || materials; }
+  bool keys = false, results = false;
+  bool lists() const { return keys || results; }
   std::string schema;           ///< "scene", "study" or "references"; empty: not asked for
   std::optional<path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
@@ -42,10 +42,8 @@ Json forecast_json(const study::StudyFile& file, const study::Forecast& forecast
 /// the user stops it.
 double measured_update_rate(const scene::Scene& scene, Console& console);
 
-/// Prints keys, materials or a schema.
+/// Prints keys, columns of results or a schema.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
-/// Prints the materials of a file.
-ExitCode explain_material_file(const path& file, Console& console);
 
 // JSON schemas (draft 4) of scene and study files, from the keys that read them. Language servers of TOML
 // complete and check files by these.

@@ -149,8 +149,7 @@ std::string contradiction(const ExplainArguments& explain) {
   const bool of_program = !explain.schema.empty();
   const bool lists = explain.lists();
   if (!lists && of_program != explain.file.empty())
-    return "explain: allowed: a scene, study or file of materials, or one of --keys, --results, "
-           "--materials and --schema";
+    return "explain: allowed: a scene or study, or one of --keys, --results and --schema";
   if (explain.picture && (of_program || lists))
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
@@ -262,15 +261,12 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
       !std::filesystem::exists(arguments.file) && is_of_key(word))
     console.refuse(
         fmt::format("explain: found no file \"{0}\"; of keys tells: launchsafe explain --keys {0}", word));
-  const scene::InputContent content = content_of(arguments.file);
-  if (content != scene::InputContent::study && content != scene::InputContent::materials)
-    return explain_scene(arguments, console);
+  if (content_of(arguments.file) != scene::InputContent::study) return explain_scene(arguments, console);
   if (arguments.picture)
     console.refuse(
         fmt::format("--grid: found {}, which is no scene; allowed: a scene, such as that of a study",
                     arguments.file.string()));
-  return content == scene::InputContent::study ? explain_study(arguments.file, console)
-                                               : explain_material_file(arguments.file, console);
+  return explain_study(arguments.file, console);
 }
 
 void add_explain(CLI::App& app, CommandLine& line) {
@@ -278,7 +274,6 @@ void add_explain(CLI::App& app, CommandLine& line) {
   add(command, "file", explain.file);
   const std::vector<CLI::Option*> of_program{
       add(command, "--keys", explain.keys), add(command, "--results", explain.results),
-      add(command, "--materials", explain.materials),
       add(command, "--schema", explain.schema)->check(CLI::IsMember({"scene", "study", "references"}))};
   for (CLI::Option* option : of_program)
     for (CLI::Option* other : of_program)

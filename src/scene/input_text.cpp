@@ -90,13 +90,11 @@ InputError unreadable(const Place& place, int reason) {
                   "a readable file");
 }
 
-/// What a file is where another one is wanted, and what it is where it is wanted.
+/// What a file is where another one is wanted, and what it is where it is wanted, as materials never are.
 std::pair<const char*, const char*> words_of(InputContent content) {
   if (content == InputContent::study)
     return {"a study, which launchsafe study computes", "a study: a file with the keys kind and scene"};
-  if (content == InputContent::materials)
-    return {"materials, which a scene's material_file names and launchsafe explain tells",
-            "a file of tables [material.NAME] and [contact.NAME]"};
+  if (content == InputContent::materials) return {"materials, which a scene's material_file names", ""};
   return {"a scene, which launchsafe run computes", "a scene: a file with tables [[body]]"};
 }
 

@@ -184,7 +184,7 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
 
 const std::vector<Key<NamedContact>>& contact_keys() {
   static const std::vector<Key<NamedContact>> keys =
-      keys::joined({{text_key("title", Standing::input, "What the contact is, for reports.", "smooth faces",
+      keys::joined({{text_key("title", Standing::input, "What the contact is, in words.", "smooth faces",
                               &NamedContact::title) |
                      always_plausible("it is for people")},
                     keys::keys_of_part("", &NamedContact::faces, interface_keys())});

@@ -24,16 +24,6 @@ std::vector<Named> read_built_in(Read&& read) try {
   std::abort();
 }
 
-/// Those of the shipped ones that the file names.
-template <class Named>
-std::vector<Named> named_in(const toml::table& root, const char* what, const std::vector<Named>& shipped) {
-  std::vector<Named> own;
-  const toml::table* tables = root[what].as_table();
-  for (const Named& each : shipped)
-    if (tables != nullptr && tables->contains(each.name)) own.push_back(each);
-  return own;
-}
-
 Key<Source> keys_of_source_key() {
   KeyDescription described =
       keys::description("keys", KeyKind::text, Standing::input, "Keys whose values have this source.");
@@ -115,28 +105,12 @@ const std::vector<Decomposition>& shipped_decompositions() {
   return all;
 }
 
-Expected<NamedMaterials> read_material_file(const std::filesystem::path& file) {
-  return caught([&, name = file.string()]() -> NamedMaterials {
-    const std::string text = read_text_file(file).or_throw();
-    const toml::table table = parse_toml(text, name).or_throw();
-    check_content(table, name, InputContent::materials);
-    const auto& shipped = built_in_materials();
-    if (std::ranges::find(shipped, text, &BuiltInText::text) != shipped.end())
-      return {named_in(table, "material", shipped_materials()),
-              named_in(table, "contact", shipped_contacts()),
-              named_in(table, "decomposition", shipped_decompositions())};
-    check_material_tables(table, name);
-    return {
-        read_materials(table, name, shipped_materials()), read_contacts(table, name, shipped_contacts()), {}};
-  });
-}
-
 const std::vector<Key<Decomposition>>& decomposition_keys() {
   using materials::KineticsParameters;
   using enum Standing;
   using enum Dimension;
   static const std::vector<Key<Decomposition>> keys = keys::joined(
-      {{text_key("title", input, "Of which explosive, for reports.", "RDX", &Decomposition::title) |
+      {{text_key("title", input, "Of which explosive, in words.", "RDX", &Decomposition::title) |
         required()},
        keys::keys_of_part("", &Decomposition::kinetics,
                           {number_key("activation_temperature", temperature_difference, above_to(0, 1e6),

@@ -109,6 +109,7 @@ TEST_F(WrongFile, IsToldByWhatItHolds) {
   expect({"study", scene, "--dry-run"}, "found a scene, which launchsafe run computes; allowed: a study");
   expect({"run", materials}, "found materials");
   expect({"study", materials, "--dry-run"}, "found materials");
+  expect({"explain", materials}, "found materials");
 }
 
 TEST_F(WrongFile, WithoutAKindNamesEveryKeyOnce) {
@@ -116,53 +117,6 @@ TEST_F(WrongFile, WithoutAKindNamesEveryKeyOnce) {
   const std::string message = run({"study", "study.toml", "--dry-run"}).err;
   EXPECT_NE(message.find("did you mean kind?"), std::string::npos) << message;
   EXPECT_EQ(message.find("calibration,"), message.rfind("calibration,")) << message;
-}
-
-class ExplainedMaterials : public Program {};
-
-TEST_F(ExplainedMaterials, OfAShippedFileAreThoseOfItsName) {
-  const std::string file = LAUNCHSAFE_SOURCE_DIR "/studies/materials/contacts.toml";
-  const Json told = Json::parse(run({"explain", file, "--json"}).out);
-  EXPECT_TRUE(told["materials"].empty());
-  ASSERT_EQ(told["contacts"].size(), 2u);
-  EXPECT_EQ(told["contacts"][0]["name"], "bonded");
-}
-
-// The times are those of an independent quadrature, scene/decomposition_test.cpp.
-TEST_F(ExplainedMaterials, TellHowFastDecompositionsRunAway) {
-  const std::string text = run({"explain", "--materials"}).out;
-  EXPECT_NE(text.find("runs away by itself in 2.86 ms from 519 K and in 0.305 ms from 550 K"),
-            std::string::npos);
-  EXPECT_NE(text.find("runs away by itself in 341 ms from 519 K and in 29.3 ms from 550 K"),
-            std::string::npos);
-  EXPECT_NE(text.find("Rogers"), std::string::npos);
-  const std::string file = LAUNCHSAFE_SOURCE_DIR "/studies/materials/decomposition.toml";
-  const Json told = Json::parse(run({"explain", file, "--json"}).out);
-  ASSERT_EQ(told["decompositions"].size(), 2u);
-  EXPECT_NEAR(told["decompositions"][0]["runaway_from_519_K_ms"].get<double>(), 223.6, 0.05);
-  // They are no materials of users.
-  write("mine.toml", "[decomposition.mine]\ntitle = \"x\"\n");
-  EXPECT_EQ(run({"explain", "mine.toml"}).code, 2);
-}
-
-TEST_F(ExplainedMaterials, OfAnOwnFileHaveEveryNumberEvenWithoutASource) {
-  const std::string mix =
-      "[material.mix]\nlaw = \"charge\"\nlike = \"comp-b\"\ndensity = \"1.65 g/cm3\"\n"
-      "[contact.oiled]\ncondition = \"sliding\"\nfriction = 0.1\n";
-  write("mix.toml", mix);
-  const Outcome text = run({"explain", "mix.toml"});
-  EXPECT_EQ(text.code, 0) << text.err;
-  EXPECT_NE(text.out.find("never calibrated"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("no source is given\n      density                         1650 kg/m3"),
-            std::string::npos)
-      << text.out;
-  const Json told = Json::parse(run({"explain", "mix.toml", "--json"}).out);
-  EXPECT_EQ(told["materials"][0]["numbers"].size(), scene::shipped_materials().front().values.size());
-  EXPECT_EQ(told["contacts"][0]["numbers"].size(), 2u);
-  write("none.toml", "[material]\n");
-  EXPECT_TRUE(run({"explain", "none.toml"}).says("none.toml: found no material"));
-  write("taken.toml", "[material.comp-b]\nlaw = \"charge\"\nlike = \"pbx-9501\"\n");
-  EXPECT_TRUE(run({"explain", "taken.toml"}).says("a material called \"comp-b\""));
 }
 
 }  // namespace

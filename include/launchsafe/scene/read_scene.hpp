@@ -48,12 +48,6 @@ struct Decomposition {
   std::vector<Source> sources;             ///< of its keys, as a material names them without "kinetics."
 };
 
-struct NamedMaterials {
-  std::vector<NamedMaterial> materials;
-  std::vector<NamedContact> contacts;
-  std::vector<Decomposition> decompositions;
-};
-
 /// The key of a scene that names a file of materials and contacts.
 const KeyDescription& material_file_key();
 /// What [material.NAME] says beside the numbers of its law.
@@ -85,9 +79,6 @@ std::vector<NamedContact> read_contacts(const toml::table& root, const std::stri
 
 /// Throws the fault of the first key of a file of materials that is no table of it.
 void check_material_tables(const toml::table& root, const std::string& file);
-/// What a file of materials has. A shipped file gives what it ships; others must not take its names. Faults:
-/// those of `read_materials` and `read_contacts`, a key beside the tables, a scene or a study.
-Expected<NamedMaterials> read_material_file(const std::filesystem::path& file);
 
 /// Keys of [[source]], and of the sources of a material.
 const std::vector<Key<Source>>& source_keys();
