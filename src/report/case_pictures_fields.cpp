@@ -282,8 +282,6 @@ std::string lacks_fields(const DrawnCase& drawn) {
   if (snapshots.empty()) return "it has no snapshots; output.snapshots of the scene asks for them";
   for (const ShownSnapshot& each : snapshots) {
     const run::Snapshot& shot = *each.snapshot;
-    if (shot.half_length_x.size() != shot.x.size() || shot.half_length_r.size() != shot.x.size())
-      return "its snapshots are those of an older program, without the cells of the particles";
     if (!fits(drawn.scene, shot)) return "its snapshots do not fit the grid of its scene";
     const auto is_length = [](double length) { return length > 0.0; };
     for (const auto* lengths : {&shot.half_length_x, &shot.half_length_r})

@@ -95,8 +95,8 @@ std::vector<SnapshotField> common_fields() {
       {{"deviator_rr", "Pa", radial, megapascal}, &Snapshot::deviator_rr, true},
       {{"deviator_rx", "Pa", "shear stress", megapascal}, &Snapshot::deviator_rx, true},
       {{"density", "kg/m3", "density", density}, &Snapshot::density, true},
-      {{"half_length_x", "m", half_x, millimetre}, &Snapshot::half_length_x},
-      {{"half_length_r", "m", half_r, millimetre}, &Snapshot::half_length_r},
+      {{"half_length_x", "m", half_x, millimetre}, &Snapshot::half_length_x, true},
+      {{"half_length_r", "m", half_r, millimetre}, &Snapshot::half_length_r, true},
       {{"burnt_share", "1", "burnt share", {}, true}, &Snapshot::burnt_share, false, {}, burnt},
   };
 }

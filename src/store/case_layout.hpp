@@ -20,9 +20,8 @@ void lay_out_manifest(Archive& archive, Value& manifest) {
   archive.group("manifest", "Where this result came from", [&] {
     archive.value("input", manifest.input_text, {"none", "all that determines the case"});
     archive.value("input_sha256", manifest.input_sha256, {"none", "SHA-256 of the input"});
-    if (is_there(archive, "model_version"))
-      integer(archive, "model_version", manifest.model_version,
-              {"1", "version of the model; others give other numbers"});
+    integer(archive, "model_version", manifest.model_version,
+            {"1", "version of the model; others give other numbers"});
     archive.value("program_version", manifest.program_version, {"none", "version of launchsafe"});
     archive.value("commit", manifest.commit, {"none", "commit that the program was built from"});
     archive.value("compiler", manifest.compiler, {"none", "compiler of the program"});
@@ -73,9 +72,8 @@ void lay_out_monitor(Archive& archive, Rows& rows) {
   column(archive, "time", rows, &MonitorSample::time, {"s", "time"});
   column(archive, "time_step", rows, &MonitorSample::time_step, {"s", "time step"});
   for (const auto& term : run::energy_terms)
-    if (!term.newer || is_there(archive, term.name))
-      column(archive, term.name, rows, [&](auto& sample) -> auto& { return sample.energy.*term.member; },
-             {term.unit, term.meaning});
+    column(archive, term.name, rows, [&](auto& sample) -> auto& { return sample.energy.*term.member; },
+           {term.unit, term.meaning});
   column(archive, "largest_plastic_strain", rows, &MonitorSample::largest_plastic_strain,
          {"1", "largest equivalent plastic strain"});
   column(archive, "largest_crack_radius", rows, &MonitorSample::largest_crack_radius,
@@ -91,9 +89,8 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     archive.value("reason", mechanics.reason, {"none", "when and where, if not completed"});
     archive.value("end_time", mechanics.end_time, {"s", "time reached"});
     archive.value("steps", mechanics.steps, {"1", "time steps"});
-    if (is_there(archive, "steps_before"))
-      archive.value("steps_before", mechanics.steps_before,
-                    {"1", "of them, up to the checkpoint from which the run went on"});
+    archive.value("steps_before", mechanics.steps_before,
+                  {"1", "of them, up to the checkpoint from which the run went on"});
     archive.value("particles", mechanics.particles, {"1", "particles"});
     archive.value("wall_time", mechanics.wall_time, {"s", "wall time of the mechanics"});
     if constexpr (!Archive::reading)
@@ -104,9 +101,8 @@ void lay_out_mechanics(Archive& archive, Value& mechanics) {
     });
     archive.group("limiters", "How often limiters acted",
                   [&] { lay_out_members(archive, mechanics.limiters, run::limiters); });
-    if (is_there(archive, "interfaces"))
-      list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
-           [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });
+    list(archive, "interfaces", "A face of the charge on which a body can slide", mechanics.interfaces,
+         [&](auto& faces) { lay_out_members(archive, faces, run::stored_interface); });
     archive.group("monitor", "History of the energy balance and of stability",
                   [&] { lay_out_monitor(archive, mechanics.monitor); });
     archive.group("trace", "History of the charge bottom", [&] { lay_out_trace(archive, mechanics.trace); });
@@ -186,7 +182,7 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                    lay_out_members(archive, closing, run::stored_closing_samples);
                  });
   lay_out_combustion(archive, gap.combustion, trace);
-  if (is_there(archive, "air_energy")) lay_out_air_energy(archive, gap.air);
+  lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
     archive.value("energy_residual", skin.energy_residual,

@@ -91,7 +91,6 @@ Result<std::unique_ptr<CaseStore>> CaseStore::open(const std::filesystem::path& 
 }
 
 Result<std::unique_ptr<CaseStore>> CaseStore::open_to_read(const std::filesystem::path& folder) try {
-  demand_none_of_older(folder);
   std::error_code status;
   const std::filesystem::directory_iterator readable(folder, status);
   if (status)
@@ -216,7 +215,6 @@ Result<CaseStore::Imported> CaseStore::import_from(const std::filesystem::path& 
   Imported imported;
   std::error_code status;
   if (std::filesystem::equivalent(other, folder(), status)) return imported;
-  demand_none_of_older(other);
   const std::vector<std::filesystem::path> files = results_files_in(other);
   if (files.empty())
     return Error{Error::Kind::missing, fmt::format("{} holds no results of a study", other.string())};

@@ -96,17 +96,6 @@ std::vector<std::string> stored_hashes(const StoreNames& names) {
   return hashes;
 }
 
-void demand_none_of_older(const std::filesystem::path& folder) {
-  if (!results_files_in(folder).empty()) return;
-  for (const std::string& name : list_folder(folder))
-    if (part_in(name, "journal", ".jsonl"))
-      throw Error{
-          Error::Kind::conflict,
-          fmt::format("{} holds results of an earlier version of launchsafe ({}), which this one does not "
-                      "read; run the study anew into another folder",
-                      folder.string(), name)};
-}
-
 bool is_page(std::string_view content) { return content.starts_with(page_begin); }
 
 void demand_free(const StoreNames& names) {
@@ -114,7 +103,6 @@ void demand_free(const StoreNames& names) {
   const auto cases = std::filesystem::symlink_status(names.cases(), failed);
   if (std::filesystem::exists(cases) && !std::filesystem::is_directory(cases))
     throw refusal(names.cases(), "is no folder");
-  demand_none_of_older(names.folder);
   demand_files_of_cases(names);
   demand_nothing_before_first(names);
   demand_place(names.status(), [](std::string_view content) { return status_in(content).has_value(); });

@@ -12,8 +12,6 @@ std::vector<std::string> stored_hashes(const StoreNames& names);
 /// Throws what of a store's own names is taken by somebody else's files, or held by another process. Changes
 /// nothing.
 void demand_free(const StoreNames& names);
-/// Throws where an earlier version of the program stored its results in a folder.
-void demand_none_of_older(const std::filesystem::path& folder);
 /// The error, which says who writes where it is that somebody does.
 Error told_who_writes(const Error& error, const std::filesystem::path& results);
 /// What `use` gives, or throws like that, of a results file.

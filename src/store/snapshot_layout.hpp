@@ -68,9 +68,9 @@ void history(Archive& archive, const std::string& name, Values& values, std::siz
   if (!values.empty() && values.size() != length) archive.fail(name + " has another length than its times");
 }
 
-/// Whether to lay out what older files, or some results, lack: written where there is any, read where it is.
+/// Whether to lay out what some results lack: written where there is any, read where it is.
 template <class Archive>
-bool is_there(Archive& archive, const std::string& name, bool any = true) {
+bool is_there(Archive& archive, const std::string& name, bool any) {
   if constexpr (Archive::reading) return archive.has(name);
   return any;
 }
@@ -88,7 +88,6 @@ void lay_out_members(Archive& archive, Object& object, const Members& members) {
     auto& value = object.*each.member;
     using Value = std::remove_cvref_t<decltype(value)>;
     const Label label{each.unit, each.meaning};
-    if (each.newer && !is_there(archive, each.name)) return;
     if constexpr (std::is_enum_v<Value>) {
       choice(archive, each.name, value, stored_words(value), label);
     } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
@@ -142,12 +141,6 @@ void plane_vectors(Archive& archive, const std::string& name, Values& along, Val
   }
 }
 
-/// Whether snapshots hold the cells of their particles.
-inline bool has_cells(const run::Snapshot& snapshot) {
-  return !snapshot.x.empty() && snapshot.half_length_x.size() == snapshot.x.size() &&
-         snapshot.half_length_r.size() == snapshot.x.size();
-}
-
 /// The corners of the particles' cells, once around each, as rows of x and r.
 inline std::vector<double> corners_of(const run::Snapshot& snapshot) {
   std::vector<double> corners;
@@ -172,12 +165,6 @@ inline std::vector<double> stresses_of(const run::Snapshot& snapshot) {
     rows.insert(rows.end(), {xx - p, snapshot.deviator_rx[i], 0.0, rr - p, 0.0, -(xx + rr) - p});
   }
   return rows;
-}
-/// Whether snapshots hold all stresses of their particles.
-inline bool has_stresses(const run::Snapshot& snapshot) {
-  const std::size_t count = snapshot.x.size();
-  return count > 0 && snapshot.deviator_xx.size() == count && snapshot.deviator_rr.size() == count &&
-         snapshot.deviator_rx.size() == count && snapshot.pressure.size() == count;
 }
 
 /// 0, 1, 2, ...: corners that each belong to one cell alone.
@@ -249,7 +236,7 @@ void lay_out_events(Archive& archive, Value& snapshot) {
 template <class Archive, class Value>
 void lay_out_snapshot(Archive& archive, Value& snapshot) {
   archive.value("time", snapshot.time, {"s", "time of the snapshot"});
-  if (is_there(archive, "events")) lay_out_events(archive, snapshot);
+  lay_out_events(archive, snapshot);
   if (is_there(archive, "bottom", !snapshot.bottom_x.empty()))
     archive.group("bottom", "The charge's bottom", [&] { lay_out_bottom(archive, snapshot); });
   if (is_there(archive, "faces", !snapshot.faces.empty()))
@@ -266,15 +253,15 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
     const std::string name(field.name);
     if (!field.always && !is_there(archive, name, !values_of(std::as_const(snapshot), field).empty()))
       continue;
-    history(archive, name, values_of(snapshot, field), count,
-            {std::string(field.unit),
-             std::string(field.description.empty() ? field.meaning : field.description)});
+    auto& values = values_of(snapshot, field);
+    archive.array(name, values,
+                  {std::string(field.unit),
+                   std::string(field.description.empty() ? field.meaning : field.description)});
+    if (values.size() != count) archive.fail(name + " is not of every particle");
   }
   if constexpr (!Archive::reading) {
-    if (has_stresses(snapshot))
-      archive.table("stress", stresses_of(snapshot), {count, 6},
-                    {"Pa", "positive in tension: xx, xr, 0, rr, 0, hoop"});
-    if (!has_cells(snapshot)) return;
+    archive.table("stress", stresses_of(snapshot), {count, 6},
+                  {"Pa", "positive in tension: xx, xr, 0, rr, 0, hoop"});
     archive.table("corners", corners_of(snapshot), {4 * count, 2},
                   {"m", "axial, radial; the four corners of every particle's cell, once around"});
     archive.array("cells", counted_up(4 * count),
@@ -283,10 +270,9 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
 }
 
 /// The description by which ParaView finds the snapshots in a case file: an XDMF document of time series. The
-/// particles as quadrilateral cells with values on cells, or as points where the snapshots do not hold the
-/// cells; the charge's bottom as a line a station with the skins of all gaps on it; each face that can slide
-/// as a chain of lines with values at its nodes; and the same of every gap that burns. `case_file` is the
-/// case file's name without its folder.
+/// particles as quadrilateral cells with values on cells; the charge's bottom as a line a station with the
+/// skins of all gaps on it; each face that can slide as a chain of lines with values at its nodes; and the
+/// same of every gap that burns. `case_file` is the case file's name without its folder.
 std::string xdmf_of(const run::CaseResult& result, const std::string& case_file);
 
 }  // namespace launchsafe::store

@@ -33,7 +33,7 @@ constexpr std::array texts_of_program{
     std::pair{"compiler", &Manifest::compiler}, std::pair{"compiler_flags", &Manifest::compiler_flags},
     std::pair{"build_type", &Manifest::build_type}};
 
-/// Negative for what is no version; the first manifests had none, which is 0.
+/// Negative for what is no version.
 int version_in(const nlohmann::json& value) {
   const bool fits =
       value.is_number_integer() && value >= 0 && value <= std::int64_t{std::numeric_limits<int>::max()};
@@ -47,7 +47,7 @@ StudyRecord record_from(const nlohmann::json& object) {
   Manifest& manifest = record.manifest;
   manifest.input_sha256 = object.at("input_sha256").get<std::string>();
   manifest.input_text = object.at("input").get<std::string>();
-  manifest.model_version = version_in(object.value("model_version", nlohmann::json(0)));
+  manifest.model_version = version_in(object.at("model_version"));
   for (const auto& [name, text] : texts_of_program) manifest.*text = object.value(name, "");
   manifest.host = object.value("host", "");
   manifest.threads = object.value("threads", 1);

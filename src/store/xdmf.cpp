@@ -40,14 +40,9 @@ std::string scalar(std::string_view name, std::string_view centre, std::size_t c
   return attribute(name, "Scalar", centre, item("Float", fmt::format("{}", count), address));
 }
 
-/// Each particle a quadrilateral with corners of its own; a point where the cells are not known.
+/// Each particle a quadrilateral with corners of its own.
 std::string mesh_of(const Stored& stored) {
   const std::size_t count = stored.snapshot.body.size();
-  if (!has_cells(stored.snapshot))
-    return fmt::format(
-        "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{0}\" NodesPerElement=\"1\"/>\n"
-        "        <Geometry GeometryType=\"XYZ\">{1}</Geometry>\n",
-        count, item("Float", fmt::format("{} 3", count), stored.group + "/position"));
   return fmt::format(
       "        <Topology TopologyType=\"Quadrilateral\" NumberOfElements=\"{}\">{}</Topology>\n"
       "        <Geometry GeometryType=\"XY\">{}</Geometry>\n",
@@ -80,15 +75,12 @@ std::string particles_of(const Stored& stored) {
   const auto& [snapshot, group] = stored;
   const std::size_t count = snapshot.body.size();
   const std::string one = fmt::format("{}", count);
-  const std::string_view centre = has_cells(snapshot) ? "Cell" : "Node";
-  std::string text = mesh_of(stored) + attribute("body", "Scalar", centre, item("Int", one, group + "/body"));
-  if (!snapshot.velocity_x.empty())
-    text += attribute("velocity", "Vector", centre, item("Float", one + " 3", group + "/velocity"));
-  if (has_stresses(snapshot))
-    text += attribute("stress", "Tensor6", centre, item("Float", one + " 6", group + "/stress"));
+  std::string text = mesh_of(stored) + attribute("body", "Scalar", "Cell", item("Int", one, group + "/body")) +
+                     attribute("velocity", "Vector", "Cell", item("Float", one + " 3", group + "/velocity")) +
+                     attribute("stress", "Tensor6", "Cell", item("Float", one + " 6", group + "/stress"));
   for (const run::SnapshotField& field : run::snapshot_fields()) {
     if (values_of(snapshot, field).empty()) continue;
-    text += scalar(field.name, centre, count, fmt::format("{}/{}", group, field.name));
+    text += scalar(field.name, "Cell", count, fmt::format("{}/{}", group, field.name));
   }
   return text;
 }

@@ -40,22 +40,22 @@ inline run::Snapshot sample_snapshot(double time) {
   snapshot.deviator_rx = {-0.0, 2e8, 1e5};
   snapshot.temperature = {300, 301, 302};
   snapshot.state["plastic_strain"] = {0, 0.01, 0};
+  snapshot.half_length_x = {0.05, 0.025, 0.125};
+  snapshot.half_length_r = {0.005, 0.0025, 0.0125};
   snapshot.body = {0, 0, 1};
   return snapshot;  // no crack radius
 }
 
-/// The same of a program that knows the cells, while something burns.
-inline run::Snapshot sample_snapshot_of_cells(double time) {
+/// The same while something burns.
+inline run::Snapshot sample_snapshot_of_flame(double time) {
   run::Snapshot snapshot = sample_snapshot(time);
-  snapshot.half_length_x = {0.05, 0.025, 0.125};
-  snapshot.half_length_r = {0.005, 0.0025, 0.0125};
   snapshot.burnt_share = {0, 0, 0.75};
   return snapshot;
 }
 
 /// Of two events, with two stations, the skin of a gap that burns, and a face of three nodes.
 inline run::Snapshot sample_snapshot_of_events(double time) {
-  run::Snapshot snapshot = sample_snapshot_of_cells(time);
+  run::Snapshot snapshot = sample_snapshot_of_flame(time);
   snapshot.events = {scene::Event::first_yield, scene::Event::ignition};
   snapshot.bottom_x = {0.6, 0.61, 0.61, 0.62};
   snapshot.bottom_r = {0.02, 0.04, 0, 0.02};

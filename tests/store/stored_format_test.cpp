@@ -1,5 +1,4 @@
-// Results of earlier programs. `format_1` was written by the program of 2026-11-22: a case, and a journal
-// where this program has a results file.
+// Case files of the day on which the format was settled: `format_1` was written by the program of 2026-11-28.
 #include "same_case.hpp"
 #include "store_fixture.hpp"
 
@@ -27,19 +26,6 @@ TEST_F(StoredFormat, CasesOfTheFirstFormatAreReadBitByBit) {
   expected.mechanics.wall_time = 0;  // which its record would say
   expect_same(expected, *result);
   EXPECT_EQ(*store->input_of(hash), identity_of(1).input());
-}
-
-TEST_F(StoredFormat, AFolderWithAJournalIsRefusedWithWhatToDo) {
-  std::filesystem::copy(stored(), where(), std::filesystem::copy_options::recursive);
-  const auto refused = [](const auto& opened) {
-    return !opened && opened.error().kind == Error::Kind::conflict &&
-           opened.error().message.find("run the study anew into another folder") != std::string::npos;
-  };
-  EXPECT_TRUE(refused(try_open(where())));
-  EXPECT_TRUE(refused(try_open(where(), "1-of-2")));
-  EXPECT_TRUE(refused(CaseStore::open_to_read(where())));
-  EXPECT_TRUE(refused(opened_at(folder() / "another")->import_from(where())));
-  EXPECT_FALSE(std::filesystem::exists(results()));
 }
 
 }  // namespace

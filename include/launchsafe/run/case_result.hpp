@@ -21,10 +21,9 @@ struct Stored {
   Member member;
   const char* unit;  ///< "1" of pure numbers, "none" of text; values in memory are in SI
   const char* meaning;
-  bool newer = false;  ///< files of earlier programs lack it
 };
 template <class Member>
-Stored(const char*, Member, const char*, const char*, bool = false) -> Stored<Member>;
+Stored(const char*, Member, const char*, const char*) -> Stored<Member>;
 
 /// How a mechanical run ended. Everything but `completed` makes every verdict on it indeterminate.
 enum class RunStatus {
@@ -60,7 +59,7 @@ inline constexpr std::array energy_terms{
     Stored{"damping_loss", &EnergyBalance::damping, "J",
            "taken out by damping and the PIC share"},  // and FLIP's filter
     Stored{"contact_loss", &EnergyBalance::contact, "J",
-           "taken out by friction between bodies, where their faces close, and by gas between them", true},
+           "taken out by friction between bodies, where their faces close, and by gas between them"},
     Stored{"plastic_dissipation", &EnergyBalance::plastic, "J", "dissipated in steel"},
     Stored{"viscous_dissipation", &EnergyBalance::viscous, "J",
            "dissipated in the charge's Maxwell elements"},
@@ -124,12 +123,11 @@ struct Snapshot {
   /// pressure and sigma_rx = deviator_rx.
   std::vector<double> deviator_rr, deviator_xx, deviator_rx;
   /// m, of the particle's cell at present: its half lengths at rest, stretched as the distances between the
-  /// particle's neighbours are; empty in files that are older than this.
+  /// particle's neighbours are.
   std::vector<double> half_length_x, half_length_r;
   std::vector<double> burnt_share;  ///< of the particle's mass; empty where nothing burns
   std::vector<int> body;            ///< index into Scene::bodies
-  /// m, both ends of every station that tiles the charge's bottom, at present, in the order of the trace;
-  /// empty in files that are older than this.
+  /// m, both ends of every station that tiles the charge's bottom, at present, in the order of the trace.
   std::vector<double> bottom_x, bottom_r;
   std::vector<BottomSkin> skins;    ///< of the case's gaps; none where the mechanics ran alone
   std::vector<FaceSnapshot> faces;  ///< of those that can slide, in the order of MechanicsResult::interfaces
@@ -138,7 +136,7 @@ struct Snapshot {
 /// A quantity of the particles, described once: case files, XDMF, pictures and tables go through the list.
 struct SnapshotField : materials::StateField {
   std::vector<double> Snapshot::*values = nullptr;  ///< where it is; null for a law's, in Snapshot::state
-  bool always = false;                ///< whether files have it always, or where it was recorded
+  bool always = false;                ///< whether snapshots have it always, or where it is not empty
   std::string_view title = {};        ///< of pictures; the meaning where there is none
   std::string_view description = {};  ///< in files, likewise
 };
@@ -288,7 +286,7 @@ inline constexpr std::tuple stored_combustion{
 };
 
 /// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom; its
-/// pressure is one of them, and none in files that are older than it.
+/// pressure is one of them.
 struct ClosingHistory {
   std::vector<double> time, opening, gas_pressure;
   double smallest_opening = 0, approach_speed = 0;
@@ -311,10 +309,9 @@ inline constexpr std::tuple stored_closing{
            "mean over the air at a place"},
     Stored{"pressure_at_contact", &ClosingHistory::pressure_at_contact, "Pa",
            "of the charge's bottom, air's and faces' above the surroundings, from contact_time on over a "
-           "twentieth of the time that sound takes through the charge; largest and rise over such times",
-           true},
-    Stored{"largest_pressure", &ClosingHistory::largest_pressure, "Pa", "of the charge's bottom", true},
-    Stored{"steepest_rise", &ClosingHistory::steepest_rise, "Pa/s", "of that pressure", true},
+           "twentieth of the time that sound takes through the charge; largest and rise over such times"},
+    Stored{"largest_pressure", &ClosingHistory::largest_pressure, "Pa", "of the charge's bottom"},
+    Stored{"steepest_rise", &ClosingHistory::steepest_rise, "Pa/s", "of that pressure"},
     Stored{"work_on_gas", &ClosingHistory::work_on_gas, "J/m2",
            "of the faces, beyond the surrounding pressure; mean over the bottom, as below"},
 };
@@ -338,7 +335,7 @@ struct GapResult {
   surface::SkinHistory skin;
   surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
   surface::Maximum at_points;    ///< over the observation points; NaN without any
-  surface::AirEnergy air;        ///< what the skin took from the air; NaN in files that are older than this
+  surface::AirEnergy air;        ///< what the skin took from the air
   double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
   bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
   std::optional<ClosingHistory> closing;        ///< where the gap closes
