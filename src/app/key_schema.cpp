@@ -53,9 +53,7 @@ Json list_schema(const KeyDescription& key) {
 }
 
 Json word_schema(const KeyDescription& key) {
-  Json words = key.words;
-  for (const keys::FormerWord& each : key.former_words) words.push_back(each.former);
-  return {{"type", "string"}, {"enum", words}};
+  return {{"type", "string"}, {"enum", key.words}};
 }
 
 Json type_of(const KeyDescription& key) {
