@@ -139,15 +139,11 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
 
 /// The gaps, what burnt in them, and the faces that slide.
 std::vector<report::Table> tables_of(const scene::Scene& scene, const run::CaseResult& result) {
-  constexpr std::size_t history_rows = 12;
   std::vector<report::Table> tables;
   if (!result.gaps.empty()) {
     const bool closes = scene.surface.model == scene::GapModel::closing;
     tables = {gap_table(scene, result), closes ? report::closing_table(result) : air_table(scene, result),
               report::combustion_table(scene, result)};
-    for (const run::GapResult& gap : result.gaps)
-      if (gap.combustion)
-        tables.push_back(report::combustion_history_table(*gap.combustion, gap.gap, history_rows));
   }
   tables.push_back(report::interface_table(result.mechanics));
   std::erase_if(tables, [](const report::Table& table) { return table.rows.empty(); });

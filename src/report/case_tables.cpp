@@ -3,8 +3,6 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/report/study_text.hpp"
 
-#include <span>
-
 namespace launchsafe::report {
 namespace {
 
@@ -160,26 +158,6 @@ const Quantities<OneGap> closing_quantities = keys::joined<OneGap>(
               &FilmEnergy::charge}},
          &run::GapResult::closing)});
 
-/// Of the samples of a combustion.
-Quantities<std::size_t> burning_quantities(const CombustionHistory& c) {
-  using detail::at_sample;
-  const auto largest_degree = [&c](std::size_t sample) {
-    const std::size_t stations = c.reaction_degree.size() / c.time.size();
-    return stations > 0 ? std::ranges::max(std::span(c.reaction_degree).subspan(sample * stations, stations))
-                        : 0.0;
-  };
-  return {{quantity::time(3), at_sample(c.time)},
-          {"reaction_degree_max", "largest reaction degree", fixed(3), "Of any station.", largest_degree},
-          {"burnt_depth", "largest depth", fixed(4, millimetre), "Depth to which the charge has burnt.",
-           at_sample(c.burnt_depth)},
-          {quantity::burnt_mass, at_sample(c.burnt_mass)},
-          {quantity::gas_volume, at_sample(c.gas_volume)},
-          {quantity::gas_temperature, at_sample(c.gas_temperature)},
-          {"bottom_pressure", "p bottom", fixed(1, megapascal), "Mean pressure of the charge's bottom.",
-           at_sample(c.pressure)},
-          {quantity::heat_released, at_sample(c.released)}};
-}
-
 Quantities<AuditedGap> air_quantities(bool labelled) {
   const Quantities<AuditedGap> names{{quantity::case_name, &AuditedGap::label}};
   return keys::joined<AuditedGap>(
@@ -242,14 +220,6 @@ Table closing_table(const run::CaseResult& result) {
   const std::vector<OneGap> closed = gaps_with(result, &run::GapResult::closing);
   return table_of("How the gap closed", closing_quantities, closed,
                   closed.empty() ? std::vector<std::string>{} : noted("closing"));
-}
-
-Table combustion_history_table(const run::CombustionHistory& c, double gap, std::size_t rows) {
-  std::vector<std::size_t> samples;
-  const std::size_t stride = rows == 0 ? 0 : std::max<std::size_t>(1, (c.time.size() + rows - 1) / rows);
-  for (std::size_t i = 0; stride > 0 && i < c.time.size(); ++i)
-    if (i % stride == 0 || i + 1 == c.time.size()) samples.push_back(i);
-  return table_of("History of the combustion at " + centimetres(gap), burning_quantities(c), samples);
 }
 
 std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {

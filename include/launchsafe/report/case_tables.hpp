@@ -36,9 +36,6 @@ Table combustion_table(const scene::Scene& scene, const run::CaseResult& result)
 /// and went. No rows where none did.
 Table closing_table(const run::CaseResult& result);
 
-/// At most `rows` samples of one of them, from ignition to the end.
-Table combustion_history_table(const run::CombustionHistory& combustion, double gap, std::size_t rows);
-
 /// What the columns of the energy of the air are.
 std::vector<Column> air_energy_columns();
 
