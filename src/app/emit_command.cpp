@@ -4,7 +4,7 @@
 
 #include <boost/algorithm/string.hpp>
 
-#include <ranges>
+#include <map>
 
 namespace launchsafe::app {
 namespace {
@@ -26,7 +26,7 @@ constexpr double share_for_cases = 0.9;  ///< of a memory that the user states
 constexpr double mebibyte = 1024.0 * 1024.0;
 constexpr long cases_merged_a_minute = 100;  ///< far fewer than any machine does
 
-/// What the most demanding of a study's shards is predicted to take.
+/// What the most demanding of a study's shards is predicted to take, as a dry run of it is.
 struct ShardNeeds {
   double time = 0;          ///< s of wall time
   double memory = 0;        ///< bytes
@@ -173,52 +173,31 @@ NamedTexts slurm_scripts(const SlurmStudy& study, Json values) {
           {std::string(submit_name), told("submit.sh", values)}};
 }
 
-/// Wall time of runs that start on the next free core, the longest first.
-double time_on(const std::vector<double>& times, int cores) {
-  const std::vector<int> core_of_run = study::shards_of(times, cores);
-  std::map<int, double> ends;
-  for (std::size_t i = 0; i < times.size(); ++i) ends[core_of_run[i]] += times[i];
-  return ends.empty() ? 0.0 : std::ranges::max(ends | std::views::values);
-}
-
-double sum_of_largest(std::vector<double> values, int count) {
-  std::ranges::sort(values, std::greater<>());
-  values.resize(std::min(values.size(), static_cast<std::size_t>(count)));
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-/// Of the whole study, with nothing stored. A run takes as long again for every coupled run that may
-/// confirm it.
-ShardNeeds needs_of(const study::Forecast& whole, int shards, int jobs) {
-  const double runs = static_cast<double>(std::max<std::size_t>(1, whole.run_count));
-  const double repeats = 1.0 + static_cast<double>(whole.confirmations) / runs;
-  // Where the forecast has some of the runs alone, each stands for so many.
-  const double each_for = runs / static_cast<double>(std::max<std::size_t>(1, whole.runs.size()));
-  // All runs of a case are of one shard, as study::case_runs divides them.
-  std::vector<double> costs;
-  for (const study::ForecastRun& run : whole.runs)
-    if (run.cases > 0) costs.push_back(run.time);
-  const std::vector<int> shard_of_case = study::shards_of(costs, shards);
+/// With nothing stored.
+ShardNeeds needs_of(const study::StudyFile& file, int shards, int jobs) {
+  std::map<int, double> costs;  // of the shards that have something to do
+  for (const study::CaseRuns& each : study::case_runs(file, shards))
+    for (const study::PlannedRun& run : each.runs) costs[each.shard] += run.cost;
+  const int slowest =
+      std::ranges::max_element(costs, {}, [](const auto& each) { return each.second; })->first;
   ShardNeeds needs;
-  for (int shard = 1; shard <= shards; ++shard) {
-    std::vector<double> own_times, own_memories;
-    std::size_t next_case = 0, own_cases = 0;
-    for (const study::ForecastRun& run : whole.runs) {
-      next_case += run.cases > 0 ? 1 : 0;
-      if (shard_of_case[next_case - 1] != shard) continue;
-      own_cases += run.cases > 0 ? 1 : 0;
-      own_times.push_back(repeats * run.time);
-      own_memories.push_back(run.given_up ? 0.0 : run.memory);
-    }
-    const double share = static_cast<double>(own_cases) / static_cast<double>(costs.size());
-    needs.time = std::max(needs.time, each_for * time_on(own_times, jobs));
-    needs.memory = std::max(
-        needs.memory, whole.plan_memory + share * whole.kept_memory + sum_of_largest(own_memories, jobs));
-    if (own_times.empty() && whole.runs.size() == whole.run_count) ++needs.idle;
+  needs.idle = static_cast<std::size_t>(shards) - costs.size();
+  // The first shard has the dearest run, which as a rule takes the most memory.
+  for (const int shard : {1, slowest}) {
+    study::StudyOptions options;
+    options.jobs = jobs;
+    options.shard = {shard, shards};
+    // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
+    // were.
+    const study::Forecast forecast = study::forecast_study(file, options, run::cautious_update_rate);
+    needs.time = std::max(needs.time, forecast.time);
+    needs.memory = std::max(needs.memory, forecast.memory);
+    // Of all cases, and gnuplot beside it.
+    constexpr double of_plots = 24e6;
+    const double share = static_cast<double>(forecast.cases) / static_cast<double>(file.cases.size());
+    needs.merge_memory =
+        forecast.plan_memory + forecast.kept_memory / share + forecast.report_memory + of_plots;
   }
-  // And gnuplot beside it.
-  constexpr double of_plots = 24e6;
-  needs.merge_memory = whole.plan_memory + whole.kept_memory + whole.report_memory + of_plots;
   return needs;
 }
 
@@ -243,12 +222,7 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   console.refuse_any(fault_of(study));
   console.refuse_any(obstacle_in_folder(study.asked.output, kinds::kind_of(file.study),
                                         study_manifest(file, study.asked.jobs), false));
-  study::StudyOptions options;
-  options.jobs = study.asked.jobs;
-  // No measurement, as the machine that submits is not the one that computes, and scripts stay what they
-  // were.
-  study.needs = needs_of(study::forecast_study(file, options, run::cautious_update_rate), study.asked.shards,
-                         study.asked.jobs);
+  study.needs = needs_of(file, study.asked.shards, study.asked.jobs);
   const Json request = request_of(study);
   const path folder = slurm_folder(arguments.output);  // as the user named it
   if (std::filesystem::is_symlink(folder))
