@@ -49,36 +49,12 @@ std::string_view checked_image(std::string_view file) {
   return image;
 }
 
-// --- the parts that only writing knows ---
+// --- what lies in the image ---
 
-constexpr std::array<std::string_view, 2> symmetry_words{"axisymmetric", "plane_strain"};
-constexpr std::array<std::string_view, 2> frame_words{"co_moving", "lab"};
-
-void write_scene(Hdf5Writer& writer, const scene::Scene& scene) {
-  using scene::Body, scene::ObservationPoint;
-  writer.group("scene", "What was simulated; complete in manifest/input", [&] {
-    writer.value("title", scene.title, {"none", "title"});
-    choice(writer, "symmetry", scene.symmetry, symmetry_words, {"none", "symmetry"});
-    choice(writer, "frame", scene.frame, frame_words, {"none", "frame of reference"});
-    writer.value("initial_temperature", scene.initial_temperature, {"K", "initial temperature"});
-    writer.value("peak_pressure", scene::PressureHistory(scene.load).stated_peak(),
-                 {"Pa", "peak chamber pressure"});
-    writer.value("cell_size", scene.numerics.cell_size, {"m", "nominal cell size"});
-    writer.group("bodies", "Bodies", [&] {
-      column(writer, "name", scene.bodies, &Body::name, {"none", "name"});
-      column(writer, "material", scene.bodies, &Body::material, {"none", "material"});
-      column(writer, "x_begin", scene.bodies, &Body::x_begin, {"m", "axial begin"});
-      column(writer, "x_end", scene.bodies, &Body::x_end, {"m", "axial end"});
-      column(writer, "r_begin", scene.bodies, &Body::r_begin, {"m", "radial begin"});
-      column(writer, "r_end", scene.bodies, &Body::r_end, {"m", "radial end"});
-    });
-    writer.group("observation_points", "Observation points", [&] {
-      const auto& points = scene.output.observation_points;
-      column(writer, "name", points, &ObservationPoint::name, {"none", "name"});
-      column(writer, "x", points, &ObservationPoint::x, {"m", "axial position"});
-      column(writer, "r", points, &ObservationPoint::r, {"m", "radial position"});
-    });
-  });
+template <class Archive, class Title>
+void lay_out_title(Archive& archive, Title& title) {
+  archive.group("scene", "What was simulated is in manifest/input",
+                [&] { archive.value("title", title, {"none", "title"}); });
 }
 
 /// A reader of the image in a case file's bytes. Throws where it is none.
@@ -174,7 +150,7 @@ Result<std::string> case_bytes(const scene::Scene& scene, const run::CaseResult&
   writer.attribute("format", std::string(format_name));
   writer.attribute("format_version", std::string(format_version));
   lay_out_manifest(writer, manifest);
-  write_scene(writer, scene);
+  lay_out_title(writer, scene.title);
   lay_out_result(writer, result);
   const std::string image = writer.finish();
   return user_block_of(image) + image;
@@ -186,7 +162,7 @@ Result<StoredCase> case_of(std::string_view bytes) try {
   Hdf5Reader reader = reader_of(bytes);
   StoredCase stored;
   lay_out_manifest(reader, stored.manifest);
-  reader.group("scene", "", [&] { reader.value("title", stored.title); });
+  lay_out_title(reader, stored.title);
   lay_out_result(reader, stored.result);
   if (const std::string fault = fault_in(stored.result); !fault.empty()) reader.fail(fault);
   return stored;

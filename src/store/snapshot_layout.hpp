@@ -243,7 +243,7 @@ void lay_out_snapshot(Archive& archive, Value& snapshot) {
     list(archive, "faces", "A face of the charge on which a body can slide", snapshot.faces,
          [&](auto& face) { lay_out_face(archive, face); });
   std::vector<std::int64_t> body(snapshot.body.begin(), snapshot.body.end());
-  archive.array("body", body, {"1", "index of the body, in the order of scene/bodies"});
+  archive.array("body", body, {"1", "index of the body, in the order of those in manifest/input"});
   if constexpr (Archive::reading) snapshot.body.assign(body.begin(), body.end());
   const std::size_t count = body.size();
   plane_vectors(archive, "position", snapshot.x, snapshot.r, count, {"m", "axial, radial, 0"});

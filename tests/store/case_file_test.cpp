@@ -50,21 +50,6 @@ TEST_F(CaseFile, KeepsTheManifest) {
   EXPECT_EQ(stored->wall_time, 62.25);
 }
 
-// Not load.peak, which a measured curve that is not scaled does not have.
-TEST_F(CaseFile, PeakPressureOfAMeasuredCurveIsThatOfItsLargestPoint) {
-  scene::Scene scene = sample_scene();
-  scene.load.curve_time = {0.0, 5e-3, 18e-3};
-  scene.load.curve_pressure = {1e5, 321e6, 2e6};
-  ASSERT_FALSE(write_case_file(path(), scene, sample_case(), sample_manifest()));
-  const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  const hid_t peak = H5Dopen2(file, "scene/peak_pressure", H5P_DEFAULT);
-  double value = 0.0;
-  EXPECT_GE(H5Dread(peak, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value), 0);
-  H5Dclose(peak);
-  H5Fclose(file);
-  EXPECT_EQ(value, 321e6);
-}
-
 TEST_F(CaseFile, AnEmptyResultIsKeptToo) {
   ASSERT_FALSE(write_case_file(path(), {}, {}, sample_manifest()));
   const Result<StoredCase> stored = read_case_file(path());
