@@ -14,8 +14,10 @@ struct ExplainArguments {
   std::optional<path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 
-std::string scene_text(const scene::Scene& scene, double update_rate);
+/// What of a scene is computed, on which grid, and at what cost, in SI; particle updates per second > 0.
 Json scene_json(const scene::Scene& scene, double update_rate);
+/// The same for people. `facts`: those for programs.
+std::string scene_text(const scene::Scene& scene, Json facts);
 
 /// Peaks, smoothing and roughness of a load, in SI.
 Json load_json(const scene::Scene& scene);

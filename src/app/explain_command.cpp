@@ -161,7 +161,6 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   const scene::Scene& scene = file.scene.scene;
   const bool closes = scene.surface.model == scene::GapModel::closing;
   const bool from_checkpoints = scene.surface.air_model == scene::AirModel::reservoir && !closes;
-  const auto megabytes = [](double bytes) { return fmt::format("{:.3g}", bytes / 1e6); };
   // Those of a large study fill no terminal.
   const auto listed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(20, forecast.runs.size()));
   Json facts = forecast_json(file, forecast);
@@ -171,10 +170,6 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
                 {"closes", closes},
                 {"combustion", from_checkpoints ? scene::time_text(scene.combustion.duration) : ""},
                 {"some_left_out", facts["stored"] != 0 || facts["refused"] != 0},
-                {"memory_MB", megabytes(forecast.memory)},
-                {"disk_MB", forecast.disk > 0 ? megabytes(forecast.disk) : ""},
-                {"time", report::duration(forecast.time)},
-                {"rate", fmt::format("{:.3g}", forecast.update_rate)},
                 {"list", report::to_text(run_table({forecast.runs.begin(), forecast.runs.begin() + listed}),
                                          width_of_output())}});
   if (static_cast<std::size_t>(listed) < forecast.run_count)
@@ -184,8 +179,6 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
   facts[facts["refused"] != 0 && facts["to_run"] == 0 ? "may_not_run"
         : facts["stored"] == forecast.run_count       ? "all_stored"
                                                       : "takes_time"] = true;
-  if (forecast.confirmation_time > 0.0)
-    facts["confirmation_time"] = report::duration(forecast.confirmation_time);
   if (begin && forecast.time > 0)
     facts["end"] = report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin);
   for (const auto& [key, value] : file.overrides)

@@ -42,18 +42,28 @@ struct BodyRow {
   std::string name;
   scene::CellRange cells;
   std::int64_t particles;
+  std::string material = {}, x = {}, r = {};
 };
 
 std::vector<BodyRow> bodies_of(const scene::Scene& scene) {
   std::vector<BodyRow> rows;
-  for (const scene::Body& body : scene.bodies)
-    rows.push_back({body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total()});
+  for (const scene::Body& body : scene.bodies) {
+    const auto extent = [&body](const char* name) {
+      const scene::Key<scene::Body>& key = *scene::find_key(scene::body_keys(), name);
+      return scene::format_value(key, key.get(body));
+    };
+    rows.push_back({body.name, scene::cells_of(scene, body), scene::particles_of(scene, body).total(),
+                    scene::material_text(scene, body), extent("x"), extent("r")});
+  }
   return rows;
 }
 
 report::Table body_table(const scene::Scene& scene) {
   const report::Quantities<BodyRow> quantities{
       {"body", "body", keys::text(), "The body.", &BodyRow::name},
+      {"material", "material", keys::text(), "What it is made of.", &BodyRow::material},
+      {"x", "x", keys::text(), "From where to where.", &BodyRow::x},
+      {"r", "r", keys::text(), "Likewise.", &BodyRow::r},
       {"cells_in_x", "cells in x", keys::count(), "Along x.", &BodyRow::cells, &scene::CellRange::nx},
       {"in_r", "in r", keys::count(), "Along r.", &BodyRow::cells, &scene::CellRange::nr},
       {"cells", "cells", keys::count(), "Its cells.",
@@ -83,6 +93,47 @@ Json intervals_json(const std::vector<scene::GridInterval>& intervals) {
                     {"edge_before_of", each.edge_before},
                     {"edge_behind_of", each.edge_behind}});
   return json;
+}
+
+/// A charge that shrank away from its base as it cooled, held at its nose; empty for what does not part.
+std::string cooling_text(const scene::Scene& scene) {
+  const bool parts = scene.surface.opens_by_cooling || scene.surface.model == scene::GapModel::closing;
+  if (!scene::has_charge(scene) || !parts) return {};
+  const scene::Extent charge = scene::charge_extent(scene);
+  const double rate = scene::opening_by_cooling(scene), length = charge.x_end - charge.x_begin;
+  std::string text =
+      fmt::format("expands by {} more than its shell and parts from the base by {:.3g} µm a kelvin below ",
+                  scene::format_quantity(rate / length, scene::Dimension::expansion), 1e6 * rate);
+  if (!scene.surface.opens_by_cooling) return text + "the temperature at which it filled the shell";
+  const double gap = scene::gap_by_cooling(scene);
+  return text + fmt::format("{:.6g} K: {} at {:.6g} K", *scene.surface.opens_by_cooling,
+                            gap > 0.0 ? "a gap of " + scene::length_text(gap) : "no gap",
+                            scene.initial_temperature);
+}
+
+/// What is launched, and by what, for people.
+Json launch_told(const scene::Scene& scene) {
+  const scene::Load& load = scene.load;
+  const double peak = scene::PressureHistory(load).peak();
+  std::vector<std::string> masses;
+  for (const scene::Material& each : scene::used_materials(scene))
+    masses.push_back(fmt::format("{} {:.6g}", each.name, scene::mass_of(scene, each.name)));
+  const std::string measured =
+      fmt::format("measured, {} points{}", load.curve_time.size(), load.rescale_to_peak ? ", rescaled" : "");
+  return {{"mass", scene::total_mass(scene)},
+          {"masses", masses},
+          {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},
+          {"initial_temperature",
+           scene::format_quantity(scene.initial_temperature, scene::Dimension::temperature)},
+          {"cooled", cooling_text(scene)},
+          {"shape", load.curve_time.empty() ? scene::word_of(load.shape) : measured},
+          {"peak", scene::pressure_text(peak)},
+          {"acts", scene::chamber_text(scene, peak)},
+          {"exit", scene::exit_text(scene)},
+          {"end", scene::end_text(scene)},
+          {"measured", scene::measured_load_text(load)},
+          {"acceleration", scene::rigid_acceleration(scene, peak)},
+          {"setback", scene::has_charge(scene) ? scene::pressure_text(scene::setback_pressure(scene)) : ""}};
 }
 
 std::string kilohertz(double frequency) { return fmt::format("{:.3g} kHz", 1e-3 * frequency); }
@@ -171,16 +222,21 @@ std::string uncovered_text(const scene::Load& load) {
                      fmt::join(uncovered, "\n  "));
 }
 
-std::string scene_text(const scene::Scene& scene, double update_rate) {
-  std::string text =
-      scene::to_text(scene::make_plan(scene), scene, update_rate) + "\nGrid\n" +
-      indented(report::to_text(interval_table(scene)) + "\n" + report::to_text(body_table(scene)));
-  text += rings_text(scene.load, scene) + uncovered_text(scene.load);
-  if (scene.output.asks_for_snapshots())
-    text += fmt::format("\nSnapshots\n  {}\n", run::to_text(run::snapshot_size(scene)));
-  if (const auto refusal = run::out_of_reach(scene, reach_here()))
-    text += fmt::format("\nRefused by launchsafe run\n  {}\n", refusal->message());
-  return text;
+std::string scene_text(const scene::Scene& scene, Json facts) {
+  for (const scene::NamedTerm& each : scene::plan_terms) {
+    facts["terms"].push_back(facts["physics"][std::string(each.member)]);
+    facts["terms"].back()["title"] = each.title;
+  }
+  facts.update(launch_told(scene));
+  facts.update({{"bodies", indented(report::to_text(body_table(scene)))},
+                {"off_grid", scene::charge_edges_off_grid(scene)},
+                {"time_step", scene::time_text(facts["time_step_s"].get<double>())},
+                {"sound", scene::longitudinal_speed(scene)},
+                {"countable", facts["steps"] < scene::most_counted},
+                {"intervals", indented(report::to_text(interval_table(scene)))},
+                {"rings", rings_text(scene.load, scene)},
+                {"uncovered", uncovered_text(scene.load)}});
+  return told("explain.txt", facts);
 }
 
 Json load_json(const scene::Scene& scene) {
@@ -245,9 +301,9 @@ Json scene_json(const scene::Scene& scene, double update_rate) {
           {"memory_bytes", plan.memory},
           {"snapshots", snapshots_json(scene)},
           {"updates_per_second", update_rate},
-          {"predicted_time_s", update_rate > 0 ? Json(scene::predicted_time(plan, update_rate)) : nullptr},
+          {"predicted_time_s", scene::predicted_time(plan, update_rate)},
           {"predicted_time_of_a_coupled_run_s",
-           update_rate > 0 && plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr},
+           plan.coupling.in ? Json(plan.coupled_work / update_rate) : nullptr},
           {"refused", refusal ? Json(refusal->message()) : Json()},
           {"implausible", plausibility_json(scene)}};
 }

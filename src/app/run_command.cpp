@@ -164,10 +164,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
                 {"limited", mechanics.limiters.acted()},
                 {"simulated", scene::time_text(mechanics.end_time)},
                 {"masses", masses},
-                {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},
-                {"wall_time", report::duration(mechanics.wall_time)},
-                {"updates", fmt::format("{:.2f}", mechanics.update_rate() / 1e6)}});
-  if (mechanics.processor_time > 0) facts["processor_time"] = report::duration(mechanics.processor_time);
+                {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric}});
   for (const report::Table& table : tables_of(scene, result))
     facts["tables"].push_back(report::to_text(table, width_of_output()));
   if (mechanics.monitor.empty()) return told("run.txt", facts);

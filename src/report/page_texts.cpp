@@ -42,8 +42,8 @@ TextColumn column_in(const std::string& line) {
 }
 
 /// A number as its template wants it: "fixed 1", "sig 4", "sci 1" as digits; "down 3" and "up 3" rounded to
-/// the safe side by so many decimals, "uncertain" up to two digits; "percent 3" of a share; "short" two
-/// digits, or all before the point.
+/// the safe side by so many decimals, "uncertain" up to two digits; "percent 3" of a share; "mega 3"
+/// millions; "duration" of seconds; "short" two digits, or all before the point.
 std::string digits_of(double value, const std::string& form, int digits) {
   if (form == "fixed") return report::fixed(value, digits);
   if (form == "sci") return report::scientific(value, digits);
@@ -51,6 +51,8 @@ std::string digits_of(double value, const std::string& form, int digits) {
   if (form == "up") return report::fixed(rounded_up(value, digits), digits);
   if (form == "uncertain") return uncertain_text(value);
   if (form == "percent") return report::significant(100.0 * value, digits) + " %";
+  if (form == "mega") return report::significant(1e-6 * value, digits);
+  if (form == "duration") return report::duration(value);
   if (form == "short") return value < 10.0 ? report::significant(value, 2) : report::fixed(value, 0);
   return report::significant(value, digits);
 }
@@ -70,12 +72,12 @@ std::string fact_text(const Row& fact) {
 }
 
 /// Facts by name, those that were pushed last first; behind bars in forms: "margin_K|down 1", where the
-/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger (than a fact too), "is 1"
-/// where a number or a word is that one, "measured error_K" tells a number with that error, and "counted
-/// case" is "2 cases"; of a text "words" has blanks between them and "first 12" is its beginning; of a list
-/// "list 4" are its first texts, "joined" and "and" all of them, "some" is there where it has any, "any
-/// warning fault" where a row has something under one of these, "all verdict SAFE" where all rows have that
-/// there, and "count verdict SAFE" is how many have.
+/// digits may be a fact too. Besides those of numbers: "over 1" is there where a number is larger (than a
+/// fact too), "is 1" where a number or a word is that one, "measured error_K" tells a number with that error,
+/// and "counted case" is "2 cases"; of a text "words" has blanks between them, "first 12" is its beginning
+/// and "padded 22" is as wide as that at least; of a list "list 4" are its first texts, "joined" and "and"
+/// all of them, "some" is there where it has any, "any warning fault" where a row has something under one of
+/// these, "all verdict SAFE" where all rows have that there, and "count verdict SAFE" is how many have.
 class Facts : public mustache::basic_context<std::string> {
  public:
   explicit Facts(std::vector<const Row*> facts) : stack_(std::move(facts)) {}
@@ -135,6 +137,8 @@ class Facts : public mustache::basic_context<std::string> {
       std::ranges::replace(made.get_ref<std::string&>(), '_', ' ');
     } else if (form == "first") {
       made = made.get<std::string>().substr(0, static_cast<std::size_t>(number));
+    } else if (form == "padded") {
+      made = fmt::format("{:<{}}", made.get<std::string>(), number);
     } else if (form == "counted") {
       made = counted(fact.get<std::int64_t>(), digits + (value.empty() ? "" : " " + value));
     } else if (form == "is") {

@@ -95,13 +95,6 @@ SnapshotSize snapshot_size(const scene::Scene& scene) {
   return size;
 }
 
-std::string to_text(const SnapshotSize& size) {
-  const auto megabytes = [](double bytes) { return fmt::format("{:.3g} MB", 1e-6 * bytes); };
-  return fmt::format("at most {} of the launch{}, {} each, {} in all before compression", size.of_launch,
-                     size.of_combustion > 0 ? fmt::format(" and {} of what burns", size.of_combustion) : "",
-                     megabytes(size.bytes_each), megabytes(size.bytes()));
-}
-
 std::optional<scene::InputError> out_of_reach(const scene::Scene& scene, const Reach& reach) {
   const Cost cost = cost_of(scene);
   // Written so that what is no number is out of reach.

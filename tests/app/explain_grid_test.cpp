@@ -64,11 +64,9 @@ TEST_F(ExplainedGrid, IsTheEvenOneOfTheUpdatedLagrangianForm) {
 
 TEST_F(ExplainedGrid, IsATableForPeople) {
   const std::string out = run({"explain", "shell.toml"}).out;
-  const std::size_t at = out.find("\nGrid\n");
-  ASSERT_NE(at, std::string::npos) << out;
-  for (const char* part : {"along  from [mm]  to [mm]  cells  smallest [mm]", "cup, filling, wall",
+  for (const char* part : {"\nGrid\n  along  from [mm]  to [mm]  cells  smallest [mm]", "cup, filling, wall",
                            "filling, wall, base", "whole grid"})
-    EXPECT_NE(out.find(part, at), std::string::npos) << part << " in\n" << out;
+    EXPECT_NE(out.find(part), std::string::npos) << part << " in\n" << out;
 }
 
 TEST_F(ExplainedGrid, IsDrawnWhereAskedFor) {

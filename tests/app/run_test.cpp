@@ -114,11 +114,27 @@ TEST_F(RunProgram, ExplainSaysWhatIsInAndWhatItCosts) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"explain", "shell.toml"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  for (const std::string part : {"heat conduction       out", "crack growth          in", "40 particles",
-                                 "memory", "particle updates per second"}) {
+  for (const std::string part :
+       {"heat conduction       out", "crack growth          in", "memory", "particle updates per second"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
   }
-  EXPECT_EQ(nlohmann::json::parse(run({"explain", "shell.toml", "--json"}).out)["particles"]["charge"], 18);
+  const auto object = nlohmann::json::parse(run({"explain", "shell.toml", "--json"}).out);
+  EXPECT_EQ(object["particles"]["charge"], 18);
+  for (const auto& [name, term] : object["physics"].items())
+    EXPECT_NE(outcome.out.find(term["reason"]), std::string::npos) << name;
+}
+
+TEST_F(RunProgram, ExplainTellsByHowMuchACoolChargePartsFromItsBase) {
+  const auto told_of = [this](const std::string& gap) {
+    write("shell.toml", with(tiny_scene, "thickness = \"0, 0.01 cm\"", gap));
+    return run({"explain", "shell.toml"}).out;
+  };
+  EXPECT_EQ(told_of("thickness = \"0 cm\"").find("a kelvin"), std::string::npos);
+  EXPECT_NE(told_of("model = \"closing\"\nthickness = \"0 cm\"").find("µm a kelvin below the temperature"),
+            std::string::npos);
+  EXPECT_NE(told_of("opens_by_cooling = \"320 K\"").find("µm a kelvin below 320 K: a gap of"),
+            std::string::npos);
+  EXPECT_NE(told_of("opens_by_cooling = \"290 K\"").find("below 290 K: no gap at 300 K"), std::string::npos);
 }
 
 }  // namespace

@@ -28,11 +28,11 @@ void check_round_trip(const scene::Scene& given) {
 void check_plan(const scene::Scene& given) {
   const scene::Plan plan = scene::make_plan(given);
   fuzz::require(plan.particles() > 0 && plan.cells > 0 && plan.steps > 0, "a plan has something to do",
-                scene::to_text(plan, given));
+                scene::to_toml(given));
   fuzz::require(std::isfinite(plan.time_step) && plan.time_step > 0.0, "a plan has a time step",
-                scene::to_text(plan, given));
+                scene::to_toml(given));
   fuzz::require(std::isfinite(plan.work) && std::isfinite(plan.memory), "the cost of a plan is known",
-                scene::to_text(plan, given));
+                scene::to_toml(given));
 }
 
 void check_load(const scene::Scene& given) {

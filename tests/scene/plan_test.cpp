@@ -122,15 +122,9 @@ TEST(Plan, CountsParticlesAndStepsAsTheMeshDoes) {
   EXPECT_DOUBLE_EQ(predicted_time(plan, 1e6), static_cast<double>(plan.steps * plan.particles()) / 1e6);
 }
 
-TEST(Plan, TextNamesEveryTermAndItsReason) {
-  const Scene scene = small();
-  const Plan plan = make_plan(scene);
-  const std::string text = to_text(plan, scene, 7e6);
-  for (const Term& term : {plan.conduction, plan.bulk_reaction, plan.air, plan.cracks, plan.crack_growth,
-                           plan.crack_friction, plan.surface, plan.friction_heat, plan.snapshots}) {
-    EXPECT_FALSE(term.reason.empty());
-    EXPECT_NE(text.find(term.reason), std::string::npos) << term.reason;
-  }
+TEST(Plan, HasAReasonForEveryTerm) {
+  const Plan plan = make_plan(small());
+  for (const NamedTerm& each : plan_terms) EXPECT_FALSE((plan.*each.term).reason.empty()) << each.title;
 }
 
 TEST(Plan, StepsThatCannotBeCountedAreNotTakenForFew) {
@@ -141,7 +135,6 @@ TEST(Plan, StepsThatCannotBeCountedAreNotTakenForFew) {
     EXPECT_EQ(plan.steps, most_counted);
     EXPECT_GT(plan.work, 1e100);
     EXPECT_GT(predicted_time(plan, 1e7), 1e90);
-    EXPECT_NE(to_text(plan, scene, 1e7).find("too many to count"), std::string::npos);
   }
 }
 
@@ -158,15 +151,6 @@ TEST(Plan, CountsTheParticlesOfTheFinestMesh) {
   // Area over that of a cell; each body is rounded up by less than a cell a side.
   const double cells = (all.x_end - all.x_begin) * all.r_end / 1e-10;
   EXPECT_NEAR(static_cast<double>(make_plan(scene).particles()) / cells, 1.0, 1e-4);
-}
-
-TEST(Plan, TellsByHowMuchACoolChargePartsFromItsBase) {
-  // Model section 14: 24 um a kelvin at the base of the 155 mm shell.
-  Scene scene = read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
-  EXPECT_EQ(to_text(make_plan(scene), scene, 1e7).find("a kelvin"), std::string::npos);
-  scene.surface.model = GapModel::closing;
-  EXPECT_NE(to_text(make_plan(scene), scene, 1e7).find("parts from the base by 24 µm a kelvin"),
-            std::string::npos);
 }
 
 // A straight line's change within a window is its slope times the window.

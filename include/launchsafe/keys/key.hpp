@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <initializer_list>
 #include <limits>
 #include <string_view>

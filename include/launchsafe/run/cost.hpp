@@ -34,8 +34,6 @@ struct SnapshotSize {
   double bytes() const { return bytes_each * static_cast<double>(of_launch + of_combustion); }
 };
 SnapshotSize snapshot_size(const scene::Scene& scene);
-/// "at most 6 of the launch and 12 of what burns, 2.6 MB each, 47 MB in all before compression".
-std::string to_text(const SnapshotSize& size);
 
 /// How much a run may take.
 struct Reach {

@@ -234,10 +234,6 @@ Plan make_plan(const Scene& scene);
 /// Seconds of wall time at an update rate (particle updates per second, > 0).
 double predicted_time(const Plan& plan, double update_rate);
 
-/// What `launchsafe explain` prints: masses, load, mesh, what is in and what is left out, and what the run
-/// will cost; the time too where an update rate (particle updates per second) is given.
-std::string to_text(const Plan& plan, const Scene& scene, double update_rate = 0.0);
-
 // Which launches take longer steps, with more inertia where a cell needs it, and how fast a load changes.
 
 /// Largest pressures (Pa) by which a load rises and falls within a time window (s); before 0 it is none.
