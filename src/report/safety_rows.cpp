@@ -10,24 +10,44 @@ namespace launchsafe::report {
 namespace {
 
 using scene::Dimension, scene::KeyKind;
-using study::CriticalGap, study::CriticalGapKind, study::GapVerdict;
+using study::CriticalGap, study::CriticalGapKind, study::GapVerdict, study::ShareKind;
 
-constexpr const char* results = "study.json";
+/// Refuses a cell that is not what was made of others; `tolerance` where these were rounded.
+void hold(const StudyEvidence& study, const std::string& place, const Row& row, const Row& made,
+          double tolerance = 1e-9) {
+  for (const auto& [key, value] : made.items()) {
+    const double number = number_of(made, key), off = std::abs(number_of(row, key) - number);
+    const Row cell = row.contains(key) ? row[key] : Row(),
+              wanted = value.is_number() && !std::isfinite(number) ? Row() : value;
+    if (cell != wanted && !(off <= tolerance * std::abs(number) + 1e-9))
+      throw study.fault("study.json",
+                        fmt::format("{}: {} is {}, and what it follows from makes it {}", place, key,
+                                    cell.dump(), wanted.dump()),
+                        "tables as a study writes them");
+  }
+}
 
-// --- what a study asks for, and what its cells say ---
+// --- what is made: cases by the manifest, and values of the study by cells ---
 
 /// Gaps, axes and cases, as a study of kind critical-gap makes them.
 study::StudyFile planned_study(const StudyEvidence& study) {
   study::StudyFile file;
-  file.scene = scene::without_defaults(study.scene);
+  file.scene = study.scene;
+  // The manifest writes every value: what follows from others is to follow them in cases too.
+  for (const auto& given : study.scene.given) {
+    scene::SceneFile fewer = file.scene;
+    fewer.given.erase(given.first);
+    if (auto same = scene::with_keys(fewer, {}, true);
+        same && scene::to_toml(same->scene) == scene::to_toml(study.scene.scene))
+      file.scene = std::move(*same);
+  }
   // What its records say is not in the folder.
   file.study.kind = {.gives_verdicts = false, .closing_gaps = study::ClosingGaps::beside};
   const auto numbers = [&](const toml::table& table, const char* name, KeyKind kind, Dimension dimension) {
-    const scene::KeyDescription key{.name = name, .kind = kind, .dimension = dimension};
-    const toml::node* node = table.get(name);
-    return node == nullptr
-               ? std::vector<double>{}
-               : std::get<std::vector<double>>(scene::read_value(*node, key, file.file).or_throw());
+    scene::Value read = std::vector<double>();
+    if (const toml::node* node = table.get(name))
+      read = scene::read_value(*node, {.name = name, .kind = kind, .dimension = dimension}, "").or_throw();
+    return std::get<std::vector<double>>(read);
   };
   file.study.gaps = numbers(study.asked, "gaps", KeyKind::list, Dimension::length);
   for (const toml::table* entry : study::tables_of(study.asked, "vary", file)) {
@@ -44,85 +64,44 @@ study::StudyFile planned_study(const StudyEvidence& study) {
 }
 
 /// m.
-double gap_of(const Row& row, const std::string& key) { return number_of(row, key) / shown_gap(1.0); }
-
-/// The critical gap of a case with its causes of uncertainty, and the bounds that follow from these.
-CriticalGap critical_gap_of(const Row& row, const std::vector<const Row*>& causes) {
-  using enum CriticalGapKind;
-  CriticalGap gap;
-  for (const CriticalGapKind kind : {value, all_safe, all_ignite, several_crossings})
-    if (to_string(kind) == text_of(row, quantity::critical_gap_kind.key())) gap.kind = kind;
-  gap.lower = gap_of(row, "critical_gap_lower_cm");
-  gap.upper = gap_of(row, "critical_gap_upper_cm");
-  if (gap.kind == value) gap.value = 0.5 * (gap.lower + gap.upper);
-  std::vector<study::GapShare> shares(causes.size());
-  for (std::size_t i = 0; i < causes.size(); ++i) {
-    for (std::size_t kind = 0; kind < study::share_kinds; ++kind)
-      if (study::traits_of(study::ShareKind(kind)).title == text_of(*causes[i], "cause"))
-        shares[i].kind = study::ShareKind(kind);
-    // How far it moves the gap is written with all digits.
-    const double lowers = gap_of(*causes[i], "lowers_cm");
-    shares[i].raised = lowers == 0.0 ? gap_or_bound_in(text_of(*causes[i], "raised")) : gap.lower - lowers;
-    shares[i].lowered = gap_or_bound_in(text_of(*causes[i], "lowered"));
-  }
-  study::set_shares(gap, std::move(shares));
-  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
-  constexpr double widest_bracket = 1.01e-6;  // m
-  if (gap.kind == value && !(gap.lower <= gap.upper && gap.upper - gap.lower <= widest_bracket))
-    gap.bounds = {};
-  return gap;
-}
+double gap_in(const Row& row, const std::string& key) { return number_of(row, key) / shown_gap(1.0); }
 
 /// What gaps that close say of a case; nothing where the study has no table of them.
 std::vector<study::ClosingAnswer> closing_answers(const CaseEvidence& judged, const study::StudyCase& input) {
-  std::vector<study::ClosingAnswer> answers;
-  if (!input.closing || judged.study->rows("closing").empty()) return answers;
+  if (!input.closing || judged.study->rows("closing").empty()) return {};
   const std::size_t wanted = study::closing_bounds(input).back().terms.size();
-  for (const std::string name : {"conducting", "insulated", "corner"}) {
-    answers.push_back({.name = name, .points = {}, .upper = math::infinity});
+  std::vector<study::ClosingAnswer> answers;
+  for (const char* name : {"conducting", "insulated", "corner"}) {
+    study::ClosingAnswer& answer = answers.emplace_back();
+    answer.name = name;
     for (const Row& row : judged.study->rows("closing")) {
-      study::ClosingPoint point{.gap = gap_of(row, "gap_cm"),
-                                .maximum_temperature = number_of(row, "temperature_max_" + name + "_K"),
-                                .place = {}};
+      study::ClosingPoint point;
+      point.gap = gap_in(row, "gap_cm");
+      point.maximum_temperature = number_of(row, "temperature_max_" + answer.name + "_K");
+      point.at_most = point.maximum_temperature + number_of(row, answer.name + "_numerical_K");
       point.ignited = point.maximum_temperature >= input.scene.scene.charge().kinetics.ignition_temperature;
       // An earlier program looked for the corner on fewer terms.
-      if (text_of(row, "case") != judged.label ||
-          (name == "corner" && !point.ignited &&
-           !(number_of(row, "corner_launches") >= static_cast<double>(wanted))))
+      const bool is_whole = number_of(row, "corner_launches") >= static_cast<double>(wanted);
+      if (text_of(row, "case") != judged.label || (answer.is_worst_corner() && !point.ignited && !is_whole))
         continue;
-      if (point.ignited) answers.back().upper = std::min(answers.back().upper, point.gap);
-      point.at_most = point.maximum_temperature + number_of(row, name + "_numerical_K");
-      answers.back().points.push_back(std::move(point));
+      if (point.ignited && !(answer.upper <= point.gap)) answer.upper = point.gap;
+      answer.points.push_back(std::move(point));
     }
   }
   return answers;
 }
 
-/// What all verdicts of a case rest on, as far as the folder tells.
-study::CaseEvidence evidence_of(const CaseEvidence& judged, const study::StudyCase& input) {
-  study::CaseEvidence evidence;
-  evidence.input = study::statements_of(judged.study->planned.study, input);
-  evidence.validity_warnings = evidence.input.uncovered_load;
-  if (judged.completed()) evidence.failure.clear();
-  for (const Row* row : judged.verdicts)
-    if (number_of(*row, "gap_cm") == 0.0)
-      evidence.friction_rise =
-          number_of(*row, quantity::temperature_max_inert.key()) - input.scene.scene.initial_temperature;
-  return evidence;
-}
-
-/// The verdict row of a gap (m), not judged.
-GapVerdict verdict_of(const Row& row, double gap, double ignition_temperature, study::CaseEvidence evidence) {
+/// The verdict row of a gap (m), not judged; `evidence`: what all rows of its case rest on.
+GapVerdict verdict_in(const Row& row, double gap, double ignition_temperature, study::CaseEvidence evidence) {
   GapVerdict made;
   made.gap = gap;
-  made.maximum.temperature = number_of(row, quantity::temperature_max.key());
+  made.maximum.temperature = number_of(row, "temperature_max_K");
   made.margin = ignition_temperature - made.maximum.temperature;
   for (const auto& [part, member] : {std::pair{"computation", &study::Uncertainty::numerical},
                                      {"fit", &study::Uncertainty::fit},
                                      {"inputs", &study::Uncertainty::input},
                                      {"model_form", &study::Uncertainty::model_form}})
-    if (const double kelvin = number_of(row, fmt::format("uncertainty_of_{}_K", part)); !(kelvin < 0.0))
-      made.uncertainty.*member = kelvin;
+    made.uncertainty.*member = std::abs(number_of(row, fmt::format("uncertainty_of_{}_K", part)));
   if (!text_of(row, "ignition_cause").empty()) made.ignition.emplace();
   if (const std::string warnings = text_of(row, "validity_warnings"); !warnings.empty())
     evidence.validity_warnings.push_back(warnings);
@@ -132,143 +111,134 @@ GapVerdict verdict_of(const Row& row, double gap, double ignition_temperature, s
   return made;
 }
 
-/// By how much a verdict warns; the word of none least.
-int severity(const std::string& verdict) {
-  return verdict == "UNSAFE" ? 3 : verdict == "INDETERMINATE" ? 2 : verdict == "SAFE" ? 1 : 0;
-}
-
 // --- what is written is held against that ---
 
-/// The rows of a study, and how their columns tell a case.
-struct HeldRows {
-  const StudyEvidence& study;
-  Quantities<std::vector<double>> launch = launch_quantities(study.planned);
-  std::vector<ShownKey> keys = shown_axes(study.planned.study);
-
-  /// Refuses a cell that is not what was made, but for round-off or `tolerance` where rounded cells made it.
-  void hold(const std::string& place, const Row& row, const Row& made, double tolerance = 1e-9) const {
-    for (const auto& [key, value] : made.items()) {
-      const double number = number_of(made, key), off = std::abs(number_of(row, key) - number);
-      const Row cell = row.contains(key) ? row[key] : Row(),
-                expected = value.is_number() && !std::isfinite(number) ? Row() : value;
-      if (cell != expected && !(off <= tolerance * std::abs(number) + 1e-9))
-        throw study.fault(results,
-                          fmt::format("{}: {} is {}, and what it follows from makes it {}", place, key,
-                                      cell.dump(), expected.dump()),
-                          "tables as a study writes them");
+/// The causes that a table lists of a critical gap up to `safe` (m). One is not known that has no row, and
+/// that is assumed of every launch or makes T max uncertain.
+std::vector<study::GapShare> held_causes(const CaseEvidence& judged, double safe) {
+  const StudyEvidence& study = *judged.study;
+  const auto gap_of = [](const Row& row, const char* key) {
+    const auto gap = scene::parse_value(text_of(row, key), {.dimension = Dimension::length}, {});
+    return gap ? std::get<double>(*gap) : study::no_ignition;
+  };
+  std::vector<study::GapShare> shares;
+  for (std::size_t i = 0; i < study::share_kinds; ++i) {
+    study::GapShare share{ShareKind(i)};
+    const auto& [name, title, of_class, remedy] = study::traits_of(share.kind);
+    const double kelvin = number_of(*judged.verdicts.front(), "uncertainty_of_" + name + "_K");
+    bool counts = share.kind <= ShareKind::initial_temperature
+                      ? !study.asked.contains("input_uncertainty")
+                      : share.kind != ShareKind::sliding && kelvin > 0.0;
+    for (const Row& row : study.rows("gap_shares")) {
+      if (text_of(row, "case") != judged.label || text_of(row, "cause") != title) continue;
+      counts = true;
+      // How far it moves the gap is written with all digits.
+      const double lowers = gap_in(row, "lowers_cm");
+      share.raised = lowers == 0.0 ? gap_of(row, "raised") : safe - lowers;
+      share.lowered = gap_of(row, "lowered");
+      const CriticalGap alone{.lower = safe, .shares = {share}};
+      hold(study, "gap_shares, " + judged.label, row,
+           json_rows(gap_share_table({{judged.label, &alone}}))[0]);
     }
+    if (counts) shares.push_back(share);
   }
+  return shares;
+}
 
-  void hold_all() const {
-    hold("axes", study.study, {{"axes", axes_json(study.planned.study)}});
-    const std::size_t cases = study.planned.cases.size(), gaps = study.planned.study.gaps.size();
-    if (study.rows("cases").size() != cases || study.rows("verdicts").size() != cases * gaps ||
-        (study.study.contains("runs") && study.rows("runs").size() != cases))
-      throw study.fault(
-          results,
-          fmt::format("found {} cases with {} verdicts, and its manifest asks for {} with {}",
-                      study.rows("cases").size(), study.rows("verdicts").size(), cases, cases * gaps),
-          "every gap in every case");
-    for (const CaseEvidence& each : cases_of(study)) hold_case(each);
-  }
+/// The critical gap of a case. Its bounds are those of its causes; where these are not listed, as in no study
+/// of many cases, none has made the lower bound larger or the upper one smaller.
+CriticalGap held_gap(const CaseEvidence& judged) {
+  using enum CriticalGapKind;
+  const Row& row = *judged.critical;
+  CriticalGap gap;
+  for (const CriticalGapKind kind : {value, all_safe, all_ignite, several_crossings})
+    if (to_string(kind) == text_of(row, "critical_gap_kind")) gap.kind = kind;
+  gap.lower = gap_in(row, "critical_gap_lower_cm");
+  gap.upper = gap_in(row, "critical_gap_upper_cm");
+  if (gap.kind == value) gap.value = 0.5 * (gap.lower + gap.upper);
+  const bool has_causes = judged.in_detail() && gap.kind != all_ignite;
+  study::set_shares(gap, has_causes ? held_causes(judged, gap.lower) : std::vector<study::GapShare>{});
+  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
+  constexpr double widest_bracket = 1.01e-6;  // m
+  if (gap.kind == value && !(gap.lower <= gap.upper && gap.upper - gap.lower <= widest_bracket))
+    gap.bounds = {};
+  const double at_least = gap_in(row, "critical_gap_at_least_cm"),
+               at_most = gap_in(row, "critical_gap_at_most_cm");
+  if (!judged.in_detail() && !(at_least > gap.bounds.at_least)) gap.bounds.at_least = at_least;
+  if (!judged.in_detail() && !(at_most < gap.bounds.at_most)) gap.bounds.at_most = at_most;
+  // Critical gaps at the better ends of causes have four digits.
+  const std::string place = "cases, " + judged.label;
+  hold(*judged.study, place, row, {{"critical_gap_at_most_cm", shown_gap(gap.bounds.at_most)}}, 1e-3);
+  if (std::isfinite(at_most)) gap.bounds.at_most = at_most;
+  // What one might be that is indeterminate is not known here.
+  if (gap.kind != indeterminate) hold(*judged.study, place, row, json_of(bounded_gap_quantities(), gap));
+  return gap;
+}
 
-  void hold_case(const CaseEvidence& judged) const {
-    const study::StudyCase input = judged.input();
-    const std::string place = fmt::format("cases, row {}", judged.place + 1);
-    Row told = json_of(axis_quantities(study.planned.study), input.coordinates);
-    told["case"] = judged.in_detail() ? input.label : place_text(keys, input.coordinates);
-    hold(place, *judged.critical, told);
-    if (judged.in_detail())
-      hold(fmt::format("runs, row {}", judged.place + 1), *judged.run,
-           {{"case", input.label},
-            {"stored_case", judged.completed()
-                                ? fmt::format("cases/{}.h5", study::mechanics_run(input.scene.scene, {}).hash)
-                                : ""}});
-    const CriticalGap critical = hold_gap(judged, place);
-    const auto closing = closing_answers(judged, input);
-    const study::CaseEvidence evidence = evidence_of(judged, input);
-    const std::vector<double>& gaps = gaps_of(study.planned.study, input);
-    std::vector<GapVerdict> rows;
-    for (std::size_t i = 0; i < gaps.size(); ++i) {
-      const Row& row = *judged.verdicts[i];
-      const std::string verdict = text_of(row, "verdict");
-      GapVerdict& made = rows.emplace_back(
-          verdict_of(row, gaps[i], input.scene.scene.charge().kinetics.ignition_temperature, evidence));
-      study::take_closing_evidence(closing, input.scene.scene, made);
-      made.judgement = study::judge(made, critical);
-      const std::string least = to_string(made.judgement.verdict);
-      told = json_of(launch, input.coordinates);
-      told.update({{"gap_cm", shown_gap(made.gap)},
-                   {"margin_K", made.margin},
-                   {"uncertainty_K", made.uncertainty.total()},
-                   // What is not in the folder may have more to warn of.
-                   {"verdict", severity(verdict) < severity(least) ? least : verdict}});
-      hold(fmt::format("verdicts, row {}", judged.place * gaps.size() + i + 1), row, told);
-      if (verdict != "SAFE") made.judgement.verdict = study::Verdict::indeterminate;
-    }
-    hold(place, *judged.critical, {{"largest_safe_gap_cm", shown_gap(study::largest_safe_gap(rows))}});
+/// The rows of a case, of whose launch their columns say so much. No verdict warns less than its own parts
+/// do; what is not in the folder may have more to warn of.
+void hold_case(const CaseEvidence& judged, const Row& launch) {
+  const StudyEvidence& study = *judged.study;
+  const study::StudyCase input = judged.input();
+  if (judged.in_detail())
+    hold(study, "runs, " + judged.label, *judged.run,
+         {{"case", judged.label},
+          {"stored_case", judged.completed()
+                              ? fmt::format("cases/{}.h5", study::mechanics_run(input.scene.scene, {}).hash)
+                              : ""}});
+  const CriticalGap critical = held_gap(judged);
+  const auto closing = closing_answers(judged, input);
+  study::CaseEvidence evidence;
+  if (judged.completed()) evidence.failure.clear();
+  evidence.input = study::statements_of(study.planned.study, input);
+  evidence.validity_warnings = evidence.input.uncovered_load;
+  std::vector<GapVerdict> rows;
+  for (const double gap : gaps_of(study.planned.study, input)) {
+    const Row& row = *judged.verdicts[rows.size()];
+    GapVerdict& made = rows.emplace_back(
+        verdict_in(row, gap, input.scene.scene.charge().kinetics.ignition_temperature, evidence));
+    study::take_closing_evidence(closing, input.scene.scene, made);
+    made.judgement = study::judge(made, critical);
+    const std::string verdict = text_of(row, "verdict"), least = to_string(made.judgement.verdict);
+    const bool is_milder =
+        verdict != "UNSAFE" && verdict != least && !(verdict == "INDETERMINATE" && least == "SAFE");
+    Row told = launch;
+    told.update({{"gap_cm", shown_gap(gap)},
+                 {"margin_K", made.margin},
+                 {"uncertainty_K", made.uncertainty.total()},
+                 {"reason_code", text_of(row, "reason_code")},
+                 {"verdict", is_milder ? least : verdict}});
+    hold(study, fmt::format("verdicts, {}, row {}", judged.label, rows.size()), row, told);
+    if (verdict != "SAFE") made.judgement.verdict = study::Verdict::indeterminate;
   }
-
-  /// The critical gap of a case. Its bounds are those of its causes; where these are not listed, as in no
-  /// study of many cases, none has made the lower bound larger or the upper one smaller.
-  CriticalGap hold_gap(const CaseEvidence& judged, const std::string& place) const {
-    const Row& row = *judged.critical;
-    std::vector<const Row*> causes;
-    for (const Row& each : study.rows("gap_shares"))
-      if (text_of(each, "case") == judged.label) causes.push_back(&each);
-    CriticalGap gap = critical_gap_of(row, causes);
-    const Row shares = json_rows(gap_share_table({{judged.label, &gap}}));
-    for (std::size_t i = 0; i < causes.size(); ++i)
-      hold(fmt::format("gap_shares of {}, row {}", judged.label, i + 1), *causes[i], shares[i]);
-    const double at_least = gap_of(row, "critical_gap_at_least_cm"),
-                 at_most = gap.kind == CriticalGapKind::all_safe ? study::no_ignition
-                                                                 : gap_of(row, "critical_gap_at_most_cm");
-    const bool are_listed = !causes.empty() || std::isnan(gap.bounds.at_least);
-    if (!are_listed && !(at_least > gap.bounds.at_least)) gap.bounds.at_least = at_least;
-    if (!are_listed && !(at_most < gap.bounds.at_most)) gap.bounds.at_most = at_most;
-    if (judged.in_detail() && !std::isnan(at_least)) hold_causes(judged, gap);
-    // Critical gaps at the better end of a cause are written with four digits.
-    hold(place, row, {{"critical_gap_at_most_cm", shown_gap(gap.bounds.at_most)}}, 1e-3);
-    gap.bounds.at_most = at_most;
-    Row told = json_of(bounded_gap_quantities(), gap);
-    // What an indeterminate one might be is told beside it.
-    for (const char* text : {"critical_gap_reads_as", "critical_gap_with_bounds"})
-      if (gap.kind == CriticalGapKind::indeterminate && text_of(row, text).starts_with("indeterminate"))
-        told.erase(text);
-    hold(place, row, told);
-    return gap;
-  }
-
-  /// What makes T max uncertain makes the critical gap uncertain too.
-  void hold_causes(const CaseEvidence& judged, const CriticalGap& gap) const {
-    using enum study::ShareKind;
-    if (gap.kind == CriticalGapKind::all_ignite) return;
-    std::vector<study::ShareKind> needed;
-    if (!study.asked.contains("input_uncertainty"))
-      needed = {peak_pressure, pulse_length, initial_temperature};
-    for (const study::ShareKind kind : {load_curve, computation, fit, model_form})
-      if (number_of(*judged.verdicts.front(),
-                    fmt::format("uncertainty_of_{}_K", study::traits_of(kind).name)) != 0.0)
-        needed.push_back(kind);
-    for (const study::ShareKind kind : needed)
-      if (std::ranges::count(gap.shares, kind, &study::GapShare::kind) == 0)
-        throw study.fault(
-            results,
-            fmt::format("gap_shares of {} has no row of {}", judged.label, study::traits_of(kind).title),
-            "every cause of uncertainty");
-  }
-};
+  hold(study, "cases, " + judged.label, *judged.critical,
+       {{"largest_safe_gap_cm", shown_gap(study::largest_safe_gap(rows))}});
+}
 
 }  // namespace
 
 void check_rows(StudyEvidence& study) try {
-  const auto has_code = [](const Row& row) { return row.contains(quantity::reason_code.key()); };
-  if (!study.study.contains("extrapolated") || !std::ranges::all_of(study.rows("verdicts"), has_code))
-    throw study.fault(results,
-                      "an earlier program wrote these verdicts, without what they rest on as columns",
-                      "a study that this program made");
-  study.planned = planned_study(study);
-  HeldRows{study}.hold_all();
+  const study::StudyFile& planned = study.planned = planned_study(study);
+  const std::size_t cases = planned.cases.size();
+  hold(study, "rows",
+       {{"cases", study.rows("cases").size()},
+        {"verdicts", study.rows("verdicts").size()},
+        {"runs", study.rows("runs").size()}},
+       {{"cases", cases},
+        {"verdicts", cases * planned.study.gaps.size()},
+        {"runs", study.tells == tells::sweep ? 0 : cases}});
+  hold(study, "axes", study.study, {{"axes", axes_json(planned.study)}});
+  const auto launch = launch_quantities(planned), axes = axis_quantities(planned.study);
+  const std::vector<ShownKey> keys = shown_axes(planned.study);
+  for (const CaseEvidence& each : cases_of(study)) {
+    const std::vector<double>& at = planned.cases.coordinates(each.place);
+    const std::string label = each.in_detail() ? planned.cases.label(each.place) : place_text(keys, at);
+    Row told = json_of(axes, at);
+    // Of several with one label all but the first are numbered.
+    told["case"] = each.label.starts_with(label + " (") ? each.label : label;
+    hold(study, fmt::format("cases, row {}", each.place + 1), *each.critical, told);
+    hold_case(each, json_of(launch, at));
+  }
 } catch (const scene::InputError& error) {
   throw study.fault(store::manifest_name, "no cases follow from its study: " + error.message(),
                     "a manifest as a study writes it");

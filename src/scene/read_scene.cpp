@@ -314,17 +314,6 @@ Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& n
   });
 }
 
-SceneFile without_defaults(SceneFile file) {
-  const std::string all = to_toml(file.scene);
-  for (const auto& given : std::map(file.given)) {
-    SceneFile fewer = file;
-    fewer.given.erase(given.first);
-    rebuild(fewer, true, true);
-    if (to_toml(fewer.scene) == all) file = std::move(fewer);
-  }
-  return file;
-}
-
 std::vector<ListedKey> list_keys(const SceneFile& file) {
   std::vector<ListedKey> listed;
   for (const Key<Scene>& key : scene_keys()) {

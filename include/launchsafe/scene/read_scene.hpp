@@ -282,9 +282,6 @@ Expected<SceneFile> with_keys(const SceneFile& file, const std::vector<KeyChange
 /// The same of one key with the value as written: "0.1 mm", "true", "comp-b".
 Expected<SceneFile> with_written_key(const SceneFile& file, const std::string& name, std::string_view written,
                                      const Place& place);
-/// The same scene, given no key whose value it would have anyway: of a text that writes every key, those that
-/// follow from others do so again where these change.
-SceneFile without_defaults(SceneFile file);
 
 /// One key of a scene with its value.
 struct ListedKey {
