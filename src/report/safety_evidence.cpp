@@ -271,11 +271,10 @@ bool is_of_launch(const study::Difference& difference) {
 }
 
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
-  if (study.tells != tells::launch && study.tells != tells::sweep && study.tells != tells::closing) return {};
   const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts"), &runs = study.rows("runs");
-  const std::size_t gaps = verdicts.size() / criticals.size();
+  const std::size_t gaps = study.planned.study.gaps.size();
   std::vector<CaseEvidence> cases;
-  for (std::size_t place = 0; place < criticals.size(); ++place) {
+  for (std::size_t place = 0; place < study.planned.cases.size(); ++place) {
     const Row& critical = criticals[place];
     CaseEvidence each{&study, place, &critical, runs.empty() ? &critical : &runs[place],
                       text_of(critical, "case")};

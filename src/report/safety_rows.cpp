@@ -117,10 +117,6 @@ GapVerdict verdict_in(const Row& row, double gap, double ignition_temperature, s
 /// that is assumed of every launch or makes T max uncertain.
 std::vector<study::GapShare> held_causes(const CaseEvidence& judged, double safe) {
   const StudyEvidence& study = *judged.study;
-  const auto gap_of = [](const Row& row, const char* key) {
-    const auto gap = scene::parse_value(text_of(row, key), {.dimension = Dimension::length}, {});
-    return gap ? std::get<double>(*gap) : study::no_ignition;
-  };
   std::vector<study::GapShare> shares;
   for (std::size_t i = 0; i < study::share_kinds; ++i) {
     study::GapShare share{ShareKind(i)};
@@ -134,8 +130,8 @@ std::vector<study::GapShare> held_causes(const CaseEvidence& judged, double safe
       counts = true;
       // How far it moves the gap is written with all digits.
       const double lowers = gap_in(row, "lowers_cm");
-      share.raised = lowers == 0.0 ? gap_of(row, "raised") : safe - lowers;
-      share.lowered = gap_of(row, "lowered");
+      share.raised = lowers == 0.0 ? gap_or_bound_in(text_of(row, "raised")) : safe - lowers;
+      share.lowered = gap_or_bound_in(text_of(row, "lowered"));
       const CriticalGap alone{.lower = safe, .shares = {share}};
       hold(study, "gap_shares, " + judged.label, row,
            json_rows(gap_share_table({{judged.label, &alone}}))[0]);
@@ -158,20 +154,25 @@ CriticalGap held_gap(const CaseEvidence& judged) {
   if (gap.kind == value) gap.value = 0.5 * (gap.lower + gap.upper);
   const bool has_causes = judged.in_detail() && gap.kind != all_ignite;
   study::set_shares(gap, has_causes ? held_causes(judged, gap.lower) : std::vector<study::GapShare>{});
-  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
-  constexpr double widest_bracket = 1.01e-6;  // m
-  if (gap.kind == value && !(gap.lower <= gap.upper && gap.upper - gap.lower <= widest_bracket))
-    gap.bounds = {};
   const double at_least = gap_in(row, "critical_gap_at_least_cm"),
                at_most = gap_in(row, "critical_gap_at_most_cm");
-  if (!judged.in_detail() && !(at_least > gap.bounds.at_least)) gap.bounds.at_least = at_least;
-  if (!judged.in_detail() && !(at_most < gap.bounds.at_most)) gap.bounds.at_most = at_most;
+  if (!judged.in_detail() && (at_least <= gap.bounds.at_least || std::isnan(at_least)))
+    gap.bounds.at_least = at_least;
+  if (!judged.in_detail() && (at_most >= gap.bounds.at_most || std::isnan(at_most)))
+    gap.bounds.at_most = at_most;
   // Critical gaps at the better ends of causes have four digits.
   const std::string place = "cases, " + judged.label;
   hold(*judged.study, place, row, {{"critical_gap_at_most_cm", shown_gap(gap.bounds.at_most)}}, 1e-3);
   if (std::isfinite(at_most)) gap.bounds.at_most = at_most;
+  Row told = json_of(bounded_gap_quantities(), gap);
   // What one might be that is indeterminate is not known here.
-  if (gap.kind != indeterminate) hold(*judged.study, place, row, json_of(bounded_gap_quantities(), gap));
+  for (const char* text : {"critical_gap_reads_as", "critical_gap_with_bounds"})
+    if (gap.kind == indeterminate) told.erase(text);
+  hold(*judged.study, place, row, told);
+  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
+  constexpr double widest_bracket = 1.01e-6;  // m
+  if (!(gap.lower <= gap.upper && gap.upper - gap.lower <= widest_bracket) && gap.kind == value)
+    gap.bounds = {};
   return gap;
 }
 
@@ -206,7 +207,6 @@ void hold_case(const CaseEvidence& judged, const Row& launch) {
     told.update({{"gap_cm", shown_gap(gap)},
                  {"margin_K", made.margin},
                  {"uncertainty_K", made.uncertainty.total()},
-                 {"reason_code", text_of(row, "reason_code")},
                  {"verdict", is_milder ? least : verdict}});
     hold(study, fmt::format("verdicts, {}, row {}", judged.label, rows.size()), row, told);
     if (verdict != "SAFE") made.judgement.verdict = study::Verdict::indeterminate;
@@ -218,12 +218,17 @@ void hold_case(const CaseEvidence& judged, const Row& launch) {
 }  // namespace
 
 void check_rows(StudyEvidence& study) try {
+  const auto has_code = [](const Row& row) { return row.contains("reason_code"); };
+  if (!study.study.contains("extrapolated") || !std::ranges::all_of(study.rows("verdicts"), has_code))
+    throw study.fault("study.json",
+                      "an earlier program wrote these verdicts, without what they rest on as columns",
+                      "a study that this program made");
   const study::StudyFile& planned = study.planned = planned_study(study);
   const std::size_t cases = planned.cases.size();
-  hold(study, "rows",
-       {{"cases", study.rows("cases").size()},
-        {"verdicts", study.rows("verdicts").size()},
-        {"runs", study.rows("runs").size()}},
+  const auto count = [&](const char* table) {
+    return study.rows(table).is_array() ? study.rows(table).size() : 0;
+  };
+  hold(study, "rows", {{"cases", count("cases")}, {"verdicts", count("verdicts")}, {"runs", count("runs")}},
        {{"cases", cases},
         {"verdicts", cases * planned.study.gaps.size()},
         {"runs", study.tells == tells::sweep ? 0 : cases}});

@@ -93,6 +93,8 @@ std::optional<Measured> measured_gap(const study::CriticalGap& gap);
 std::string measured_text(const study::CriticalGap& gap);
 /// What makes critical gaps uncertain, cause by cause.
 Table gap_share_table(const std::vector<NamedGap>& cases);
+/// m, what a cell of that table says; NaN where that is not known.
+study::GapOrBound gap_or_bound_in(const std::string& text);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
 
