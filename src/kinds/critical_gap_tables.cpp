@@ -16,30 +16,10 @@ struct JudgedGap {
   const GapVerdict* gap;
 };
 
-/// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
-Quantities<std::vector<double>> launch_quantities(const StudyFile& study) {
-  Quantities<std::vector<double>> axes = report::axis_quantities(study.study), launch;
-  const StudyCase first = study.cases.empty() ? StudyCase{} : study.cases.front();
-  const std::pair<Column, double> fixed_values[] = {
-      {quantity::peak_pressure, first.peak_pressure},
-      {quantity::crack_radius, first.strength().initial_crack_radius},
-      {quantity::flaw_size, first.strength().flaw_size}};
-  for (const auto& [column, value] : fixed_values) {
-    if (const auto* axis = keys::find_named(axes, column.name))
-      launch.push_back(*axis);
-    else
-      launch.emplace_back(for_programs(column),
-                          [value = value](const std::vector<double>&) { return value; });
-  }
-  for (const auto& axis : axes)
-    if (keys::find_named(study::named_axes(), axis.name) == nullptr) launch.push_back(axis);
-  return launch;
-}
-
 Quantities<JudgedGap> judged_gap_quantities(const StudyFile& study) {
   return joined<JudgedGap>(
       {{{quantity::gap, &JudgedGap::gap, &GapVerdict::gap}},
-       of_part<JudgedGap>(launch_quantities(study), &JudgedGap::of, &AnsweredCase::coordinates),
+       of_part<JudgedGap>(report::launch_quantities(study), &JudgedGap::of, &AnsweredCase::coordinates),
        of_part<JudgedGap>(report::verdict_quantities(study.study), &JudgedGap::gap)});
 }
 

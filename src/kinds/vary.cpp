@@ -185,9 +185,7 @@ void settle_values(VaryReader& reader) {
   }
   if (!reader.given("range")) reader.need("values", "an entry without a range");
   reader.need("count", "a range without a distribution");
-  const double step = (text.distribution.upper - text.distribution.lower) / (text.count - 1);
-  for (int i = 0; i + 1 < text.count; ++i) text.values.push_back(text.distribution.lower + step * i);
-  text.values.push_back(text.distribution.upper);
+  text.values = study::spaced_values(text.distribution.lower, text.distribution.upper, text.count);
   for (const double value : text.values)
     if (text.key.dimension == Dimension::count && value != std::round(value))
       reader.refuse("count", fmt::format("{} values, one of which is {:g}", text.count, value),

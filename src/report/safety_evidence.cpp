@@ -14,12 +14,6 @@ constexpr const char* results = "study.json";
 
 /// Ends the reading.
 [[noreturn]] void refuse(std::string message) { throw Error{Error::Kind::corrupt, std::move(message)}; }
-/// For a file of a study, which its command would make anew.
-[[noreturn]] void refuse(const StudyEvidence& study, const path& file, std::string_view found,
-                         std::string_view allowed) {
-  refuse(fmt::format("{}: {}; allowed: {} ({})", (study.folder / file).string(), found, allowed,
-                     study.command()));
-}
 
 // --- one study ---
 
@@ -42,13 +36,12 @@ void read_files(StudyEvidence& study) {
   for (const store::TextFile& file : *files)
     if (file.name == results) study.study = Row::parse(file.text, nullptr, false);
   if (study.study.is_null()) return;
-  const std::string kind = text_of(study.study, "kind");
-  if (kind.empty() || kind != study.kind)
-    refuse(
-        study, results,
-        fmt::format("found results of kind \"{}\", its manifest is of a study of kind {}", kind, study.kind),
-        "results as a study writes them");
-  study.title = text_of(study.study, "title");
+  for (const auto& [key, asked] :
+       {std::pair{"kind", study.kind}, {"title", study.title}, {"study", study.record.study}})
+    if (const std::string found = text_of(study.study, key); found != asked)
+      throw study.fault(
+          results, fmt::format("found results of {} \"{}\", its manifest is of \"{}\"", key, found, asked),
+          "results as a study writes them");
   for (Row& picture : study.study["pictures"])
     for (store::TextFile& file : *files)
       if (file.name == text_of(picture, "file")) picture["svg"] = std::move(file.text);
@@ -73,86 +66,6 @@ std::string told_by(const StudyEvidence& study) {
   return first_has("cases", "variant") ? tells::models : tells::nothing;
 }
 
-/// Whether all launches that this program takes looked for the worst corner of a gap (cm) that closes.
-bool corner_is_whole(const CaseEvidence& judged, double gap) {
-  const auto scene = judged.scene();
-  if (!scene) return false;
-  study::StudyCase input;
-  input.scene = *scene;
-  input.closing = scene->scene.surface;
-  const std::size_t wanted = study::closing_bounds(input).back().terms.size();
-  return std::ranges::any_of(judged.study->rows("closing"), [&](const Row& row) {
-    return text_of(row, "case") == judged.label && number_of(row, "gap_cm") == gap &&
-           number_of(row, "corner_launches") >= static_cast<double>(wanted);
-  });
-}
-
-/// What contradicts a verdict SAFE among the gap's own numbers and those of its case; empty for none.
-std::string contradiction_of(const CaseEvidence& judged, const Row& row) {
-  constexpr double slack = 1e-6;  // K
-  const StudyEvidence& study = *judged.study;
-  const double margin = number_of(row, "margin_K"), gap = number_of(row, "gap_cm"),
-               at_least = number_of(*judged.critical, "critical_gap_at_least_cm");
-  if (!(margin > 0.0)) return "its margin";
-  // Of many cases whose gaps close the worst corner was not computed.
-  if (closes(study) && (study.tells == tells::sweep || !corner_is_whole(judged, gap)))
-    return "its worst corner, for which fewer launches looked than this program takes";
-  // An earlier program looked less closely at measured curves.
-  if (!study.scene.scene.load.curve_time.empty()) {
-    const auto scene = judged.scene();
-    const auto uncovered = scene ? run::uncovered_load(scene->scene.load) : std::vector<std::string>{"none"};
-    if (!uncovered.empty()) return "its load: " + uncovered.front();
-  }
-  for (const char* fault : {"ignition_cause", "validity_warnings", "unaccepted"})
-    if (!text_of(row, fault).empty()) return std::string("its ") + fault;
-  // Another ignition temperature than the scene's may be what a sweep is over.
-  const double ignition = study.scene.scene.charge().kinetics.ignition_temperature;
-  if (study.tells != tells::sweep &&
-      !(std::abs(ignition - number_of(row, "temperature_max_K") - margin) <= slack))
-    return "its temperature";
-  const std::string kind = text_of(*judged.critical, "critical_gap_kind");
-  // An earlier program took a bound up to the end of the search for known.
-  const double known = study::known_part_of_search * number_of(*judged.critical, "critical_gap_lower_cm");
-  // An earlier program took wide brackets, in which what causes of uncertainty change vanishes.
-  constexpr double widest_bracket = 1.01e-4;  // cm
-  if (kind == "value" && !closes(study) &&
-      !(number_of(*judged.critical, "critical_gap_upper_cm") -
-            number_of(*judged.critical, "critical_gap_lower_cm") <=
-        widest_bracket))
-    return "a bracket of its critical gap that is too wide for its bounds";
-  const bool is_below =
-      (kind == "all-safe" && gap <= at_least && gap <= known && margin > number_of(row, "uncertainty_K")) ||
-      (kind == "value" && gap < at_least);
-  return is_below ? "" : "the uncertainty or the critical gap";
-}
-
-/// Rows that are not all there, or whose own numbers contradict their SAFE.
-void check_verdicts(const StudyEvidence& study) {
-  if (!study.study.contains("verdicts")) return;
-  const Row &cases = study.rows("cases"), &verdicts = study.rows("verdicts");
-  if (cases.empty() || verdicts.empty() || verdicts.size() % cases.size() != 0)
-    refuse(study, results, fmt::format("found {} verdicts for {} cases", verdicts.size(), cases.size()),
-           "every gap in every case");
-  const auto has_code = [](const Row& row) { return row.contains(quantity::reason_code.key()); };
-  if (!study.study.contains("extrapolated") || !std::ranges::all_of(verdicts, has_code))
-    refuse(study, results, "an earlier program wrote these verdicts, without what they rest on as columns",
-           "a study that this program made");
-  const auto is_no_verdict = [](const Row& row) {
-    const std::string word = text_of(row, "verdict");
-    return word != "SAFE" && word != "UNSAFE" && word != "INDETERMINATE";
-  };
-  if (std::ranges::any_of(verdicts, is_no_verdict))
-    refuse(study, results, "found a word that is no verdict", "SAFE, UNSAFE or INDETERMINATE");
-  for (const CaseEvidence& judged : cases_of(study))
-    for (const Row* verdict : judged.verdicts)
-      if (text_of(*verdict, "verdict") == "SAFE")
-        if (const std::string contradiction = contradiction_of(judged, *verdict); !contradiction.empty())
-          refuse(study, results,
-                 fmt::format("a gap of {} cm is called SAFE against {}", number_of(*verdict, "gap_cm"),
-                             contradiction),
-                 "verdicts as a study of this program writes them");
-}
-
 StudyEvidence read_study(const path& folder, std::size_t number) {
   StudyEvidence study;
   study.label = std::string(1, static_cast<char>('A' + number));
@@ -166,23 +79,23 @@ StudyEvidence read_study(const path& folder, std::size_t number) {
   study.record = std::move(*record);
   const store::Manifest& manifest = study.record.manifest;
   if (manifest.model_version != run::model_version)
-    refuse(study, store::manifest_name,
-           fmt::format("its study is of model version {}, this program is of {}", manifest.model_version,
-                       run::model_version),
-           "studies of this version");
+    throw study.fault(store::manifest_name,
+                      fmt::format("its study is of model version {}, this program is of {}",
+                                  manifest.model_version, run::model_version),
+                      "studies of this version");
   const auto [file, scene_text] = parts_of(manifest.input_text);
   // Of a manifest that was edited nothing is asked, and it is refused for its kind.
   if (auto asked = scene::parse_toml(file, folder / store::manifest_name)) study.asked = std::move(*asked);
   study.kind = study.asked["kind"].value_or("");
-  study.title = study.asked["title"].value_or("");
   auto scene = scene::parse_scene(scene_text, folder / store::manifest_name);
   if (!scene)
     refuse(fmt::format("{}: its input holds no scene that this program reads: {}",
                        (folder / store::manifest_name).string(), scene.error().message()));
   study.scene = std::move(*scene);
+  study.title = study.asked["title"].value_or(study.scene.scene.title);
   read_files(study);
   study.tells = told_by(study);
-  check_verdicts(study);
+  if (study.study.contains("verdicts")) check_rows(study);
   return study;
 }
 
@@ -243,14 +156,12 @@ bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
          (std::isnan(first) && std::isnan(second));
 }
 
-/// Whether two cases are of one launch, computed with the same numerics, or may be: that of a scene which
-/// cannot be made is not known.
+/// Whether two cases are of one launch, computed with the same numerics.
 bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
   // Of many cases most are told apart by their peaks.
   if (!study::same_number(a.value("load.peak"), b.value("load.peak"))) return false;
-  const auto first = a.scene(), second = b.scene();
-  return !first || !second ||
-         std::ranges::none_of(study::differences(first->scene, second->scene), is_of_launch);
+  return std::ranges::none_of(
+      study::differences(study::closing_scene(a.input()), study::closing_scene(b.input())), is_of_launch);
 }
 
 /// Refuses studies that judge the same launch, with the same numerics, by different lower bounds of its
@@ -304,24 +215,29 @@ void hold_against_closing_gaps(SafetyEvidence& evidence) {
 
 // --- the stored runs of the main study ---
 
-/// Gaps of a case, evaluated again on its stored run: one that is called SAFE must be as warm as its verdict
-/// says. Others that are not went on from ignition in a run of their own.
-void check_against_run(const CaseEvidence& judged, StoredLaunch& stored) {
+/// Why the rows of a case cannot be those of its stored run, on which gaps are evaluated again; empty where
+/// they can. What ignites went on in a run of its own.
+std::string contradiction_of(const CaseEvidence& judged, StoredLaunch& stored) {
   constexpr double same_temperature = 0.01;  // K
-  const run::MechanicsResult& mechanics = stored.result.mechanics;
+  const trace::BottomTrace& trace = stored.result.mechanics.trace;
   for (const Row* row : judged.verdicts) {
     const double gap = number_of(*row, "gap_cm"), said = number_of(*row, "temperature_max_K");
-    run::GapResult found = run::evaluate_gap(stored.scene, mechanics.trace, gap / shown_gap(1.0));
+    run::GapResult found = run::evaluate_gap(stored.scene, trace, gap / shown_gap(1.0));
     const double temperature = found.at_stations.temperature;
     if (std::abs(temperature - said) <= same_temperature)
       stored.result.gaps.push_back(std::move(found));
-    else if (text_of(*row, "verdict") == "SAFE")
-      refuse(
-          *judged.study, results,
-          fmt::format("the gap of {} cm is called SAFE at {:.6g} K, and the stored run of {} gives {:.6g} K",
-                      gap, said, judged.label, temperature),
-          "results and case files of one study");
+    else if (text_of(*row, "verdict") != "UNSAFE")
+      return fmt::format("the gap of {} cm is called {} at {:.6g} K, and the stored run of {} gives {:.6g} K",
+                         gap, text_of(*row, "verdict"), said, judged.label, temperature);
   }
+  const surface::IgnitionOfGaps ignites(surface::skin_model(stored.scene), trace);
+  const bool is_bound = text_of(*judged.critical, "critical_gap_kind") != "indeterminate";
+  for (const auto& [key, expected] :
+       {std::pair{"critical_gap_lower_cm", false}, {"critical_gap_upper_cm", true}})
+    if (const double gap = number_of(*judged.critical, key);
+        is_bound && std::isfinite(gap) && ignites(gap / shown_gap(1.0)) != expected)
+      return fmt::format("{} of {} is {} cm, which the stored run contradicts", key, judged.label, gap);
+  return {};
 }
 
 /// As far as they were kept. A file under another case's name is damaged too.
@@ -330,23 +246,19 @@ void read_stored_runs(SafetyEvidence& evidence) {
   if (main.tells != tells::launch) return;
   for (const CaseEvidence& each : cases_of(main)) {
     const path name(text_of(*each.run, "stored_case"));
-    if (name.is_absolute() || name.parent_path() != "cases" || !std::filesystem::exists(main.folder / name))
-      continue;
-    const auto scene = each.scene();
-    if (!scene)
-      refuse(main, results, "found a case that its scene cannot be: " + scene.error().message(),
-             "results as a study writes them");
+    if (name.empty() || !std::filesystem::exists(main.folder / name)) continue;
     auto read = store::read_case_file(main.folder / name);
     if (!read)
       refuse(fmt::format("{}; allowed: case files as they were written ({})", read.error().message,
                          main.command()));
     if (store::CaseIdentity(read->manifest.input_text).hash() != name.stem())
-      refuse(main, name, "this is the file of another case", "case files as they were written");
+      throw main.fault(name, "this is the file of another case", "case files as they were written");
     if (read->manifest.commit != main.record.manifest.commit)
       evidence.other_commits.insert(read->manifest.commit);
-    StoredLaunch stored{scene->scene, {std::move(read->result.mechanics), {}}};
-    if (stored.result.mechanics.trace.samples() < 2) continue;
-    check_against_run(each, stored);
+    if (read->result.mechanics.trace.samples() < 2) continue;
+    StoredLaunch stored{each.input().scene.scene, {std::move(read->result.mechanics), {}}};
+    if (const std::string contradiction = contradiction_of(each, stored); !contradiction.empty())
+      throw main.fault(results, contradiction, "results and case files of one study");
     evidence.stored.emplace(each.label, std::move(stored));
   }
 }
@@ -359,31 +271,14 @@ bool is_of_launch(const study::Difference& difference) {
 }
 
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
-  if (study.tells != tells::launch && study.tells != tells::sweep && study.tells != tells::closing) return {};
-  // Peak pressure and defect stand in every table of cases or verdicts.
-  Row axes = study.rows("axes");
-  for (const auto& [key, column] : {std::pair{"load.peak", quantity::peak_pressure},
-                                    {"charge.crack_radius", quantity::crack_radius},
-                                    {"charge.flaw_size", quantity::flaw_size}})
-    axes.push_back({{"scene_key", key}, {"key", column.key()}, {"unit", column.form.unit}});
-  const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts");
-  const std::size_t gaps = verdicts.size() / criticals.size();
+  const Row &criticals = study.rows("cases"), &verdicts = study.rows("verdicts"), &runs = study.rows("runs");
+  const std::size_t gaps = study.planned.study.gaps.size();
   std::vector<CaseEvidence> cases;
-  for (const Row& critical : criticals) {
-    CaseEvidence each{&study, &critical, &critical, text_of(critical, "case")};
-    for (std::size_t i = 0; i < gaps; ++i) each.verdicts.push_back(&verdicts[cases.size() * gaps + i]);
-    for (const Row& axis : axes) {
-      const std::string name = text_of(axis, "scene_key"), column = text_of(axis, "key");
-      const auto key = scene::describe_key(study.scene, name, {});
-      double shown = number_of(critical, column);
-      if (std::isnan(shown)) shown = number_of(*each.verdicts.front(), column);
-      if (!key || std::isnan(shown) || column == quantity::gap.key()) continue;
-      const double value =
-          shown / shown_value(1.0, {.dimension = key->dimension, .unit = text_of(axis, "unit")});
-      if (!study::same_number(value, own_value(study, name))) each.changes.push_back({name, value, {}, name});
-    }
-    for (const Row& run : study.rows("runs"))
-      if (text_of(run, "case") == each.label) each.run = &run;
+  for (std::size_t place = 0; place < study.planned.cases.size(); ++place) {
+    const Row& critical = criticals[place];
+    CaseEvidence each{&study, place, &critical, runs.empty() ? &critical : &runs[place],
+                      text_of(critical, "case")};
+    for (std::size_t i = 0; i < gaps; ++i) each.verdicts.push_back(&verdicts[place * gaps + i]);
     cases.push_back(std::move(each));
   }
   return cases;
@@ -404,13 +299,26 @@ double own_value(const StudyEvidence& study, const std::string& key) {
 }
 
 double CaseEvidence::value(const std::string& key) const {
-  const auto found = std::ranges::find(changes, key, &study::Change::name);
-  return found != changes.end() ? std::get<double>(found->value) : own_value(*study, key);
+  const std::vector<study::Axis>& axes = study->planned.study.axes;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (axes[i].key.name == key) return study->planned.cases.coordinates(place)[i];
+  return own_value(*study, key);
+}
+
+bool CaseEvidence::is_own() const {
+  return std::ranges::all_of(study->planned.study.axes, [&](const study::Axis& axis) {
+    return study::same_number(value(axis.key.name), own_value(*study, axis.key.name));
+  });
 }
 
 std::string StudyEvidence::command() const {
   return fmt::format("launchsafe study {} -o {}", record.study.empty() ? "STUDY.toml" : record.study,
                      record.files.empty() ? folder.string() : "DIR");
+}
+
+Error StudyEvidence::fault(const path& file, std::string_view found, std::string_view allowed) const {
+  return {Error::Kind::corrupt,
+          fmt::format("{}: {}; allowed: {} ({})", (folder / file).string(), found, allowed, command())};
 }
 
 const StudyEvidence* SafetyEvidence::find(const std::string& what) const {

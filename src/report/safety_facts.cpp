@@ -2,6 +2,7 @@
 #include "launchsafe/report/case_tables.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/safety_report.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/scene/plan.hpp"
 #include "launchsafe/study/verdict.hpp"
 
@@ -164,11 +165,8 @@ Row setting_of(const StudyEvidence& main, const StudyEvidence& accuracy) {
 /// "peak pressure 250 to 700 MPa", ...: what a study varies.
 Row covered_by(const StudyEvidence& study) {
   Row covered = Row::array();
-  for (const Row& axis : study.rows("axes")) {
-    const Row& values = found_in(axis, "values");
-    const auto is_number = [](const Row& value) { return value.is_number(); };
-    if (values.empty() || !std::ranges::all_of(values, is_number)) continue;
-    const auto [least, most] = std::ranges::minmax_element(values);
+  for (const Row& axis : axes_json(study.planned.study)) {
+    const auto [least, most] = std::ranges::minmax_element(axis["values"]);
     const Row ends{{"from", *least}, {"to", *most}};
     covered.push_back(filled("{{name|words}} {{from|sig 4}} to {{to|sig 4}} {{unit}}", {&axis, &ends}));
   }
@@ -334,14 +332,6 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
   });
 }
 
-/// Whether a gap of 0 is among the verdicts of every case.
-bool is_zero_computed(const std::vector<CaseEvidence>& cases) {
-  return std::ranges::all_of(cases, [](const CaseEvidence& each) {
-    return std::ranges::any_of(each.verdicts,
-                               [](const Row* row) { return number_of(*row, "gap_cm") == 0.0; });
-  });
-}
-
 // --- what the report says ---
 
 /// What the study answers over all cases, and what a criterion recommends.
@@ -353,7 +343,7 @@ Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases
           {"criterion_source", criterion ? Row(criterion->source) : Row()},
           {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
           {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
-          {"smallest_is_zero", is_zero_computed(cases)},
+          {"smallest_is_zero", std::ranges::count(study.planned.study.gaps, 0.0) > 0},
           {"cases", study::of_each(cases, told_case)}};
 }
 

@@ -94,6 +94,25 @@ Quantities<std::vector<double>> axis_quantities(const study::Study& study) {
   return quantities;
 }
 
+Quantities<std::vector<double>> launch_quantities(const study::StudyFile& study) {
+  Quantities<std::vector<double>> axes = axis_quantities(study.study), launch;
+  const study::StudyCase first = study.cases.empty() ? study::StudyCase{} : study.cases.front();
+  const std::pair<Column, double> fixed_values[] = {
+      {quantity::peak_pressure, first.peak_pressure},
+      {quantity::crack_radius, first.strength().initial_crack_radius},
+      {quantity::flaw_size, first.strength().flaw_size}};
+  for (const auto& [column, value] : fixed_values) {
+    if (const auto* axis = keys::find_named(axes, column.name))
+      launch.push_back(*axis);
+    else
+      launch.emplace_back(for_programs(column),
+                          [value = value](const std::vector<double>&) { return value; });
+  }
+  for (const auto& axis : axes)
+    if (keys::find_named(study::named_axes(), axis.name) == nullptr) launch.push_back(axis);
+  return launch;
+}
+
 std::string plain_words(std::string name) {
   name.erase(0, name.rfind('.') + 1);
   std::ranges::replace(name, '_', ' ');

@@ -289,6 +289,13 @@ std::string friction_remark(const study::StudyFile& study) {
   return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
 }
 
+study::GapOrBound gap_or_bound_in(const std::string& text) {
+  for (const study::GapOrBound bound : {study::no_ignition, 0.0})
+    if (text == gap_or_bound_text(bound)) return bound;
+  const auto gap = scene::parse_value(text, {.dimension = scene::Dimension::length}, {});
+  return gap ? std::get<double>(*gap) : study::not_a_number;
+}
+
 std::optional<Measured> measured_gap(const study::CriticalGap& gap) {
   const Form form = quantity::critical_gap.form;
   return measured_gap(shown_value(value_of(gap), form), shown_value(gap.bounds.at_least, form),

@@ -144,6 +144,13 @@ double number_in(const scene::SceneFile& file, const std::string& key) {
   return std::get<double>(scene::value_in(file, key));
 }
 
+std::vector<double> spaced_values(double from, double to, int count) {
+  std::vector<double> values;
+  for (int i = 0; i + 1 < count; ++i) values.push_back(from + (to - from) / (count - 1) * i);
+  values.push_back(to);
+  return values;
+}
+
 void check_load_axes(const StudyFile& study) {
   for (const Axis& axis : study.study.axes) check_load_axis(study, axis.study_key, axis.key.name);
 }

@@ -24,7 +24,9 @@ struct StudyEvidence {
   std::string kind, title;
   toml::table asked;       ///< the study file
   scene::SceneFile scene;  ///< what was simulated, with what the study sets
-  Row study;               ///< study.json, its pictures with their SVG; null while it is not finished
+  /// Of one that gives verdicts: its gaps, what it varies and the cases that follow, by its manifest.
+  study::StudyFile planned = {};
+  Row study;  ///< study.json, its pictures with their SVG; null while it is not finished
   std::string tells = tells::nothing;
   /// What is not as in the scene of the report's main study; values that somebody accepts as "accept".
   std::vector<study::Difference> differences = {};
@@ -32,6 +34,9 @@ struct StudyEvidence {
   bool finished() const { return study.is_object(); }
   /// That makes it again, or goes on with it.
   std::string command() const;
+  /// Of one of its files, which that command would make anew.
+  store::Error fault(const std::filesystem::path& file, std::string_view found,
+                     std::string_view allowed) const;
   /// The rows of a table of study.json; none where it has no such table.
   const Row& rows(const std::string& table) const { return found_in(study, table); }
 };
@@ -58,18 +63,21 @@ struct SafetyEvidence {
 /// One case of a study that gives verdicts.
 struct CaseEvidence {
   const StudyEvidence* study;
+  std::size_t place;    ///< among the cases of its study
   const Row* critical;  ///< its row of the table of cases
   const Row* run;       ///< its row of the table of runs; that of the case where the study has none
   std::string label;    ///< "496 MPa, 30 µm, 1 mm"; of a sweep its place on the axes
   std::vector<const Row*> verdicts = {};
-  std::vector<study::Change> changes = {};  ///< what it has otherwise than the study's scene
 
-  bool is_own() const { return changes.empty(); }
+  /// Of a few cases a study tells how they ran, and what makes their critical gaps uncertain.
+  bool in_detail() const { return run != critical; }
+  /// Whether it has nothing otherwise than the study's scene.
+  bool is_own() const;
   /// Temperatures of a run that was cut off are those of a part of the launch.
   bool completed() const { return text_of(*run, "status") == "completed"; }
   /// SI, of a scene key.
   double value(const std::string& key) const;
-  scene::Expected<scene::SceneFile> scene() const { return study::with_changes(study->scene, changes); }
+  study::StudyCase input() const { return study->planned.cases[place]; }
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);
@@ -83,11 +91,16 @@ bool is_of_launch(const study::Difference& difference);
 /// Verdicts stand case after case, in the order of the cases, each with all gaps of the study.
 std::vector<CaseEvidence> cases_of(const StudyEvidence& study);
 
+/// Reads what a study asks for from its manifest, and holds all rows of its verdicts and cases against that
+/// and against their own parts. Throws store::Error, corrupt.
+void check_rows(StudyEvidence& study);
+
 /// Reads the folders of studies. Every file that a manifest lists must be there as it was written. Errors, a
 /// message each: no study there, a file that was edited or is missing, a model version other than this
 /// program's or another study's, a damaged case, verdicts without the code of their reason as an earlier
-/// program wrote them, a SAFE that its own numbers or its stored run contradict, two studies of a kind that
-/// tell the same, studies of different shells, studies that bound the critical gap of one launch differently.
+/// program wrote them, a row that its own parts, its study's input or its stored run contradict, two studies
+/// of a kind that tell the same, studies of different shells, studies that bound the critical gap of one
+/// launch differently.
 store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesystem::path>& folders);
 
 // The criterion under which a user recommends a largest gap. It comes from the user; none is built in.

@@ -21,6 +21,8 @@ ShownKey shown(const study::Axis& axis);
 std::vector<ShownKey> shown_axes(const study::Study& study);
 /// What the axes of a study are in a case, of its coordinates.
 Quantities<std::vector<double>> axis_quantities(const study::Study& study);
+/// Peak pressure, crack radius and flaw size, which every launch has, and what else varies.
+Quantities<std::vector<double>> launch_quantities(const study::StudyFile& study);
 
 /// "400, 450, 496 MPa"; long lists by their ends and their number.
 std::string values_text(const ShownKey& key, const std::vector<double>& si_values);
@@ -91,6 +93,8 @@ std::optional<Measured> measured_gap(const study::CriticalGap& gap);
 std::string measured_text(const study::CriticalGap& gap);
 /// What makes critical gaps uncertain, cause by cause.
 Table gap_share_table(const std::vector<NamedGap>& cases);
+/// m, what a cell of that table says; NaN where that is not known.
+study::GapOrBound gap_or_bound_in(const std::string& text);
 /// "0.0395 cm", "> 0.1 cm", "ignites without a gap", "indeterminate".
 std::string reads_as(const study::CriticalGap& gap);
 

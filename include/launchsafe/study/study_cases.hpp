@@ -100,6 +100,9 @@ scene::KeyDescription varied_key(const StudyFile& study, const std::string& name
 /// The value of a scene key that takes one number, SI.
 double number_in(const scene::SceneFile& file, const std::string& key);
 
+/// So many values, evenly spaced over a range with both its ends.
+std::vector<double> spaced_values(double from, double to, int count);
+
 /// Adds an axis over those values (SI) of a key, by its short or full name; none where there are no values.
 /// Refuses one that stands twice.
 void add_axis(StudyFile& study, const std::string& name, const std::string& study_key,
