@@ -220,10 +220,10 @@ void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapR
     scale.maximum = std::max(scale.maximum, temperature);
   }
   plot.scales = {scale};
-  plot.title = fmt::format("Gap {} at {}: the skin has up to {}, at r {:.0f} mm, all behind it at most {}",
-                           centimetres(gap.gap), in_words(shot.time, quantity::time_in_titles),
-                           in_words(scale.maximum, keys::fixed(0, kelvin)), millimetres * hottest_r,
-                           in_words(bulk, keys::fixed(0, kelvin)));
+  plot.title = fmt::format(
+      "Gap {} at {}: the skin has up to {}, at r {}, all behind it at most {}", centimetres(gap.gap),
+      in_words(shot.time, quantity::time_in_titles), in_words(scale.maximum, keys::fixed(0, kelvin)),
+      in_words(hottest_r, keys::significant(3, millimetre)), in_words(bulk, keys::fixed(0, kelvin)));
   plot.subtitle += fmt::format("; the skin, {} deep, is drawn {} times as deep",
                                in_words(thickness, keys::significant(2, millimetre)),
                                significant(2.0 * half_depth / thickness, 2));
@@ -235,7 +235,8 @@ std::string finding_of(const CellPlot& plot, const Field& field, const char* bod
     return cell.scale == 0 && std::isfinite(cell.value) ? cell.value : -HUGE_VAL;
   };
   const FieldCell& highest = *std::ranges::max_element(plot.cells, {}, value);
-  return fmt::format("highest in the {} at x {:.0f}, r {:.0f} mm, {}{}{}", bodies, highest.x, highest.r,
+  return fmt::format("highest in the {} at x {}, r {} mm, {}{}{}", bodies, significant(highest.x, 3),
+                     significant(highest.r, 3),
                      significant(highest.value, std::abs(highest.value) < 100.0 ? 2 : 4),
                      field.shown.name.empty() ? "" : " ", field.shown.name);
 }

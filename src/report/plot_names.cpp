@@ -127,7 +127,7 @@ struct FreeNames {
            bool otherwise) {
     std::vector<NamePlace> places;
     for (const Anchor& anchor : anchors) {
-      for (const double up : {0.0, 0.4, -0.4, 0.8, -0.8, 1.6, -1.6})
+      for (const double up : {0.0, 0.4, -0.4, 0.8, -0.8})
         for (const int side : {1, -1}) places.push_back({anchor, side, up});
       for (const double up : {1.0, -1.0}) places.push_back({anchor, 0, up});
     }

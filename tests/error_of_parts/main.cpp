@@ -192,6 +192,16 @@ report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
     line.label = fmt::format("{}{}: {}", each.series.quantity, unit, order);
     for (const Measured& row : each.settings) line.add(row.processor_time, row.error);
   }
+  // To whole powers of ten: a part whose time hardly depends on the setting has a tic too.
+  for (report::Plot& panel : plot.panels) {
+    double least = HUGE_VAL, most = 0.0;
+    for (const report::Series& line : panel.series) {
+      least = std::min(least, *std::min_element(line.x.begin(), line.x.end()));
+      most = std::max(most, *std::max_element(line.x.begin(), line.x.end()));
+    }
+    panel.x.minimum = std::pow(10.0, std::floor(std::log10(least)));
+    panel.x.maximum = std::pow(10.0, std::ceil(std::log10(most)));
+  }
   plot.title = fmt::format("{} errors fall at their order of theory, to within {}", orders,
                            report::significant(farthest, 2));
   plot.subtitle = "behind each name the order measured between its two finest settings";
