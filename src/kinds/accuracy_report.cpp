@@ -155,27 +155,22 @@ std::string description_of(const VariantAccuracy& variant) {
   return comma == std::string::npos ? variant.name : title.substr(comma + 2);
 }
 
-/// "3 K from its limit; lab frame: up to 390 K, 3 ignite": the scene's own setting, and methods that
-/// come out worse. `ignited`: how many settings of each have no distance.
-std::string finding_of(const VariantAccuracy& variant, const std::map<std::string, Series>& methods,
-                       const std::map<std::string, int>& ignited) {
-  const double known_to = variant.reference_uncertainty();
-  double distance = 0.0;
+/// "3 K from its limit; lab frame: up to 390 K": the scene's own setting, and the method that comes out
+/// worst.
+std::string finding_of(const VariantAccuracy& variant, const std::map<std::string, Series>& methods) {
+  double largest = variant.reference_uncertainty();
   std::string text;
   if (const AccuracyRow* own = variant.baseline()) {
-    distance = own->largest_temperature_error;
-    text = fmt::format("{} {} its limit",
-                       distance < known_to ? "within " + kelvins(known_to) : kelvins(distance),
-                       distance < known_to ? "of" : "from");
+    const double distance = own->largest_temperature_error;
+    text = distance < largest ? fmt::format("within {} of its limit", kelvins(largest))
+                              : fmt::format("{} from its limit", kelvins(distance));
+    largest = told_distance(variant, distance);
   }
-  for (const auto& [word, method] : methods) {
-    const double largest = method.y.empty() ? 0.0 : std::ranges::max(method.y);
-    std::vector<std::string> worse;
-    if (largest > std::max(distance, known_to)) worse.push_back("up to " + kelvins(largest));
-    if (ignited.contains(word)) worse.push_back(fmt::format("{} ignite", ignited.at(word)));
-    if (!word.empty() && !worse.empty()) text += fmt::format("; {}: {}", word, fmt::join(worse, ", "));
-  }
-  return text;
+  const Series* worst = nullptr;
+  for (const auto& [word, method] : methods)
+    for (const double distance : method.y)
+      if (!word.empty() && distance > largest) largest = distance, worst = &method;
+  return worst == nullptr ? text : fmt::format("{}; {}: up to {}", text, worst->label, kelvins(largest));
 }
 
 }  // namespace
@@ -201,31 +196,38 @@ Plot error_plot(const VariantAccuracy& variant) {
   };
   Series meshes = points("reference meshes", blue, Mark::open_square);
   std::map<std::string, Series> methods{{"", points("other settings", grey, Mark::circle)}};
-  std::map<std::string, int> ignited;
-  const auto add_mark = [&](const AccuracyRow& row, Series& series) {
-    series.add(row.setting.processor_time, told_distance(variant, row.largest_temperature_error));
+  const auto add_mark = [&](const AccuracyRow& row, double distance, Series& series) {
+    if (std::isfinite(distance)) series.add(row.setting.processor_time, told_distance(variant, distance));
   };
   const study::Setting own_setting = study::setting_of(variant.study.scene.scene);
+  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
   std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
-    const std::string word = method_of(row.setting, own_setting);
-    const int next = green + static_cast<int>(methods.size()) - 1;
-    Series& method = methods.try_emplace(word, points(word, next, Mark::up_triangle)).first->second;
-    if (std::isnan(row.largest_temperature_error)) {
-      ++ignited[word];
-      continue;
+    std::string word = method_of(row.setting, own_setting);
+    double distance = row.largest_temperature_error;
+    // A flame has none, but what the skin would have without reaction.
+    const bool ignites = std::isnan(distance) && !row.error_at_times.empty();
+    if (ignites) {
+      word +=
+          fmt::format("{}ignites ({}, no reaction)", word.empty() ? "" : ", ", milliseconds(times.back()));
+      distance = std::abs(row.error_at_times.back());
+    } else {
+      shown.push_back(&row);
     }
-    shown.push_back(&row);
-    if (row.setting.reference || !row.baseline) add_mark(row, row.setting.reference ? meshes : method);
+    const Series made = points(word, green + static_cast<int>(methods.size()) - 1,
+                               ignites ? Mark::open_triangle : Mark::up_triangle);
+    Series& method = methods.try_emplace(word, made).first->second;
+    if (row.setting.reference || !row.baseline)
+      add_mark(row, distance, row.setting.reference ? meshes : method);
   }
   plot.title = (variant.name.empty() ? "As in the scene T max is " : description_of(variant) + ": ") +
-               finding_of(variant, methods, ignited);
+               finding_of(variant, methods);
   for (auto& [word, method] : methods) plot.series.push_back(std::move(method));
   plot.series.push_back(std::move(meshes));
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
   const auto named = [&](const AccuracyRow& row, const std::string& label, int colour, Mark mark) {
-    add_mark(row, plot.series.emplace_back(points(label, colour, mark)));
+    add_mark(row, row.largest_temperature_error, plot.series.emplace_back(points(label, colour, mark)));
   };
   for (const AccuracyRow* row : steps_to_the_limit(shown, known_to))
     if (!row->baseline) named(*row, row->setting.label, black, Mark::circle);

@@ -39,36 +39,36 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
-/// Values with the areas that have them.
-using Areas = std::vector<std::pair<double, double>>;
+/// Values with the lengths of their cells.
+using Lengths = std::vector<std::pair<double, double>>;
 
-/// Where 98 % of the area is that has not 0, as most has of what burns: small cells at a corner would leave
-/// one colour for all others.
-std::pair<double, double> common_range(Areas areas) {
-  if (areas.empty()) return {0.0, 0.0};
-  std::ranges::sort(areas);
+/// Where 98 % of the length is that has not 0, as most has of what burns. By number, small cells at a corner
+/// would leave one colour for all others; by area, the bottom would be beyond.
+std::pair<double, double> common_range(Lengths lengths) {
+  if (lengths.empty()) return {0.0, 0.0};
+  std::ranges::sort(lengths);
   double whole = 0.0;
-  for (const auto& [value, area] : areas) whole += value == 0.0 ? 0.0 : area;
+  for (const auto& [value, length] : lengths) whole += value == 0.0 ? 0.0 : length;
   const auto first_within = [cut = 0.01 * whole](auto begin, auto end) {
-    double area = 0.0;
-    return std::find_if(begin, end, [&](const auto& each) { return (area += each.second) > cut; })->first;
+    double sum = 0.0;
+    return std::find_if(begin, end, [&](const auto& each) { return (sum += each.second) > cut; })->first;
   };
-  const double low = first_within(areas.begin(), areas.end()),
-               high = first_within(areas.rbegin(), areas.rend());
-  return low < high ? std::pair(low, high) : std::pair(areas.front().first, areas.back().first);
+  const double low = first_within(lengths.begin(), lengths.end()),
+               high = first_within(lengths.rbegin(), lengths.rend());
+  return low < high ? std::pair(low, high) : std::pair(lengths.front().first, lengths.back().first);
 }
 
 /// Of one snapshot: what others have, before or while it burns, would leave one colour for it.
 std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   std::vector<ColourScale> scales;
   for (const ScaleGroup& group : scale_groups(drawn, field)) {
-    Areas areas;
+    Lengths lengths;
     for (std::size_t i = 0; i < shot.x.size(); ++i) {
       const double value = value_of(drawn, field, shot, i);
       if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges)
-        areas.emplace_back(value, std::sqrt(shot.half_length_x[i] * shot.half_length_r[i]));
+        lengths.emplace_back(value, std::sqrt(shot.half_length_x[i] * shot.half_length_r[i]));
     }
-    const auto [minimum, maximum] = common_range(std::move(areas));
+    const auto [minimum, maximum] = common_range(std::move(lengths));
     scales.push_back({fmt::format("{}: {} [{}]", group.name, field.meaning,
                                   field.shown.name.empty() ? "1" : field.shown.name),
                       minimum, maximum});
