@@ -141,12 +141,15 @@ void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
 }
 
 /// What is compared of every row: T max, at inert gaps of a skin that does not react, and the critical gap.
+/// The temperature of a flame is none: how far that is off says nothing.
 void fill_settings(const std::vector<bool>& inert, std::vector<AccuracyRow>& rows) {
   for (AccuracyRow& row : rows) {
     if (!row.computed()) continue;
     row.setting.critical_gap = row.answer.critical.value;
-    for (std::size_t gap = 0; gap < inert.size(); ++gap)
-      row.setting.temperature.push_back(temperature_of(row.answer, gap, inert[gap]));
+    for (std::size_t gap = 0; gap < inert.size(); ++gap) {
+      const bool burns = !inert[gap] && row.answer.verdicts[gap].ignition;
+      row.setting.temperature.push_back(burns ? not_a_number : temperature_of(row.answer, gap, inert[gap]));
+    }
   }
 }
 

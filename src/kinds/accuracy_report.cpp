@@ -86,9 +86,12 @@ Row belief_facts(const VariantAccuracy& variant) {
           {"inexactness_K", inexactness}};
 }
 
-bool is_of_paper(const AccuracyRow& row) {
-  const auto found = row.setting.setting.find("numerics.formulation");
-  return found != row.setting.setting.end() && found->second == scene::Value("updated-lagrangian");
+/// "lab frame": what a setting chooses by a word otherwise than the scene; empty where it chooses nothing.
+std::string method_of(const RecordedSetting& setting, const study::Setting& own) {
+  for (const auto& [key, value] : setting.setting)
+    if (const auto* word = std::get_if<std::string>(&value); word != nullptr && own.at(key) != value)
+      return *word + " " + report::plain_words(key);
+  return {};
 }
 
 /// From cheap to costly, each nearer to the limit than all before it, up to one that cannot be told from it.
@@ -109,23 +112,65 @@ double told_distance(const VariantAccuracy& variant, double distance) {
   return distance < known_to ? known_to : distance;
 }
 
-/// Of all variants, as the scene has it: K.
-double largest_distance(const std::vector<const VariantAccuracy*>& variants) {
-  double largest = 0;
-  for (const VariantAccuracy* each : variants)
-    if (const AccuracyRow* own = each->baseline())
-      largest = std::max(largest, told_distance(*each, own->largest_temperature_error));
-  return largest;
+/// A logarithmic axis that has room for the values of all panels.
+void share_axis(report::PlotAxis Plot::*axis, std::vector<double> Series::*values,
+                std::vector<Plot>& panels) {
+  constexpr double margin = 1.4;
+  double least = HUGE_VAL, most = 0.0;
+  for (const Plot& panel : panels)
+    for (const Series& series : panel.series) {
+      least = std::min(least, std::ranges::min(series.*values) / margin);
+      most = std::max(most, std::ranges::max(series.*values) * margin);
+    }
+  for (Plot& panel : panels) (panel.*axis).minimum = least, (panel.*axis).maximum = most;
 }
 
 Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
   if (variants.size() == 1) return error_plot(*variants.front());
   Plot plot;
+  double largest = 0;  // K, of all variants as the scene has it
+  for (const VariantAccuracy* each : variants) {
+    plot.panels.push_back(error_plot(*each));
+    if (const AccuracyRow* own = each->baseline())
+      largest = std::max(largest, told_distance(*each, own->largest_temperature_error));
+  }
   plot.title = fmt::format("As in the scene T max is within {} of its limit, in each of {} models",
-                           kelvins(largest_distance(variants)), variants.size());
+                           kelvins(largest), variants.size());
   plot.subtitle = "grey: nearer than the limit is known to; what is there stands at its upper edge";
-  for (const VariantAccuracy* each : variants) plot.panels.push_back(error_plot(*each));
+  share_axis(&Plot::x, &Series::x, plot.panels);
+  share_axis(&Plot::y, &Series::y, plot.panels);
+  // The last panel has the legend of all.
+  for (Plot& panel : plot.panels) {
+    for (report::Band& known : panel.horizontal_bands) known = {*panel.y.minimum, known.to};
+    for (Series& each : panel.series)
+      if (&panel != &plot.panels.back() && each.x.size() > 1) each.label.clear();
+  }
   return plot;
+}
+
+/// What a variant is: behind the comma of its title, or its name.
+std::string description_of(const VariantAccuracy& variant) {
+  const std::string& title = variant.study.study.title;
+  const std::size_t comma = title.find(", ");
+  return comma == std::string::npos ? variant.name : title.substr(comma + 2);
+}
+
+/// "3 K from its limit; lab frame: up to 390 K": the scene's own setting, and the method that comes out
+/// worst.
+std::string finding_of(const VariantAccuracy& variant, const std::map<std::string, Series>& methods) {
+  double largest = variant.reference_uncertainty();
+  std::string text;
+  if (const AccuracyRow* own = variant.baseline()) {
+    const double distance = own->largest_temperature_error;
+    text = distance < largest ? fmt::format("within {} of its limit", kelvins(largest))
+                              : fmt::format("{} from its limit", kelvins(distance));
+    largest = told_distance(variant, distance);
+  }
+  const Series* worst = nullptr;
+  for (const auto& [word, method] : methods)
+    for (const double distance : method.y)
+      if (!word.empty() && distance > largest) largest = distance, worst = &method;
+  return worst == nullptr ? text : fmt::format("{}; {}: up to {}", text, worst->label, kelvins(largest));
 }
 
 }  // namespace
@@ -136,51 +181,57 @@ Plot error_plot(const VariantAccuracy& variant) {
   Plot plot{
       .title = {},
       .x = {headed("processor time of a run", quantity::processor_time).label(), report::Scale::logarithmic},
-      .y = {headed("distance of T max from the limit", quantity::temperature_max).label(),
+      .y = {headed("distance of T max from its limit", quantity::temperature_max).label(),
             report::Scale::logarithmic},
-      .width = 760,
-      .height = 480,
+      .width = 700,
+      .height = 440,
       .named_in_place = true};
-  const auto points = [](const char* label, int colour, Mark mark) {
-    return Series{.label = label, .style = Style::points, .colour = colour, .mark = mark};
+  const auto points = [](std::string label, int colour, Mark mark) {
+    for (const auto& [key, words] :
+         {std::pair{std::string("cell_size"), "cells"}, {"selective_inertia", "inertia x"}})
+      if (const std::size_t at = label.find(key); at != std::string::npos)
+        label.replace(at, key.size(), words);
+    std::ranges::replace(label, '_', ' ');
+    return Series{.label = std::move(label), .style = Style::points, .colour = colour, .mark = mark};
   };
-  Series others = points("other settings", grey, Mark::circle),
-         meshes = points("reference meshes", blue, Mark::open_square),
-         paper = points("updated-Lagrangian (the paper's method)", green, Mark::up_triangle),
-         late = points("", grey, Mark::open_circle);
-  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
-  if (!times.empty())
-    late.label = fmt::format("all at {}, gap {}", milliseconds(times.back()),
-                             centimetres(variant.study.study.gaps.front()));
+  Series meshes = points("reference meshes", blue, Mark::open_square);
+  std::map<std::string, Series> methods{{"", points("other settings", grey, Mark::circle)}};
   const auto add_mark = [&](const AccuracyRow& row, double distance, Series& series) {
-    series.add(row.setting.processor_time, told_distance(variant, distance));
+    if (std::isfinite(distance)) series.add(row.setting.processor_time, told_distance(variant, distance));
   };
+  const study::Setting own_setting = study::setting_of(variant.study.scene.scene);
+  const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
   std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
-    shown.push_back(&row);
-    const double distance = row.largest_temperature_error;
-    if (row.setting.reference) add_mark(row, distance, meshes);
-    if (!row.setting.reference && !row.baseline) add_mark(row, distance, is_of_paper(row) ? paper : others);
-    if (!row.error_at_times.empty()) add_mark(row, std::abs(row.error_at_times.back()), late);
+    std::string word = method_of(row.setting, own_setting);
+    double distance = row.largest_temperature_error;
+    // A flame has none, but what the skin would have without reaction.
+    const bool ignites = std::isnan(distance) && !row.error_at_times.empty();
+    if (ignites) {
+      word +=
+          fmt::format("{}ignites ({}, no reaction)", word.empty() ? "" : ", ", milliseconds(times.back()));
+      distance = std::abs(row.error_at_times.back());
+    } else {
+      shown.push_back(&row);
+    }
+    const Series made = points(word, green + static_cast<int>(methods.size()) - 1,
+                               ignites ? Mark::open_triangle : Mark::up_triangle);
+    Series& method = methods.try_emplace(word, made).first->second;
+    if (row.setting.reference || !row.baseline)
+      add_mark(row, distance, row.setting.reference ? meshes : method);
   }
-  plot.series = {std::move(late), std::move(others), std::move(paper), std::move(meshes)};
+  plot.title = (variant.name.empty() ? "As in the scene T max is " : description_of(variant) + ": ") +
+               finding_of(variant, methods);
+  for (auto& [word, method] : methods) plot.series.push_back(std::move(method));
+  plot.series.push_back(std::move(meshes));
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
-  const auto named = [&](const AccuracyRow& row, std::string label, int colour, Mark mark) {
-    add_mark(row, row.largest_temperature_error,
-             plot.series.emplace_back(Series{.label = std::move(label), .colour = colour, .mark = mark}));
+  const auto named = [&](const AccuracyRow& row, const std::string& label, int colour, Mark mark) {
+    add_mark(row, row.largest_temperature_error, plot.series.emplace_back(points(label, colour, mark)));
   };
   for (const AccuracyRow* row : steps_to_the_limit(shown, known_to))
     if (!row->baseline) named(*row, row->setting.label, black, Mark::circle);
-  if (const AccuracyRow* own = variant.baseline()) {
-    named(*own, "as in the scene", orange, Mark::diamond);
-    const double distance = own->largest_temperature_error;
-    plot.title = fmt::format("as in the scene T max is {} {} its limit",
-                             distance < known_to ? "within " + kelvins(known_to) : kelvins(distance),
-                             distance < known_to ? "of" : "from");
-  }
-  plot.title =
-      fmt::format("{}{}{}", variant.name, variant.name.empty() || plot.title.empty() ? "" : ": ", plot.title);
+  if (const AccuracyRow* own = variant.baseline()) named(*own, "as in the scene", orange, Mark::diamond);
   if (std::isfinite(known_to) && known_to > 0) {
     plot.y.minimum = 0.5 * known_to;
     plot.horizontal_bands = {{*plot.y.minimum, known_to, "limit known to " + kelvins(known_to)}};

@@ -124,21 +124,16 @@ struct GapLines {
       .label = "nothing assumed", .style = Style::points, .colour = 7, .mark = Mark::open_square};
   study::AssumedShares shares = {};  ///< of any that is `assumed`
   std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
+  std::map<CriticalGapKind, std::set<double>> marked = {};  ///< values across, of which each mark is
   std::int64_t unknown = 0;
   double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
 
   void begin() {
     const std::vector<double> nothing(along.values.size(), not_a_number);
-    for (int i = 0; const double value : values_across) {
-      values.push_back({.label = across == nullptr ? "critical gap" : label_of(value),
-                        .x = along.values,
-                        .y = nothing,
-                        .colour = i});
-      Series& lower = lower_bounds.emplace_back(values.back());
-      lower.label.clear();
-      ++i;
-      lower.style = Style::dashed_line;
+    for (int i = 0; i < static_cast<int>(values_across.size());) {
+      values.push_back({.x = along.values, .y = nothing, .colour = i++});
+      lower_bounds.emplace_back(values.back()).style = Style::dashed_line;
     }
   }
 
@@ -171,6 +166,7 @@ struct GapLines {
     }
     if (kind != CriticalGapKind::value) {
       marks.at(kind).add(x, drawn);
+      marked[kind].insert(of);
       return;
     }
     values[line].y[place] = drawn;
@@ -194,8 +190,11 @@ struct GapLines {
     for (std::size_t line = 0; line < lower_bounds.size(); ++line)
       for (std::size_t place = 0; place < along.values.size(); ++place)
         (assumed_at.contains({line, place}) ? lower_bounds : assumed_bounds)[line].y[place] = not_a_number;
-    for (auto* lines : {&values, &assumed_bounds, &lower_bounds})
-      for (Series& line : *lines) plot.series.push_back(std::move(line));
+    const std::string value = across == nullptr ? "critical gap" : across->key.heading + " ",
+                      bound = across == nullptr ? "" : "at least ";
+    for (const auto& [lines, name] :
+         {std::pair{&values, value}, {&assumed_bounds, bound}, {&lower_bounds, bound}})
+      for (Series& line : joined_alike(*lines, name)) plot.series.push_back(std::move(line));
     assumed.label =
         (shares.computation && shares.model_form ? "computation or model form" : shares.text()) + " assumed";
     for (Series* bounds : {&assumed, &recorded})
@@ -204,32 +203,64 @@ struct GapLines {
     if (unknown > 0)
       plot.subtitle +=
           fmt::format("; not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
-    for (auto& [kind, series] : marks)
-      if (!series.x.empty()) plot.series.push_back(std::move(series));
+    for (auto& [kind, series] : marks) {
+      if (series.x.empty()) continue;
+      if (marked[kind].size() < values_across.size())
+        series.label = text_of(marked[kind]) + ": " + series.label;
+      if (marked[kind].size() == 1) series.colour = place_in(values_across, *marked[kind].begin());
+      plot.series.push_back(std::move(series));
+    }
     return std::move(plot);
   }
 
-  std::string label_of(double shown) const {
-    return fmt::format("{} {}{}{}", across->key.heading, report::significant(shown, 6),
+  /// "30, 120 µm"; empty without another axis.
+  std::string text_of(const std::set<double>& shown) const {
+    if (across == nullptr) return {};
+    const auto number = [](double value) { return report::significant(value, 6); };
+    return fmt::format("{}{}{}", fmt::join(of_each(shown, number), ", "),
                        across->key.form.unit.empty() ? "" : " ", across->key.form.unit);
+  }
+
+  /// Lines that lie on each other are one, with the names of all.
+  std::vector<Series> joined_alike(const std::vector<Series>& lines, const std::string& what) const {
+    const auto is_near = [seen = 0.008 * highest](double a, double b) {
+      return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > seen);
+    };
+    std::vector<Series> joined;
+    std::vector<std::set<double>> names;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto like = std::ranges::find_if(joined, [&](const Series& each) {
+        return known_of(each) > 0 && std::ranges::equal(each.y, lines[i].y, is_near);
+      });
+      const auto place = static_cast<std::size_t>(like - joined.begin());
+      if (like == joined.end()) joined.push_back(lines[i]), names.emplace_back();
+      names[place].insert(values_across[i]);
+      joined[place].label = what + text_of(names[place]);
+    }
+    return joined;
   }
 
   static std::size_t known_of(const Series& line) {
     return static_cast<std::size_t>(std::ranges::count_if(line.y, [](double y) { return std::isfinite(y); }));
   }
 
-  /// "Critical gap at crack radius 30 µm: at least 0.03 cm at 250 MPa, 0 cm from 500 MPa on": the lowest of
-  /// the bounds that have most values.
+  /// "Critical gap at 30 µm: 0.09 to 0.02 cm, at least 0.03 cm at 250 MPa, 0 cm from 500 MPa
+  /// on": the lowest of the bounds that have most values.
   std::string finding() const {
-    const Series& line = *std::ranges::max_element(
-        lower_bounds, {}, [](const Series& each) { return std::pair(known_of(each), -sum_of(each)); });
+    const std::size_t best = study::places_by(values.size(), [&](std::size_t i) {
+                               return std::tuple(-static_cast<double>(known_of(lower_bounds[i])),
+                                                 sum_of(lower_bounds[i]), sum_of(values[i]));
+                             }).front();
+    const Series& line = lower_bounds[best];
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < line.y.size(); ++i)
       if (std::isfinite(line.y[i])) known.push_back(i);
-    const std::string& of = values[static_cast<std::size_t>(*line.colour)].label;
     // Also where the study looks at gaps that close: they have bounds of their own.
-    const std::string what = "Critical gap by a reservoir of air" + (across == nullptr ? "" : " at " + of);
+    std::string what = "Critical gap by a reservoir of air";
+    if (across != nullptr) what += " at " + text_of({values_across[best]});
     if (known.empty()) return what + ": no lower bound is known";
+    what += fmt::format(": {} to {} cm, ", report::significant(values[best].y[known.front()], 2),
+                        report::significant(values[best].y[known.back()], 2));
     const auto text = [&](std::size_t place) {
       return report::significant(report::rounded_down(line.y[known[place]], 4), 3) + " cm";
     };
@@ -240,8 +271,8 @@ struct GapLines {
     while (last > 0 && text(last - 1) == text(last)) --last;
     const bool stays = last + 1 < known.size();
     if (last == 0)
-      return fmt::format("{}: at least {} from {} to {}", what, text(0), at(0), at(known.size() - 1));
-    return fmt::format("{}: at least {} at {}, {} {} {}{}", what, text(0), at(0), text(last),
+      return fmt::format("{}at least {} from {} to {}", what, text(0), at(0), at(known.size() - 1));
+    return fmt::format("{}at least {} at {}, {} {} {}{}", what, text(0), at(0), text(last),
                        stays ? "from" : "at", at(last), stays ? " on" : "");
   }
 
@@ -276,6 +307,8 @@ Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& ax
                        {.title = title_of(axes, shown, input),
                         .x = picture_axis(along),
                         .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
+                        .width = 1000,
+                        .height = 620,
                         .named_in_place = true},
                        along,
                        across});

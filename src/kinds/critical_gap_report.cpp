@@ -1,10 +1,11 @@
 // The answer, the page, the picture of T max and the files of a critical-gap study.
 #include "critical_gap_tables.hpp"
 #include "launchsafe/kinds/shown_surrogate.hpp"
+#include "launchsafe/report/safety_report.hpp"
 
 namespace launchsafe::kinds {
 
-using study::Use, surface::Extent;
+using surface::Extent;
 
 namespace {
 
@@ -157,151 +158,29 @@ Row json_of_study(const CriticalGapResult& result, const Table& gaps) {
   return members;
 }
 
-// --- T max against gap, of a study in detail ---
-
-/// Colour and mark of a case. Open marks are larger: neighbours that lie on each other both show. The marks
-/// move on with every round of colours, so that no two cases look alike.
-void give_look(std::size_t index, Series& series) {
-  constexpr std::array<Mark, 8> looks{Mark::circle,      Mark::open_square,  Mark::up_triangle,
-                                      Mark::open_circle, Mark::diamond,      Mark::open_triangle,
-                                      Mark::square,      Mark::down_triangle};
-  series.colour = static_cast<int>(index);
-  series.mark = looks[(index + index / looks.size()) % looks.size()];
-}
-
-/// What did not ignite, of one verdict or of all, with its uncertainty: the model form, whose sign is known,
-/// counts upwards alone. Nothing is colder than the launch began: no bar goes below that.
-Series inert_series(const CaseOutcome& outcome, const std::string& label,
-                    std::optional<Verdict> verdict = {}) {
-  Series series{.label = label, .style = Style::vertical_bars, .mark = Mark::circle};
-  if (!outcome.completed()) return series;  // temperatures of a part of the launch
-  for (const GapVerdict& row : outcome.verdicts) {
-    const double temperature = row.maximum.temperature;
-    if (row.ignition || !std::isfinite(temperature)) continue;
-    if (verdict && row.judgement.verdict != *verdict) continue;
-    const study::Uncertainty& uncertainty = row.uncertainty;
-    // Of one that ignites at an end of the range nothing is known but that.
-    const double below = uncertainty.total() - uncertainty.model_form;
-    const double lower = std::max(temperature - below, outcome.input.scene.scene.initial_temperature);
-    series.add(shown_gap(row.gap), temperature, std::isfinite(below) ? lower : temperature,
-               temperature + uncertainty.total());
-  }
-  return series;
-}
-
-/// What ignited: the temperature is that of the burning skin, of which the uncertainty says nothing.
-Series ignited_series(const CaseOutcome& outcome) {
-  Series series{.style = Style::points, .mark = Mark::cross};
-  for (const GapVerdict& row : outcome.verdicts) {
-    if (!row.ignition || !std::isfinite(row.maximum.temperature)) continue;
-    series.add(shown_gap(row.gap), row.maximum.temperature);
-  }
-  return series;
-}
-
-void add_fit(const CaseOutcome& outcome, const std::string& label, int colour, Plot& plot) {
-  if (!outcome.fit) return;
-  Series& line = plot.series.emplace_back(Series{.label = label, .style = Style::line, .colour = colour});
-  const study::Line& fitted = outcome.fit->ordinary;
-  for (const double gap : outcome.fit->gaps)
-    line.add(shown_gap(gap), fitted.intercept + fitted.slope * shown_gap(gap));
-}
-
-/// What a picture adds to SAFE where no gap that closes was looked at: it is shown beside other studies too.
-std::string by_whose_air(const CaseOutcome& outcome) {
-  return outcome.input.closing ? "" : " by a reservoir of air";
-}
-
-/// The only case, in a colour for each verdict.
-void add_only_case(const CaseOutcome& outcome, Plot& plot) {
-  constexpr int grey = 7, green = 2, orange = 4, vermilion = 1;
-  add_fit(outcome, "least squares", grey, plot);
-  const auto add = [&plot](Series series, int colour) {
-    series.colour = colour;
-    if (!series.x.empty()) plot.series.push_back(std::move(series));
-  };
-  add(inert_series(outcome, "SAFE" + by_whose_air(outcome), Verdict::safe), green);
-  add(inert_series(outcome, study::to_string(Verdict::indeterminate), Verdict::indeterminate), orange);
-  add(ignited_series(outcome), vermilion);
-}
-
-void add_case(const CaseOutcome& outcome, std::size_t index, Plot& plot) {
-  add_fit(outcome, "", static_cast<int>(index), plot);
-  Series inert = inert_series(outcome, outcome.input.label), ignited = ignited_series(outcome);
-  give_look(index, inert);
-  ignited.colour = static_cast<int>(index);
-  if (inert.x.empty()) ignited.label = outcome.input.label + ": ignites";
-  for (Series* each : {&inert, &ignited})
-    if (!each->x.empty()) plot.series.push_back(std::move(*each));
-}
-
-/// What the picture shows of the only case, with its numbers.
-std::string finding_of(const CaseOutcome& outcome) {
-  const double safe = study::largest_safe_gap(outcome.verdicts);
-  return fmt::format("Critical gap {}; {}", report::measured_text(outcome.critical),
-                     std::isfinite(safe) ? fmt::format("computed gaps SAFE up to {}{}", centimetres(safe),
-                                                       by_whose_air(outcome))
-                                         : "none of the computed gaps is SAFE");
-}
-
-/// Where no case has the launch that was published there is nothing to compare; under constants that miss the
-/// calibrated rows none counts as calibrated.
-void add_published(const CriticalGapResult& result, Plot& plot) {
-  const auto own =
-      std::ranges::find_if(result.details, [](const CaseOutcome& each) { return each.input.own_conditions; });
-  if (own == result.details.end()) return;
-  const bool foreign = misses_calibrated_rows(*own);
-  const std::map<std::string, Mark> marks{{"published", Mark::open_square},
-                                          {"published, " + to_string(Use::chosen_by), Mark::open_triangle},
-                                          {"published, " + to_string(Use::fitted), Mark::open_square},
-                                          {"published, " + to_string(Use::held_out), Mark::open_circle}};
-  for (const auto& [label, mark] : marks) {
-    Series series{.label = label, .style = Style::points, .colour = 6, .mark = mark};
-    std::set<std::string> points;
-    for (const Reference& each : result.study.study.references)
-      if (label == (foreign ? "published" : "published, " + report::used_for(each)) &&
-          std::isfinite(each.maximum_temperature)) {
-        series.add(shown_gap(each.gap), each.maximum_temperature);
-        if (!each.point.empty()) points.insert(each.point);
-      }
-    if (series.x.empty()) continue;
-    series.label += fmt::format(" ({}{}at {})", fmt::join(points, ", "), points.empty() ? "" : " ",
-                                milliseconds(scene::read_time(own->input.scene.scene.load)));
-    plot.series.push_back(std::move(series));
-  }
-}
-
-/// The critical gap of the only case, where it is a value: a band where it has an uncertainty. The title has
-/// the words.
-void add_critical_gap(const CriticalGap& gap, Plot& plot) {
-  if (gap.kind != CriticalGapKind::value) return;
-  const auto known = report::measured_gap(gap);
-  const std::string label = "critical gap: " + report::measured_text(gap);
-  plot.vertical_lines = {{shown_gap(gap.value), known ? "" : label}};
-  if (known) plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), label}};
-}
-
 }  // namespace
 
 Plot temperature_plot(const CriticalGapResult& result) {
-  const bool only = result.details.size() == 1;
-  Plot plot{.title = only ? finding_of(result.details.front()) : "Highest temperature of the charge's bottom",
-            .x = {.label = quantity::gap.label()},
-            .y = {.label = quantity::temperature_max.label()},
-            // The legend stands below and takes two cases a line.
-            .height = 600 + 14 * static_cast<int>(result.details.size())};
-  for (std::size_t i = 0; i < result.details.size(); ++i)
-    only ? add_only_case(result.details[i], plot) : add_case(result.details[i], i, plot);
-  // One entry of the legend for the ignitions of all cases.
-  const auto first = std::ranges::find_if(
-      plot.series, [](const Series& series) { return series.mark == Mark::cross && series.label.empty(); });
-  if (first != plot.series.end()) first->label = "ignites; the burning skin is hotter than shown";
-  add_published(result, plot);
-  if (only) add_critical_gap(result.details.front().critical, plot);
-  const double ignition = result.study.scene.scene.charge().kinetics.ignition_temperature;
-  report::cut_axis(ignition, plot);
-  plot.horizontal_lines.push_back(
-      {ignition, "ignition temperature: " + in_words(ignition, significant(4, kelvin))});
+  const Row verdicts = json_rows(verdict_table(result)), cases = json_rows(critical_gap_table(result));
+  Plot plot;
+  plot.columns = 1;
+  std::size_t ignite = 0;
+  auto row = verdicts.begin();
+  for (std::size_t i = 0; i < result.details.size(); ++i) {
+    const std::vector<GapVerdict>& gaps = result.answers[i].verdicts;
+    const auto end = row + static_cast<std::ptrdiff_t>(gaps.size());
+    Row tables{{"verdicts", Row::array_t(row, end)}, {"cases", Row::array({cases[i]})}};
+    row = end;
+    ignite += std::ranges::any_of(gaps, [](const GapVerdict& gap) { return gap.ignition.has_value(); });
+    const StudyCase& input = result.details[i].input;
+    if (input.own_conditions) tables["comparison"] = json_rows(comparison_table(result));
+    if (result.study.study.demonstration) tables["demonstration"] = true;
+    Plot panel = report::verdict_plot(tables, input.scene.scene);
+    if (result.details.size() == 1) return panel;
+    panel.title = input.label + ": " + panel.title;
+    if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
+  }
+  plot.title = fmt::format("{} of {} cases ignite at a computed gap", ignite, result.details.size());
   return plot;
 }
 

@@ -385,7 +385,11 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
                   largest > 1.0 ? "all, within sampling error," : report::fixed(100.0 * largest, 0) + " %",
                   shown_output(output.output).phrase + at_gap(study, output.output));
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
-  plot.subtitle = fmt::format("N = {}", settings_of<SensitivitySettings>(study).samples);
+  for (const std::size_t i : order)
+    if (output.sobol.inputs[i].total.value >= negligible_share)
+      plot.subtitle +=
+          fmt::format("{}{}: {}", plot.subtitle.empty() ? "" : "; ", report::plain_words(shown[i].name),
+                      shown[i].distribution.substr(0, shown[i].distribution.find(':')));
   plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
   Series bars{.label = "total: with interactions", .style = Style::filled_bars, .colour = blue};
   const std::string interval =

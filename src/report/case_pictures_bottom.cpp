@@ -216,8 +216,6 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
     plot.title = std::move(title);
     plot.series = std::move(series);
     plot.named_in_place = true;
-    // Lines begin there and leave no room for its name.
-    for (Line& line : plot.vertical_lines) plot.subtitle += "; dashed: " + std::exchange(line.label, {});
     pictures.push_back(picture_of_gap(name, gap, std::move(plot)));
   };
   const bool whole = drawn.scene.symmetry == scene::Symmetry::axisymmetric;

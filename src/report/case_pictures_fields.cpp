@@ -39,27 +39,36 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
   return groups;
 }
 
-/// Where 98 of 100 values are: a few cells at a corner would leave one colour for all others. Where most are
-/// 0, as of what burns, those that are not count.
-std::pair<double, double> common_range(std::vector<double> values) {
-  if (values.empty()) return {0.0, 0.0};
-  std::ranges::sort(values);
-  const auto zeros = static_cast<std::size_t>(std::ranges::count(values, 0.0));
-  const std::size_t cut = (2 * zeros > values.size() ? values.size() - zeros : values.size()) / 100;
-  const double low = values[cut], high = values[values.size() - 1 - cut];
-  return low < high ? std::pair(low, high) : std::pair(values.front(), values.back());
+/// Values with the lengths of their cells.
+using Lengths = std::vector<std::pair<double, double>>;
+
+/// Where 98 % of the length is that has not 0, as most has of what burns. By number, small cells at a corner
+/// would leave one colour for all others; by area, the bottom would be beyond.
+std::pair<double, double> common_range(Lengths lengths) {
+  if (lengths.empty()) return {0.0, 0.0};
+  std::ranges::sort(lengths);
+  double whole = 0.0;
+  for (const auto& [value, length] : lengths) whole += value == 0.0 ? 0.0 : length;
+  const auto first_within = [cut = 0.01 * whole](auto begin, auto end) {
+    double sum = 0.0;
+    return std::find_if(begin, end, [&](const auto& each) { return (sum += each.second) > cut; })->first;
+  };
+  const double low = first_within(lengths.begin(), lengths.end()),
+               high = first_within(lengths.rbegin(), lengths.rend());
+  return low < high ? std::pair(low, high) : std::pair(lengths.front().first, lengths.back().first);
 }
 
 /// Of one snapshot: what others have, before or while it burns, would leave one colour for it.
 std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   std::vector<ColourScale> scales;
   for (const ScaleGroup& group : scale_groups(drawn, field)) {
-    std::vector<double> values;
+    Lengths lengths;
     for (std::size_t i = 0; i < shot.x.size(); ++i) {
       const double value = value_of(drawn, field, shot, i);
-      if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges) values.push_back(value);
+      if (std::isfinite(value) && is_charge(drawn, shot.body[i]) == group.charges)
+        lengths.emplace_back(value, std::sqrt(shot.half_length_x[i] * shot.half_length_r[i]));
     }
-    const auto [minimum, maximum] = common_range(std::move(values));
+    const auto [minimum, maximum] = common_range(std::move(lengths));
     scales.push_back({fmt::format("{}: {} [{}]", group.name, field.meaning,
                                   field.shown.name.empty() ? "1" : field.shown.name),
                       minimum, maximum});
@@ -108,21 +117,28 @@ std::vector<Place> edge_of(const run::Snapshot& shot, const BodyCells& cells, bo
 
 // --- pictures ---
 
-/// Around the charge's bottom, of a shell so slender that its cells there are hard to see.
-std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const run::Snapshot& shot) {
-  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62;
-  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL;
+/// Around the charge's bottom, of a shell so slender that its cells there are hard to see; of a field that is
+/// 0 nearly everywhere, as far from the axis as it is not.
+std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const Field& field,
+                                          const run::Snapshot& shot) {
+  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62, margin = 1.2;
+  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL, reach = 0;
   for (std::size_t i = 0; i < shot.x.size(); ++i) {
     const double right = shot.x[i] + shot.half_length_x[i];
     begin = std::min(begin, shot.x[i] - shot.half_length_x[i]);
     end = std::max(end, right);
     radius = std::max(radius, shot.r[i] + shot.half_length_r[i]);
     if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, right);
+    const double value = value_of(drawn, field, shot, i);
+    if (std::isfinite(value) && value != 0.0)
+      reach = std::max(reach, margin * (shot.r[i] + shot.half_length_r[i]));
   }
+  radius = std::min(radius, reach);
   const double length = length_over_radius * radius;
-  if (!std::isfinite(bottom) || end - begin < slender * length) return {};
+  if (!std::isfinite(bottom) || !(length > 0.0) || end - begin < slender * length) return {};
   const double from = std::clamp(bottom - share_before_bottom * length, begin, end - length);
-  return Enlargement{"At the bottom of the charge", millimetres * from, millimetres * (from + length)};
+  return Enlargement{"At the bottom of the charge", millimetres * from, millimetres * (from + length),
+                     millimetres * radius};
 }
 
 std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
@@ -195,28 +211,34 @@ void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapR
     scale.maximum = std::max(scale.maximum, plot.cells[i].value);
   }
   const double bulk = scale.maximum, half_depth = 0.5 * share_of_radius * radius;
+  double hottest_r = 0.0;
   for (const std::size_t ring : rings_of(trace)) {
     const double temperature = surface::temperature_at_time(gap.skin, trace, ring, shot.time);
     plot.cells.push_back({millimetres * (bottom - half_depth), millimetres * trace.stations[ring].r,
                           millimetres * half_depth, millimetres * 0.5 * width, temperature});
+    if (temperature > scale.maximum) hottest_r = trace.stations[ring].r;
     scale.maximum = std::max(scale.maximum, temperature);
   }
   plot.scales = {scale};
-  plot.title =
-      fmt::format("Gap {} at {}: the skin has up to {}, all behind it at most {}", centimetres(gap.gap),
-                  in_words(shot.time, quantity::time_in_titles),
-                  in_words(scale.maximum, keys::fixed(0, kelvin)), in_words(bulk, keys::fixed(0, kelvin)));
+  plot.title = fmt::format(
+      "Gap {} at {}: the skin has up to {}, at r {}, all behind it at most {}", centimetres(gap.gap),
+      in_words(shot.time, quantity::time_in_titles), in_words(scale.maximum, keys::fixed(0, kelvin)),
+      in_words(hottest_r, keys::significant(3, millimetre)), in_words(bulk, keys::fixed(0, kelvin)));
   plot.subtitle += fmt::format("; the skin, {} deep, is drawn {} times as deep",
                                in_words(thickness, keys::significant(2, millimetre)),
                                significant(2.0 * half_depth / thickness, 2));
 }
 
-/// How it is with most of the charge, or of the bodies that have the field.
-std::string range_in(const DrawnCase& drawn, const Field& field, const ColourScale& scale) {
-  const auto number = [](double value) { return significant(value, std::abs(value) < 100.0 ? 2 : 4); };
-  return fmt::format("{} to {}{} in 98 of 100 cells of the {}", number(scale.minimum), number(scale.maximum),
-                     field.shown.name.empty() ? "" : " " + std::string(field.shown.name),
-                     scale_groups(drawn, field).front().name);
+/// Where it is highest, in the charge or in the bodies that have the field.
+std::string finding_of(const CellPlot& plot, const Field& field, const char* bodies) {
+  const auto value = [](const FieldCell& cell) {
+    return cell.scale == 0 && std::isfinite(cell.value) ? cell.value : -HUGE_VAL;
+  };
+  const FieldCell& highest = *std::ranges::max_element(plot.cells, {}, value);
+  return fmt::format("highest in the {} at x {}, r {} mm, {}{}{}", bodies, significant(highest.x, 3),
+                     significant(highest.r, 3),
+                     significant(highest.value, std::abs(highest.value) < 100.0 ? 2 : 4),
+                     field.shown.name.empty() ? "" : " ", field.shown.name);
 }
 
 CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
@@ -230,17 +252,17 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   plot.title += shown.gap                   ? fmt::format(", gap of {} burning", centimetres(*shown.gap))
                 : drawn.result.gaps.empty() ? ""
                 : closes                    ? ", without a gap"
-                                            : ", whatever the gap, without burning";
+                                            : ", without burning";
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
-  plot.title += ": " + range_in(drawn, field, scales.front());
   plot.subtitle = shortened(drawn.scene.title, 150);
   plot.scales = scales;
   plot.cells = cells_of(drawn, field, shot);
+  plot.title += ": " + finding_of(plot, field, scale_groups(drawn, field).front().name);
   for (const BodyCells& cells : bodies_of(drawn.scene)) {
     const bool open_at_axis = cells.body->r_begin <= scene::length_tolerance(drawn.scene);
     plot.outlines.push_back({edge_of(shot, cells, open_at_axis), open_at_axis});
   }
-  plot.enlargement = enlargement_of(drawn, shot);
+  plot.enlargement = enlargement_of(drawn, field, shot);
   const bool grey =
       std::ranges::any_of(plot.cells, [](const FieldCell& cell) { return std::isnan(cell.value); });
   const auto groups = scale_groups(drawn, field);

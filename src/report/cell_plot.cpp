@@ -111,9 +111,13 @@ CellPanel whole_section(const CellPlot& plot) {
 CellPanel enlarged_section(const CellPlot& plot, const CellPanel& whole) {
   const Enlargement& part = *plot.enlargement;
   const double margin = edge_margin * (part.x_end - part.x_begin);
-  CellPanel panel{
-      part.x_begin, part.x_end + margin, 0, whole.r_end, 0, whole.bottom() + below_axis + above_enlarged};
-  panel.scale = std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), enlarged_height / whole.r_end);
+  CellPanel panel{part.x_begin,
+                  part.x_end + margin,
+                  0,
+                  part.r_end + margin,
+                  0,
+                  whole.bottom() + below_axis + above_enlarged};
+  panel.scale = std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), enlarged_height / panel.r_end);
   return panel;
 }
 

@@ -14,13 +14,15 @@ bool has_bars(const Series& series) {
   return series.style >= Style::vertical_bars && series.style <= Style::filled_bars;
 }
 
-/// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place.
+/// x, y, and the ends of the bar of styles that have one: the point itself where an end has no place. What
+/// has no place widens no axis.
 std::string series_data(const Plot& plot, const Series& series) {
   const bool along_x = series.style != Style::vertical_bars;
   const Scale bar_scale = along_x ? plot.x.scale : plot.y.scale;
   std::string lines;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    lines += coordinate(series.x[i], plot.x.scale) + " " + coordinate(series.y[i], plot.y.scale);
+    const bool is_drawn = drawable(series.x[i], plot.x.scale) && drawable(series.y[i], plot.y.scale);
+    lines += is_drawn ? exact(series.x[i]) + " " + exact(series.y[i]) : "NaN NaN";
     if (has_bars(series)) {
       const double middle = along_x ? series.x[i] : series.y[i];
       for (const double end : {series.lower[i], series.upper[i]})
@@ -43,24 +45,25 @@ std::string points_of(Mark mark) {
   return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
 }
 
-std::string style_of(const Series& series, std::size_t index, int width) {
-  // In the order of Style: {0} is the sign of points, {1} the colour, {2} the width of lines.
-  constexpr std::array<const char*, 8> styles{"with lines linewidth {2} {1}",
-                                              "with lines linewidth {2} dashtype 2 {1}",
+std::string style_of(const Series& series, std::size_t index) {
+  // In the order of Style: {0} is the sign of points, {1} the colour.
+  constexpr std::array<const char*, 8> styles{"with lines linewidth 2 {1}",
+                                              "with lines linewidth 2 dashtype 2 {1}",
                                               "with points linewidth 1.5 {0} {1}",
-                                              "with linespoints linewidth {2} {0} {1}",
+                                              "with linespoints linewidth 2 {0} {1}",
                                               "with yerrorbars linewidth 1.5 {0} {1}",
                                               "with xerrorbars linewidth 1.5 {0} {1}",
                                               "with boxxyerror fillstyle solid 0.8 noborder {1}",
                                               "with steps linewidth 2 {1}"};
   const auto sign = series.mark.value_or(static_cast<Mark>(look_of(series, index) % 8));
   return fmt::format(fmt::runtime(styles.at(static_cast<std::size_t>(series.style))), points_of(sign),
-                     fmt::format("linecolor rgb '{}'", colour_of(series, index)), width);
+                     fmt::format("linecolor rgb '{}'", colour_of(series, index)));
 }
 
 // --- commands ---
 
 void add_series(const Plot& plot, Commands& commands) {
+  const std::vector<bool> named = names_in_place(plot).series;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const Series& series = plot.series[i];
     if (series.x.empty()) continue;
@@ -68,9 +71,9 @@ void add_series(const Plot& plot, Commands& commands) {
     const std::string_view columns = series.style == Style::filled_bars ? box
                                      : has_bars(series)                 ? "1:2:3:4"
                                                                         : "1:2";
-    commands.add(fmt::format("series{}", i), series_data(plot, series),
-                 fmt::format("{} {} {}", columns, style_of(series, i, line_width(plot, i)),
-                             title_of(named_at_end(plot, series) ? "" : series.label)));
+    commands.add(
+        fmt::format("series{}", i), series_data(plot, series),
+        fmt::format("{} {} {}", columns, style_of(series, i), title_of(named[i] ? "" : series.label)));
   }
 }
 
@@ -83,7 +86,7 @@ void add_bands(const Plot& plot, Commands& commands) {
                    fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
                                coordinate(bands[i].to, scale)),
                    fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' {}", axes,
-                               title_of(bands[i].label)));
+                               title_of(plot.named_in_place ? "" : bands[i].label)));
   };
   add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
   add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
@@ -117,11 +120,12 @@ Legend legend_of(const Plot& plot) {
     longest = std::max(longest, display_width(label));
     entries += label.empty() ? 0 : 1;
   };
-  for (const Series& series : plot.series)
-    if (!named_at_end(plot, series) && !series.x.empty()) add(series.label);
-  for (const Band& band : plot.vertical_bands) add(band.label);
-  for (const Band& band : plot.horizontal_bands) add(band.label);
+  const std::vector<bool> named = names_in_place(plot).series;
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+    if (!named[i] && !plot.series[i].x.empty()) add(plot.series[i].label);
   if (!plot.named_in_place) {
+    for (const Band& band : plot.vertical_bands) add(band.label);
+    for (const Band& band : plot.horizontal_bands) add(band.label);
     for (const Line& line : plot.vertical_lines) add(line.label);
     for (const Line& line : plot.horizontal_lines) add(line.label);
   }
@@ -187,7 +191,8 @@ std::string drawing_commands(const Plot& plot, std::size_t width) {
   add_series(plot, commands);
   add_lines(plot, commands);
   return frame_commands(plot, width) + axis_commands("x", plot.x) + axis_commands("y", plot.y) +
-         names_in_place(plot, width) + commands.text();
+         (plot.named_in_place ? fmt::format("set rmargin {}\n", right_margin(width)) : "") +
+         names_in_place(plot).commands + commands.text();
 }
 
 /// Row by row, each in a place as wide as the widest of them and as high as the highest of its row.
@@ -260,22 +265,30 @@ void cut_axis(double line, Plot& plot) {
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
   const double beyond = std::max(0.25 * (line - lowest), 20.0);
   const double top = line + beyond, bottom = lowest - beyond;
-  std::vector<Series> arrows;
+  std::vector<Series> at_ends;
   const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
     Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
     for (std::size_t i = 0; i < ends.size(); ++i) {
       if (ends[i] > top || ends[i] < bottom) heads.add(series.x[i], at);
       ends[i] = std::clamp(ends[i], bottom, top);
     }
-    if (!heads.x.empty()) arrows.push_back(std::move(heads));
+    if (heads.x.empty()) return;
+    plot.subtitle = "arrows: the bar goes on beyond";
+    at_ends.push_back(std::move(heads));
   };
   for (Series& series : plot.series) {
+    const auto hottest = std::ranges::max_element(series.y);
+    if (plot.named_in_place && hottest != series.y.end() && *hottest > top) {
+      Series& value = at_ends.emplace_back(series);
+      value.label = significant(*hottest, 4) + " K";
+      value.x = {series.x[static_cast<std::size_t>(hottest - series.y.begin())]};
+      value.y = {top};
+    }
     for (double& temperature : series.y) temperature = std::min(temperature, top);
     cut(series, series.upper, top, Mark::up_triangle);
     cut(series, series.lower, bottom, Mark::down_triangle);
   }
-  if (!arrows.empty()) arrows.front().label = "the bar goes on beyond";
-  std::ranges::move(arrows, std::back_inserter(plot.series));
+  std::ranges::move(at_ends, std::back_inserter(plot.series));
   plot.y.maximum = top;
 }
 

@@ -1,26 +1,27 @@
-// Names of lines in the plot itself, and what makes lines on each other seen.
+// Names in the plot itself, where nothing else is drawn.
 #pragma once
 
 #include "launchsafe/report/plot.hpp"
 
 namespace launchsafe::report {
 
-/// Whether a series is named where it is, not in the legend.
-bool named_at_end(const Plot& plot, const Series& series);
+/// What is named where it is drawn and not in the legend, and the labels that do so.
+struct PlotNames {
+  std::vector<bool> series;  ///< whether that one is
+  std::string commands = {};
+};
+
+/// Lines at their right ends, few points and dashed lines beside them, lines across and bands at their edges:
+/// where nothing else is drawn.
+PlotNames names_in_place(const Plot& plot);
 
 /// Index into the palette, and into the signs of points.
 std::size_t look_of(const Series& series, std::size_t index);
 std::string_view colour_of(const Series& series, std::size_t index);
 
-/// Of a series: wider than lines that lie on it, so that its colour shows on both sides of theirs.
-int line_width(const Plot& plot, std::size_t index);
-
 /// Characters beside the plot, where lines are named at their ends.
 std::size_t right_margin(std::size_t longest_name);
 /// Letters of the longest name of a line.
 std::size_t longest_end_name(const Plot& plot);
-/// Labels of lines: at their right ends, and beside lines across where nothing is drawn. `width`: letters of
-/// the names at the right.
-std::string names_in_place(const Plot& plot, std::size_t width);
 
 }  // namespace launchsafe::report

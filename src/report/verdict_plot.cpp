@@ -35,14 +35,16 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
   return look;
 }
 
+/// What T max and the critical gap of a launch are by; those of gaps that close have pictures of their own.
+constexpr const char* by_reservoir = " by a reservoir of air";
+
 /// "No computed gap is SAFE; critical gap by a reservoir of air 0.038 +0.010 −0.011 cm"
-std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe,
-                       const std::string& by_whose_air) {
+std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe) {
   const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
   return fmt::format(
       "{}; critical gap{} {}",
       largest ? fmt::format("{} up to {} cm", safe, significant(*largest, 6)) : "No computed gap is SAFE",
-      by_whose_air, text_of(critical, "critical_gap_with_bounds"));
+      by_reservoir, text_of(critical, "critical_gap_with_bounds"));
 }
 
 /// "SAFE by a reservoir of air": what the word rests on, which stands beside it wherever a picture goes.
@@ -52,14 +54,28 @@ std::string safe_words(const Row& tables, const std::string& by_whose_air, bool 
   return fmt::format("SAFE{}, {}", by_whose_air, invented ? "in a demonstration" : "as somebody accepts");
 }
 
+/// "published at G2, computed at S13, after 18 ms": not all is of one place.
+std::string published_words(const Row& comparison, const scene::Load& load) {
+  std::set<std::string> published, computed;
+  for (const Row& row : comparison) {
+    published.insert(text_of(row, "temperature_max_published_place"));
+    computed.insert(text_of(row, "temperature_max_place"));
+  }
+  published.erase("");
+  const std::string time = scene::time_text(scene::read_time(load));
+  return published.empty() ? "published, after " + time
+                           : fmt::format("published at {}, computed at {}, after {}",
+                                         fmt::join(published, ", "), fmt::join(computed, ", "), time);
+}
+
 void add_critical_gap(const Row& critical, Plot& plot) {
   const double value = number_of(critical, "critical_gap_cm"),
                at_least = number_of(critical, "critical_gap_at_least_cm"),
                at_most = number_of(critical, "critical_gap_at_most_cm");
   if (text_of(critical, "critical_gap_kind") != "value") return;
-  plot.vertical_lines = {{value}};
+  plot.vertical_lines = {{value, "critical gap"}};
   if (const auto known = measured_gap(value, at_least, at_most))
-    plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), "critical gap within its bounds"}};
+    plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), "its bounds"}};
 }
 
 }  // namespace
@@ -70,32 +86,30 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   Series corner = points_of(verdicts, "temperature_max_corner_K", {.colour = purple, .mark = Mark::diamond});
   const bool corner_ignites =
       std::ranges::any_of(corner.y, [&](double temperature) { return temperature > ignition; });
-  corner.label = fmt::format("closing, worst corner{}", corner_ignites ? ": ignites, hotter" : "");
-  const bool closes = scene.surface.model == scene::GapModel::closing;
-  const std::string by_whose_air = closes ? "" : " by a reservoir of air";
+  corner.label = fmt::format("closing, worst corner{}", corner_ignites ? ": ignites" : "");
+  const bool held_against_closing = scene.surface.model == scene::GapModel::closing || !corner.x.empty();
   const bool is_green =
       found_in(tables, "demonstration").is_null() &&
       std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
-  const std::string safe = safe_words(tables, corner.x.empty() ? by_whose_air : "", is_green);
-  Plot plot{.title = finding_of(verdicts, critical, safe, by_whose_air),
+  const std::string safe = safe_words(tables, held_against_closing ? "" : by_reservoir, is_green);
+  Plot plot{.title = finding_of(verdicts, critical, safe),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 370};
+            .height = 410,
+            .named_in_place = true};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
-  for (Series& series : std::array{
-           judged_series(verdicts, "SAFE", safe, is_green ? green : grey, initial),
-           judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
-           points_of(
-               ignited, "temperature_max_K",
-               {.label = "UNSAFE: ignites, hotter than shown", .colour = vermilion, .mark = Mark::cross}),
-           corner,
-           points_of(
-               found_in(tables, "comparison"), "temperature_max_published_K",
-               {.label = fmt::format("published, at {}", scene::time_text(scene::read_time(scene.load))),
-               .colour = black,
-               .mark = Mark::open_square})})
+  for (Series& series :
+       std::array{judged_series(verdicts, "SAFE", safe, is_green ? green : grey, initial),
+                  judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
+                  points_of(ignited, "temperature_max_K",
+                            {.label = "UNSAFE: ignites", .colour = vermilion, .mark = Mark::cross}),
+                  corner,
+                  points_of(found_in(tables, "comparison"), "temperature_max_published_K",
+                            {.label = published_words(found_in(tables, "comparison"), scene.load),
+                            .colour = black,
+                            .mark = Mark::open_square})})
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   add_critical_gap(critical, plot);
   cut_axis(ignition, plot);

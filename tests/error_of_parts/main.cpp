@@ -153,26 +153,58 @@ bool is_exact(const MeasuredSeries& each) {
                      [&](const Measured& row) { return row.error <= each.series.round_off; });
 }
 
+/// Of the two finest settings that are not at round-off; NaN where there are none.
+double finest_order(const MeasuredSeries& each) {
+  double order = error_of_parts::no_order;
+  for (const Measured& row : each.settings)
+    if (std::isfinite(row.order)) order = row.order;
+  return order;
+}
+
 /// A panel for each part. Exact ones are left out: round-off against time shows nothing.
 report::Plot plot_of(const std::vector<MeasuredSeries>& measured) {
   report::Plot plot;
-  plot.title = errors_title;
+  int orders = 0;
+  double farthest = 0.0;  // of a measured order from that of the theory
+  const std::string* part = nullptr;
   for (const MeasuredSeries& each : measured) {
     if (is_exact(each)) continue;
-    if (plot.panels.empty() || plot.panels.back().title != each.series.part) {
+    const bool has_order = std::isfinite(each.series.order);
+    const std::string order = has_order ? report::fixed(finest_order(each), 1) : "none";
+    if (has_order) {
+      ++orders;
+      farthest = std::max(farthest, std::abs(finest_order(each) - each.series.order));
+    }
+    if (part == nullptr || *part != each.series.part) {
+      part = &each.series.part;
       report::Plot& panel = plot.panels.emplace_back();
-      panel.title = each.series.part;
+      panel.title = *part + ": order " + order;
       panel.x = {.label = "processor time of one unit of work [s]", .scale = report::Scale::logarithmic};
       panel.y = {.label = "error [relative, or K where it says so]", .scale = report::Scale::logarithmic};
       panel.width = 760;
       panel.height = 400;
       panel.named_in_place = true;
+    } else {
+      plot.panels.back().title += ", " + order;
     }
     const std::string unit = each.series.error_unit.empty() ? "" : " [" + each.series.error_unit + "]";
     report::Series& line = plot.panels.back().series.emplace_back();
-    line.label = each.series.quantity + unit;
+    line.label = fmt::format("{}{}: {}", each.series.quantity, unit, order);
     for (const Measured& row : each.settings) line.add(row.processor_time, row.error);
   }
+  // To whole powers of ten: a part whose time hardly depends on the setting has a tic too.
+  for (report::Plot& panel : plot.panels) {
+    double least = HUGE_VAL, most = 0.0;
+    for (const report::Series& line : panel.series) {
+      least = std::min(least, *std::min_element(line.x.begin(), line.x.end()));
+      most = std::max(most, *std::max_element(line.x.begin(), line.x.end()));
+    }
+    panel.x.minimum = std::pow(10.0, std::floor(std::log10(least)));
+    panel.x.maximum = std::pow(10.0, std::ceil(std::log10(most)));
+  }
+  plot.title = fmt::format("{} errors fall at their order of theory, to within {}", orders,
+                           report::significant(farthest, 2));
+  plot.subtitle = "behind each name the order measured between its two finest settings";
   return plot;
 }
 

@@ -211,6 +211,7 @@ TEST(SensitivityReport, PicturesHaveIntervalsAndTheirConfidence) {
   EXPECT_EQ(indices.series[1].label, "its 90 % interval");
   EXPECT_EQ(indices.y.tics.front().label, "peak pressure");
   EXPECT_TRUE(indices.title.starts_with("Peak pressure makes ")) << indices.title;
+  EXPECT_TRUE(indices.subtitle.starts_with("peak pressure: ")) << indices.subtitle << ": by what it varies";
 }
 
 TEST(SensitivityReport, ATotalOrderBelowTheFirstIsCalledSamplingError) {

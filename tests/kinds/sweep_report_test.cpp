@@ -250,7 +250,7 @@ TEST(SweepPictures, WhatIsNoValueIsAMarkByItsReasonAndBreaksItsLine) {
   const auto named = [&](const std::string& label) -> const Series& {
     return *std::ranges::find(plot.series, label, &Series::label);
   };
-  EXPECT_EQ(named("> 0.1 cm (bound)").x.size(), 3u);
+  EXPECT_EQ(named("50 µm: > 0.1 cm (bound)").x.size(), 3u);
   EXPECT_EQ(plot.subtitle, "dashed: the lower bound of each; not drawn: 1 case indeterminate or failed");
   EXPECT_TRUE(std::isnan(plot.series[4].y[2]));
 }
@@ -315,13 +315,15 @@ TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
         (lowest == nullptr || drawn[i].y[0] < lowest->y[0]))
       lowest = &drawn[i];
   ASSERT_NE(lowest, nullptr);
+  const Series& value = drawn[static_cast<std::size_t>(*lowest->colour)];
   const auto at_least = [](double gap) { return report::significant(report::rounded_down(gap, 4), 3); };
-  EXPECT_EQ(made.pictures[0].plot.title,
-            fmt::format(
-                "Critical gap by a reservoir of air at {}: at least {} cm at 350 MPa, {} cm at 600 MPa, flaw "
-                "size 0.5 mm",
-                drawn[static_cast<std::size_t>(*lowest->colour)].label, at_least(lowest->y.front()),
-                at_least(lowest->y.back())));
+  EXPECT_EQ(
+      made.pictures[0].plot.title,
+      fmt::format("Critical gap by a reservoir of air at {}: {} to {} cm, at least {} cm at 350 MPa, {} cm "
+                  "at 600 MPa, flaw size 0.5 mm",
+                  value.label.substr(std::string("crack radius ").size()),
+                  report::significant(value.y.front(), 2), report::significant(value.y.back(), 2),
+                  at_least(lowest->y.front()), at_least(lowest->y.back())));
   EXPECT_TRUE(made.pictures[2].plot.title.ends_with(", flaw size 2 mm"));
   EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
   EXPECT_TRUE(made.remarks.empty());
@@ -331,6 +333,28 @@ TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   EXPECT_EQ(cut.pictures.size(), 9u);
   ASSERT_EQ(cut.remarks.size(), 1u);
   EXPECT_NE(cut.remarks[0].find("9 of the 12"), std::string::npos);
+}
+
+// By hand: the gaps of 10 and 30 um are alike, their lower bounds are not.
+TEST(SweepPictures, LinesOnEachOtherAreOneWithTheNamesOfAll) {
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
+  file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6}),
+                     axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
+  const Plot plot = gap_pictures(swept(std::move(file),
+                                       [](const study::Study& study, const std::vector<double>& at) {
+                                         study::CaseAnswer answer =
+                                             value_answer(study, 4e-4 - 1e-12 * (at[0] - 400e6));
+                                         if (at[1] > 2e-5) answer.critical.bounds.at_least -= 1e-4;
+                                         return answer;
+                                       }))
+                        .pictures.at(0)
+                        .plot;
+  std::vector<std::string> names;
+  for (const Series& each : plot.series)
+    if (each.style <= Style::line_and_points && each.style != Style::points &&
+        std::ranges::any_of(each.y, [](double y) { return std::isfinite(y); }))
+      names.push_back(each.label);
+  EXPECT_EQ(names, (std::vector<std::string>{"crack radius 10, 30 µm", "at least 10 µm", "at least 30 µm"}));
 }
 
 TEST(SweepPictures, OneAxisMakesOneLineWithItsLowerBoundAndMarks) {

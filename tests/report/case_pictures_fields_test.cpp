@@ -38,7 +38,7 @@ TEST(CasePictures, OfTheTemperatureShowTheSkinOfTheLargestGapThatDoesNotBurn) {
       << "the bulk alone does not warm by 1 %";
 }
 
-// 98 of 100 values are within the colours; by hand, one cell of the charge presses as no other.
+// Most of the section is within the colours; by hand, one cell of the charge presses as no other.
 TEST(CasePictures, OfAFieldMarkWhatIsFarFromAllElse) {
   RunScene run(cased_charge(0.2));
   auto& snapshots = run.result.mechanics.snapshots;
@@ -65,6 +65,8 @@ TEST(CasePictures, OfAFieldThatIsMostlyZeroHaveTheColoursOfWhatIsNot) {
     EXPECT_EQ(plot.scales[0].minimum, 0.0);
     EXPECT_EQ(plot.scales[0].maximum, 0.5);
     EXPECT_TRUE(block_of(to_gnuplot(plot), "whole_beyond").empty());
+    ASSERT_TRUE(plot.enlargement);
+    EXPECT_NEAR(plot.enlargement->r_end, 1.2 * 2.5, 1e-6) << "mm: they lie next to the axis";
     return;
   }
   FAIL() << "no picture of the burnt share";
@@ -179,14 +181,16 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndHaveColoursOfTheirOwn) {
     if (!picture.file.starts_with("field_pressure_")) continue;
     if (!picture.gap) {
       EXPECT_LT(plot.scales[0].maximum, 2000.0) << picture.file;
-      EXPECT_NE(plot.title.find(", whatever the gap, without burning: "), std::string::npos) << plot.title;
+      EXPECT_NE(plot.title.find(", without burning: highest in the charge at x "), std::string::npos)
+          << plot.title;
       continue;
     }
     EXPECT_DOUBLE_EQ(plot.scales[0].maximum, 2000.0);
-    EXPECT_EQ(
-        plot.title,
-        "Pressure at 0.04 ms, ignition, gap of 0.04 cm burning: 1900 to 2000 MPa in 98 of 100 cells of the "
-        "charge");
+    EXPECT_TRUE(
+        plot.title.starts_with("Pressure at 0.04 ms, ignition, gap of 0.04 cm burning: highest in the "
+                               "charge at x "))
+        << plot.title;
+    EXPECT_TRUE(plot.title.ends_with(" mm, 2000 MPa")) << plot.title;
   }
 }
 

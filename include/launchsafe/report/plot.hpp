@@ -66,13 +66,13 @@ struct Series {
   }
 };
 
-/// A dashed line across the whole picture; `label` is its entry in the legend, or stands on it.
+/// A dashed line across the whole picture; `label` is its entry in the legend, or stands beside it.
 struct Line {
   double at = 0;
   std::string label = {};
 };
 
-/// A grey band from edge to edge, behind all else; `label` is its entry in the legend.
+/// A grey band from edge to edge, behind all else; `label` likewise.
 struct Band {
   double from = 0, to = 0;
   std::string label = {};
@@ -86,7 +86,8 @@ struct Plot {
   int width = 800, height = 560;  ///< pixels, with one line of a legend; further ones come on top
   std::string subtitle = {};      ///< small, below the title
   std::vector<Band> vertical_bands = {}, horizontal_bands = {};
-  /// Whether lines have their labels at their right ends, in their colours, and lines across stand by theirs.
+  /// Whether labels stand by what they name, in its colour: lines have them at their right ends, or beside
+  /// themselves where dashed ones end together, and few points where there is room.
   bool named_in_place = false;
   /// Pictures side by side, row by row; of the plot itself only title and subtitle are drawn.
   std::vector<Plot> panels = {};
@@ -94,8 +95,8 @@ struct Plot {
 };
 
 /// Ends the y axis a part beyond a line across and the points below it: how hot a burning skin is says
-/// nothing of a gap, and how far a bar goes nothing of the points. What is hotter stands at that end, and a
-/// bar that goes on has an arrow there.
+/// nothing of a gap, and how far a bar goes nothing of the points. What is hotter stands at that end with its
+/// value, and a bar that goes on has an arrow there.
 void cut_axis(double line, Plot& plot);
 
 /// A rectangle with a value; one without a value (NaN) is drawn in plain grey.
@@ -128,6 +129,7 @@ struct Outline {
 struct Enlargement {
   std::string label;              ///< what it shows: "at the bottom of the charge"
   double x_begin = 0, x_end = 0;  ///< mm
+  double r_end = 0;               ///< mm, from the axis
 };
 
 /// The section is mirrored about the axis and drawn to scale, equally along x and r; so is its enlargement.
