@@ -58,43 +58,30 @@ std::string line_of(const scene::Implausible& value) {
   return "validity warning: " + scene::validity_warning(value);
 }
 
-/// One sentence for every value that is not plausible.
-std::vector<std::string> plausibility_lines(const scene::Scene& scene) {
-  std::vector<std::string> lines;
-  for (const scene::Implausible& each : scene::implausible_values(scene)) lines.push_back(line_of(each));
-  return lines;
-}
-
-/// What a study of the scene alone would have to accept, or does, under the shipped calibration.
-study::AcceptancesOfStudy acceptances_of(const scene::SceneFile& file) {
+/// A study of the scene alone, under the shipped calibration.
+study::StudyFile study_of(const scene::SceneFile& file) {
   study::StudyFile alone;
   alone.study.kind.gives_verdicts = scene::has_charge(file.scene);
   study::StudyCase only;
-  only.scene = file;
+  only.scene = alone.scene = file;
   alone.cases.add(std::move(only));
-  return study::acceptances_of(alone);
+  return alone;
 }
 
 /// What is not plausible; what is to be accepted, ready to copy; and acceptances that accept nothing.
-std::string checks_text(const std::vector<std::string>& implausible, const study::AcceptancesOfStudy& all,
-                        const std::vector<scene::Acceptance>& accepted) {
+std::string checks_text(const std::vector<std::string>& implausible, const study::AcceptancesOfStudy& all) {
   Json facts{{"plausibility", implausible}, {"acceptances", Json::array()}};
   Json& lines = facts["acceptances"];
   if (!all.missing.empty())
     lines.push_back("not accepted; a file that does says, with reasons in words:\n" +
                     scene::acceptances_to_write(all.missing));
-  for (const scene::Acceptance& each : accepted) {
-    const auto used = [&](const scene::Implausible& value) {
-      return value.key == each.key && value.accepted_value == each.value;
-    };
-    if (!std::ranges::any_of(all.accepted, used))
-      lines.push_back(fmt::format("accept names {} = {}, which nothing needs", each.key, each.value));
-  }
+  for (const std::string& each : all.unneeded)
+    lines.push_back(fmt::format("accept names {}, which nothing needs", each));
   return told("checks.txt", facts);
 }
 
-/// The same for the cases of a study and what it states itself, each with the number of cases. Empty for a
-/// kind that gives no verdicts on scenes of its own.
+/// One sentence for every value that is not plausible, of the cases of a study and of what it states itself,
+/// with the number of several cases. Empty for a kind that gives no verdicts on scenes of its own.
 std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   if (!study.study.kind.gives_verdicts && study.study.kind.own_scenes) return {};
   std::vector<std::string> lines;
@@ -110,7 +97,9 @@ std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   // A sensitivity study may have another value in every case.
   constexpr std::size_t most_lines = 20;
   for (std::size_t i = 0; i < std::min(order.size(), most_lines); ++i)
-    lines.push_back(fmt::format("{} ({} of {} cases)", order[i], cases[order[i]], study.cases.size()));
+    lines.push_back(study.cases.size() == 1
+                        ? order[i]
+                        : fmt::format("{} ({} of {} cases)", order[i], cases[order[i]], study.cases.size()));
   if (order.size() > most_lines)
     lines.push_back(fmt::format("and {} other values like these", order.size() - most_lines));
   return lines;
@@ -130,9 +119,10 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   const scene::Scene& scene = file.scene;
   if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
-  return console.done(scene_text(scene, update_rate) +
-                          checks_text(plausibility_lines(scene), acceptances_of(file), scene.accepted),
-                      scene_json(scene, update_rate));
+  const study::StudyFile alone = study_of(file);
+  return console.done(
+      scene_text(scene, update_rate) + checks_text(plausibility_lines(alone), study::acceptances_of(alone)),
+      scene_json(scene, update_rate));
 }
 
 ExitCode explain_study(const path& place, Console& console) {
@@ -183,8 +173,7 @@ std::string forecast_text(const study::StudyFile& file, const Forecast& forecast
     facts["end"] = report::clock_time(*begin + static_cast<std::time_t>(forecast.time), *begin);
   for (const auto& [key, value] : file.overrides)
     facts["overrides"].push_back(fmt::format("{:<19} {}", key, value));
-  return told("forecast.txt", facts) +
-         checks_text(facts["implausible"], study::acceptances_of(file), scene.accepted);
+  return told("forecast.txt", facts) + checks_text(facts["implausible"], study::acceptances_of(file));
 }
 
 Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {

@@ -78,10 +78,6 @@ std::string contradiction(const ReportArguments& report) {
 ExitCode perform(const ReportArguments& arguments, Console& console) {
   if (const std::string fault = contradiction(arguments); !fault.empty()) console.refuse(fault + usage_hint);
   if (arguments.index) return write_index(arguments.studies.front(), console);
-  std::optional<report::GapCriterion> criterion;
-  if (arguments.criterion)
-    criterion = console.value_of(
-        report::parse_criterion(*arguments.criterion, arguments.criterion_source.value_or("")));
   // Its report.md would take the place of the study's.
   if (const auto there = store::read_study_record(arguments.output);
       there && (!there->study.empty() || std::filesystem::exists(arguments.output / "study.json")))
@@ -91,6 +87,11 @@ ExitCode perform(const ReportArguments& arguments, Console& console) {
   if (arguments.templates)
     templates = console.value_of(report::read_templates(*arguments.templates, std::move(templates)));
   const report::SafetyEvidence evidence = console.value_of(report::read_safety_evidence(arguments.studies));
+  std::optional<report::GapCriterion> criterion;
+  if (arguments.criterion)
+    criterion = console.value_of(
+        report::parse_criterion(*arguments.criterion, *arguments.criterion_source,
+                                own_value(evidence.main(), "kinetics.ignition_temperature")));
   const report::RenderedReport rendered = console.value_of(report::make_safety_report(
       evidence, criterion, templates, arguments.document, {.stop = &stop_requested()}));
   if (stop_requested()) console.fail("interrupted while drawing; nothing was written", ExitCode::interrupted);

@@ -135,21 +135,46 @@ struct FollowingRuns {
   }
 };
 
-/// The launches of gaps that close, for those of the cases (or answers) that ask for them; `take` takes what
-/// they say of each. `counted`: the tracker has these cases as done, or else each is once its gaps are found.
+/// Launches of gaps that close, which a tracker expects before they come: as many as may at the most.
+struct ClosingLaunches {
+  ProgressTracker& tracker;
+  std::ptrdiff_t of_case = 0, left = 0;
+  double cost = 0;  ///< particle updates of each
+
+  /// Of so many cases like the first.
+  ClosingLaunches(const StudyFile& study, std::ptrdiff_t cases, ProgressTracker& its) : tracker(its) {
+    const StudyCase first = study.cases.front();
+    if (!first.closing) return;
+    of_case = std::ptrdiff_t(most_closing_launches(study.study, first));
+    cost = cost_of(study::skin_run(closing_scene(first), study.study.largest_gap, {}));
+    expect(cases * of_case);
+  }
+
+  void expect(std::ptrdiff_t launches) {
+    tracker.expect(launches - left, static_cast<double>(launches - left) * cost);
+    left = launches;
+  }
+};
+
+/// Performs them for those of the cases (or answers) that ask for them; `take` takes what they say of each.
 template <class Case, class Take>
 void run_closing_gaps(const std::vector<Case>& cases, CriticalGapResult& result, const StudyOptions& options,
-                      ProgressTracker& tracker, bool counted, Take take) {
-  tracker.begin(study::Phase::closing_gaps);
-  const study::RunBatch run = [&](std::vector<PlannedRun> runs, const auto& done) {
-    run_each(std::move(runs), options, tracker, result.timing, done);
-  };
+                      ClosingLaunches launches, Take take) {
   std::vector<std::size_t> closing;
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (cases[i].completed() && result.study.cases[i].closing) closing.push_back(i);
-  auto answers = find_closing_gaps(result.study, closing, run, [&](std::size_t) {
-    if (!counted && !stop_requested(options)) tracker.cases_ended(1, {});
-  });
+  std::ptrdiff_t open = std::ssize(closing);
+  launches.tracker.cases_ended(-open, {});
+  launches.tracker.begin(study::Phase::closing_gaps);
+  const study::RunBatch run = [&](std::vector<PlannedRun> runs, std::ptrdiff_t still_open, const auto& done) {
+    if (!stop_requested(options)) launches.tracker.cases_ended(open - still_open, {});
+    open = still_open;
+    // They take the places of those that were expected.
+    launches.expect(std::clamp<std::ptrdiff_t>(launches.left - std::ssize(runs), 0, open * launches.of_case));
+    run_each(std::move(runs), options, launches.tracker, result.timing, done);
+  };
+  auto answers = find_closing_gaps(result.study, closing, run);
+  launches.tracker.begin(study::Phase::report);
   for (std::size_t i = 0; i < closing.size(); ++i) take(closing[i], std::move(answers[i]));
 }
 
@@ -165,6 +190,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
       longer[i] = std::move(runs[i].runs.back());
       runs[i].runs.pop_back();
     }
+  const ClosingLaunches closing(study, std::ptrdiff_t(study.cases.size()), tracker);
   double foreseen = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) foreseen += following_cost(study, runs[i], longer[i]);
   tracker.expect(0, foreseen);
@@ -189,8 +215,8 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   run_each(std::move(following.runs), options, tracker, result.timing,
            [&](std::size_t i, const FinishedRun& finished) { following.takers[i](finished); });
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  run_closing_gaps(result.details, result, options, tracker, true,
-                   [&](std::size_t i, auto closing) { result.details[i].closing = std::move(closing); });
+  run_closing_gaps(result.details, result, options, closing,
+                   [&](std::size_t i, auto found) { result.details[i].closing = std::move(found); });
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);
@@ -200,17 +226,13 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
 
 /// Of many cases the answers, and where gaps close their bounds without the worst corner.
 void run_many(CriticalGapResult& result, const StudyOptions& options) {
-  result.answers = answer_cases(result.study, options, result.timing);
-  if (result.study.scene.scene.surface.model != GapModel::closing) return;
   ProgressTracker tracker(options.progress);
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CaseAnswer& answer = result.answers[i];
-    if (answer.outcome == RunOutcome::other_shard) continue;
-    tracker.expect_cases(1);
-    if (!answer.completed() || !result.study.cases[i].closing) tracker.cases_ended(1, answer.failure);
-  }
-  run_closing_gaps(result.answers, result, options, tracker, false, [&](std::size_t i, auto closing) {
-    take_closing(result.study.cases[i], std::move(closing), result.answers[i]);
+  const std::ptrdiff_t cases = std::ptrdiff_t(result.study.cases.size()) / options.shard.count;
+  const ClosingLaunches closing(result.study, cases, tracker);
+  result.answers = answer_cases(result.study, options, result.timing, tracker);
+  if (result.study.scene.scene.surface.model != GapModel::closing) return;
+  run_closing_gaps(result.answers, result, options, closing, [&](std::size_t i, auto found) {
+    take_closing(result.study.cases[i], std::move(found), result.answers[i]);
   });
 }
 

@@ -175,8 +175,10 @@ void settle_acceptances(const toml::table& root, const StudyKeys& keys, StudyFil
     study.study.implausible.push_back(
         scene::implausible(accepted, key, key.name, value, scene::plausible_text(key)));
   }
-  for (scene::Acceptance& each : accepted)
-    if (!scene::find_key(keys, each.key)) scene::accept(study.scene.scene.accepted, std::move(each));
+  for (scene::Acceptance& each : accepted) {
+    auto& all = scene::find_key(keys, each.key) ? study.study.accepted : study.scene.scene.accepted;
+    scene::accept(all, std::move(each));
+  }
 }
 
 Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,

@@ -263,10 +263,11 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
   return run_timed<SensitivityResult>(
       study, options,
       [&](SensitivityResult& result) {
-        result.answers = answer_cases(study, options, result.timing);
+        study::ProgressTracker tracker(options.progress);
+        result.answers = answer_cases(study, options, result.timing, tracker);
         if (!is_by_fit(study.study)) return;
         result.points = design_points(study.study);
-        add_launches(result, options);
+        add_launches(result, options, tracker);
       },
       [](SensitivityResult& result) {
         for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,

@@ -78,7 +78,8 @@ std::vector<double> next_points(const SensitivityResult& result, std::size_t cou
 }
 
 /// Computes launches at these points and adds them; false where they are not all there.
-bool add_round(SensitivityResult& result, const std::vector<double>& points, const StudyOptions& options) {
+bool add_round(SensitivityResult& result, const std::vector<double>& points, const StudyOptions& options,
+               study::ProgressTracker& tracker) {
   const study::UncertainInputs inputs = uncertain_inputs(result.study.study);
   const std::size_t axes = result.study.study.axes.size(), known = result.answers.size();
   const auto& own = settings_of<SensitivitySettings>(result.study);
@@ -96,14 +97,7 @@ bool add_round(SensitivityResult& result, const std::vector<double>& points, con
   } catch (const scene::InputError&) {
     return false;
   }
-  StudyOptions of_round = options;
-  if (options.progress)
-    of_round.progress = [&](study::Progress progress) {
-      progress.cases += known;
-      progress.cases_done += known;
-      options.progress(progress);
-    };
-  const std::vector<CaseAnswer> answers = answer_cases(round, of_round, result.timing);
+  const std::vector<CaseAnswer> answers = answer_cases(round, options, result.timing, tracker);
   if (std::ranges::count(answers, RunOutcome::not_stored, &CaseAnswer::outcome) > 0 ||
       stop_requested(options))
     return false;
@@ -178,7 +172,7 @@ void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& outpu
     }
 }
 
-void add_launches(SensitivityResult& result, const StudyOptions& options) {
+void add_launches(SensitivityResult& result, const StudyOptions& options, study::ProgressTracker& tracker) {
   constexpr std::size_t round = 8;
   const auto& own = settings_of<SensitivitySettings>(result.study);
   if (!options.shard.whole()) return;
@@ -187,7 +181,7 @@ void add_launches(SensitivityResult& result, const StudyOptions& options) {
     const auto most = static_cast<std::size_t>(own.most_samples), left = most - std::min(fitted, most);
     if (left == 0 || stop_requested(options)) return;
     const std::vector<double> points = next_points(result, std::min(round, left));
-    if (points.empty() || !add_round(result, points, options)) return;
+    if (points.empty() || !add_round(result, points, options, tracker)) return;
   }
 }
 

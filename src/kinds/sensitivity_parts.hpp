@@ -40,7 +40,7 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
 /// Adds launches to a result that has those of its design, until the errors that are asked are reached or
 /// there are as many as may be. None without an error that is asked, of a shard, or where runs are not stored
 /// and may not be computed.
-void add_launches(SensitivityResult& result, const StudyOptions& options);
+void add_launches(SensitivityResult& result, const StudyOptions& options, study::ProgressTracker& tracker);
 
 /// What was fitted, for `launchsafe ask`. Of a study that has its outputs.
 study::SurrogateRecord surrogate_record(const SensitivityResult& result);

@@ -13,24 +13,25 @@ Key<Study> study_number(std::string name, Dimension dimension, Limits limits, st
 constexpr const char *value_part = ".value", *because_part = ".because";
 
 /// The source of an uncertainty that is stated by hand; it is read after the value.
-Key<Study> because_key(const std::string& name, double Study::*member) {
+Key<Study> because_key(const std::string& name, double Study::*member, double assumed) {
   Key<Study> key{keys::description(name + because_part, scene::KeyKind::text, Standing::input,
                                    "Where that comes from, in words; told beside verdicts.")};
   key.example = "mesh study of this shell, 2.5 and 1.25 mm";
-  key.set = [name, member](Study& study, const Value& value) {
-    study.stated.push_back({name, study.*member, std::get<std::string>(value)});
+  key.set = [=](Study& study, const Value& value) {
+    study.stated.push_back({name, study.*member, std::get<std::string>(value), assumed});
   };
   key.get = [](const Study&) { return Value(std::string{}); };
   return key;
 }
 
-/// Of a temperature, K: NAME = { value = "1 K", because = "..." }.
-StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member) {
+/// Of a temperature, K: NAME = { value = "1 K", because = "..." }. `assumed`: K, at the least, without it.
+StudyKeys stated_uncertainty(const std::string& name, std::string sentence, double Study::*member,
+                             double assumed = study::not_a_number) {
   return {study_number(name + value_part, Dimension::temperature_difference, between(0, 1000),
                        std::move(sentence), member) |
               plausibly(between(1, 1000),
                         "no published temperature is met, and no mesh known to be exact, to a kelvin"),
-          because_key(name, member)};
+          because_key(name, member, assumed)};
 }
 
 /// The uncertainties that are stated by hand among some keys.
@@ -167,7 +168,7 @@ StudyKeys judging_keys() {
       {search_keys(),
        stated_uncertainty("numerical_uncertainty",
                           "Uncertainty of the maximum temperature from the mesh, from a mesh study.",
-                          &Study::numerical_uncertainty)});
+                          &Study::numerical_uncertainty, study::assumed_numerical_uncertainty)});
 }
 
 StudyKeys calibration_record_keys() {
@@ -205,11 +206,11 @@ StudyKeys uncertainty_keys() {
                           "Uncertainty of the maximum temperature from what is not known of the launch (see "
                           "kind sensitivity), for the study's own scene; if absent an assumed spread of load "
                           "and initial temperature is propagated, which takes a second run for every case.",
-                          &Study::input_uncertainty),
+                          &Study::input_uncertainty, study::assumed_temperature_spread),
        stated_uncertainty("model_form_uncertainty",
                           "By how much other models of the launch could be hotter, instead of such a record; "
                           "an assumed one if absent.",
-                          &Study::model_form_uncertainty)});
+                          &Study::model_form_uncertainty, study::assumed_model_form)});
 }
 
 StudyKeys reference_keys() {

@@ -22,18 +22,20 @@ constexpr Measure measures[] = {{"T max", "K", {"temperature_max_K", nullptr, 1.
                                 {"distance", "uncertainty", {"distance_cm", "distance_uncertainty_cm"}},
                                 {"distance", "uncertainties", {"distance_cm", "distance_uncertainty_cm"}}};
 
-/// What is wrong with the limit of a condition; empty for nothing. One uncertainty is part of SAFE already.
-std::string fault_of(const Measure& measure, bool at_most, double limit) {
+/// What is wrong with a limit; empty for nothing. One uncertainty, and no ignition (K), are part of SAFE.
+std::string fault_of(const Measure& measure, bool at_most, double limit, double ignition) {
   if (at_most != measure.one.at_most)
     return fmt::format("a {} is wanted that is {}", measure.word,
                        measure.one.at_most ? "small: <=" : "large: >=");
   if (!std::isfinite(limit) || limit <= 0.0) return "a limit is more than 0";
   if (measure.one.unit != nullptr && limit < 1.0) return "one uncertainty is part of SAFE already";
-  return *measure.unit == '\0' && limit >= 1.0 ? "a probability is below 1" : "";
+  if (*measure.unit == '\0') return limit < 1.0 ? "" : "a probability is below 1";
+  if (!at_most || limit < ignition) return "";
+  return fmt::format("the charge ignites at {:.6g} K, and every SAFE gap is colder", ignition);
 }
 
 /// "margin >= 2 uncertainty", or without blanks. Else why it is none; empty where no measure is recognised.
-std::variant<GapCriterion::Condition, std::string> condition_of(const std::string& text) {
+std::variant<GapCriterion::Condition, std::string> condition_of(const std::string& text, double ignition) {
   static const std::regex form(R"(([a-zA-Z ]*[a-zA-Z]) ?(<=|>=) ?([0-9.eE+-]*[0-9.]) ?([a-zA-Z]*))");
   std::smatch parts;
   if (!std::regex_match(text, parts, form)) return "";
@@ -43,7 +45,7 @@ std::variant<GapCriterion::Condition, std::string> condition_of(const std::strin
   if (!(stream >> limit) || stream.peek() != std::istringstream::traits_type::eof()) return "";
   for (const Measure& each : measures) {
     if (parts[1] != each.word || parts[4] != each.unit) continue;
-    if (std::string fault = fault_of(each, parts[2] == "<=", limit); !fault.empty()) return fault;
+    if (std::string fault = fault_of(each, parts[2] == "<=", limit, ignition); !fault.empty()) return fault;
     return GapCriterion::Condition{each.one.of, each.one.unit, each.one.limit * limit, each.one.at_most};
   }
   return "";
@@ -66,13 +68,14 @@ bool GapCriterion::met_by(const Row& verdict) const {
          });
 }
 
-scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source) {
+scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source,
+                                              double ignition) {
   GapCriterion criterion{on_one_line(text), on_one_line(source), {}};
   constexpr std::string_view between = " and ";
   const std::string all = criterion.text + std::string(between);
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t end = all.find(between, begin);
-    const auto condition = condition_of(all.substr(begin, end - begin));
+    const auto condition = condition_of(all.substr(begin, end - begin), ignition);
     if (const auto* why = std::get_if<std::string>(&condition))
       return scene::error_at(
           {}, "--criterion", fmt::format("\"{}\"{}{}", text, why->empty() ? "" : ", where ", *why),

@@ -152,7 +152,8 @@ std::string study_json(const study::StudyFile& study, const Report& report,
     head["firings"] = {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
   }
   for (const study::StatedUncertainty& each : study.study.stated)
-    head["stated_by_hand"].push_back({{"key", each.key}, {"K", each.value}, {"because", each.because}});
+    head["stated_by_hand"].push_back(
+        {{"key", each.key}, {"K", each.value}, {"assumed_K", each.assumed}, {"because", each.because}});
   if (study.study.kind.gives_verdicts) {
     head["assumed"] = assumed_json(study.study);
     add_acceptances(study::acceptances_of(study), head);

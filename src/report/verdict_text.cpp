@@ -219,11 +219,13 @@ std::vector<std::string> mesh_notes(const study::StudyFile& study) {
     facts["stated"].push_back({{"first", facts["stated"].empty()},
                                {"key", each.key},
                                {"K", each.value},
+                               {"assumed_K", each.assumed},
                                {"because", each.because}});
   add_off_grid(study, facts);
   // What nobody accepts, as a file would say it; the first where many cases have values of their own.
   constexpr std::size_t most_entries = 12;
-  std::vector<scene::Implausible> missing = study::acceptances_of(study).missing;
+  auto [accepted, missing, unneeded, extrapolated] = study::acceptances_of(study);
+  facts["unneeded"] = unneeded;
   facts["missing_count"] = missing.size();
   facts["missing_more"] = missing.size() > most_entries;
   missing.resize(std::min(missing.size(), most_entries));

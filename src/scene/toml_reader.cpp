@@ -50,8 +50,10 @@ InputError error_for(const Place& place, const KeyDescription& key, std::string 
 
 std::vector<double> within_limits(std::vector<double> numbers, const std::string& found,
                                   const KeyDescription& key, const Place& place) {
-  for (const double number : numbers)
+  for (double& number : numbers) {
     if (!key.limits.contain(number)) throw error_for(place, key, found);
+    number += 0.0;  // -0 is 0, also where it is written or compared by its digits
+  }
   if (key.list_length > 0 && numbers.size() != key.list_length)
     throw error_for(place, key, fmt::format("{} with {} values", found, numbers.size()));
   return numbers;
@@ -255,8 +257,8 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
   return caught([&, place = place_of(node, file)] {
     std::vector<Value> values;
     if (node.is_string() && key.kind == KeyKind::number && !units_of(key.dimension).empty()) {
-      const auto numbers = parse_numbers(node.as_string()->get(), key, place);
-      within_limits(numbers, found_text(node), key, place);
+      const auto numbers =
+          within_limits(parse_numbers(node.as_string()->get(), key, place), found_text(node), key, place);
       values.assign(numbers.begin(), numbers.end());
       return values;
     }

@@ -140,24 +140,24 @@ struct AnswerRunner {
   const StudyFile& study;
   const StudyOptions& options;
   Timing& timing;
+  ProgressTracker& tracker;
   std::string analysis = digest_of_analysis(study.study);
   std::vector<CaseRuns> cases = case_runs(study, options.shard.count);
   std::vector<std::optional<CaseAnswer>> answers = std::vector<std::optional<CaseAnswer>>(study.cases.size());
 
   std::vector<CaseAnswer> answer_all() {
     fetch_stored();
-    ProgressTracker tracker(options.progress);
-    drop_answered(tracker);
+    drop_answered();
     run_cases(cases, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
       answer_members(cases[i].members, runs);
-      for (const std::size_t member : cases[i].members) tell(tracker, member);
+      for (const std::size_t member : cases[i].members) tell(member);
     });
     std::vector<CaseAnswer> result;
     for (auto& answer : answers) result.push_back(std::move(*answer));
     return result;
   }
 
-  void tell(ProgressTracker& tracker, std::size_t i) const {
+  void tell(std::size_t i) const {
     if (answers[i]->critical.kind == CriticalGapKind::value)
       tracker.found({study.cases.label(i), answers[i]->critical.lower, answers[i]->critical.upper});
   }
@@ -182,7 +182,7 @@ struct AnswerRunner {
   }
 
   /// Leaves the runs behind which some case still needs an answer.
-  void drop_answered(ProgressTracker& tracker) {
+  void drop_answered() {
     std::map<std::string, std::size_t> answered_cases;  // by the reason why they failed, empty for none
     const auto is_answered = [this](std::size_t member) { return answers[member].has_value(); };
     std::erase_if(cases, [&](const CaseRuns& each) {
@@ -190,7 +190,7 @@ struct AnswerRunner {
       timing.reused += own_runs(each);
       tracker.expect_cases(each.members.size());
       for (const std::size_t member : each.members) {
-        tell(tracker, member);
+        tell(member);
         ++answered_cases[answers[member]->failure];
       }
       return true;
@@ -316,8 +316,9 @@ CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::ve
   return answer;
 }
 
-std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing) {
-  return AnswerRunner{study, options, timing}.answer_all();
+std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing,
+                                     ProgressTracker& tracker) {
+  return AnswerRunner{study, options, timing, tracker}.answer_all();
 }
 
 }  // namespace launchsafe::study

@@ -181,6 +181,10 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
     for (std::string& each : statements.extrapolated)
       if (is_new(each)) all.extrapolated.push_back(std::move(each));
   }
+  for (const auto* accepted : {&study.study.accepted, &study.scene.scene.accepted})
+    for (const auto& [key, value, because] : *accepted)
+      if (is_new(fmt::format("{} = {} {}", key, value, true)))
+        all.unneeded.push_back(fmt::format("{} = {}", key, value));
   return all;
 }
 

@@ -36,10 +36,9 @@ std::string fault_of(const scene::Scene& scene, const FinishedRun& run) {
 
 /// A gap as one launch has it.
 ClosingPoint point_of(const CaseRun& asked, const FinishedRun& run) {
-  ClosingPoint point;
-  point.gap = *asked.skin_gap;
-  point.release = asked.scene.surface.release;
-  point.unknown_for = fault_of(asked.scene, run);
+  ClosingPoint point{.gap = *asked.skin_gap,
+                     .release = asked.scene.surface.release,
+                     .unknown_for = fault_of(asked.scene, run)};
   if (!point.unknown_for.empty()) return point;
   const run::GapResult& gap = run.result.gaps.front();
   point.ignited = gap.skin.ignition.has_value();
@@ -64,20 +63,16 @@ ClosingPoint with_share(ClosingPoint point, const StudyCase& input, const Closin
 /// Takes one more launch into a point: one that ignites says enough, whatever another one lacks; else the
 /// hotter one counts, and one without a temperature leaves none.
 void join(const ClosingPoint& launch, ClosingPoint& point) {
-  point.launches += launch.launches;
-  point.at_most = larger_bound(point.at_most, launch.at_most);
-  point.recorded = point.recorded && launch.recorded;
   const bool counts =
       launch.ignited != point.ignited
           ? launch.ignited
           : point.unknown_for.empty() &&
                 (!launch.unknown_for.empty() || !(launch.maximum_temperature <= point.maximum_temperature));
-  if (!counts) return;
-  point.ignited = launch.ignited;
-  point.unknown_for = launch.unknown_for;
-  point.maximum_temperature = launch.maximum_temperature;
-  point.place = launch.place;
-  point.release = launch.release;
+  ClosingPoint both = counts ? launch : point;
+  both.launches = point.launches + launch.launches;
+  both.at_most = larger_bound(point.at_most, launch.at_most);
+  both.recorded = point.recorded && launch.recorded;
+  point = std::move(both);
 }
 
 bool is_known(const ClosingPoint& point) { return point.ignited || std::isfinite(point.maximum_temperature); }
@@ -113,10 +108,9 @@ std::vector<double> wanted(const Study& study, const Search& search) {
   for (const ClosingPoint& point : answer.points)
     if (is_open(search, point)) open.push_back(point.gap);
   if (!open.empty()) return open;
-  if (std::isfinite(answer.upper))
-    return answer.upper - answer.lower > study.tolerance
-               ? std::vector<double>{0.5 * (answer.lower + answer.upper)}
-               : std::vector<double>{};
+  const bool is_bracketed = std::isfinite(answer.upper);
+  if (is_bracketed && !(answer.upper - answer.lower > study.tolerance)) return {};
+  if (is_bracketed) return {0.5 * (answer.lower + answer.upper)};
   if (!answer.points.empty() && std::isnan(answer.upper)) return {};
   std::vector<double> gaps = search.scanned;
   std::erase_if(gaps, [&](double gap) { return answer.at(gap) != nullptr; });
@@ -192,7 +186,9 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
                 KnownLaunches& known) {
   std::vector<PlannedRun> runs;
   std::vector<std::string> hashes;  // of the launches
+  std::set<std::size_t> cases;
   for (const Asked& each : launches) {
+    cases.insert(each.search->index);
     const auto make = [&study, each] {
       return run_on(study.cases[each.search->index], *each.terms, each.gap);
     };
@@ -200,9 +196,8 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
     hashes.push_back(asked.hash);
     if (known.try_emplace(asked.hash).second) runs.push_back({make, cost_of(asked)});
   }
-  const auto makers = runs;
-  run(std::move(runs), [&](std::size_t i, const FinishedRun& finished) {
-    const CaseRun asked = makers[i].make();
+  run(runs, std::ssize(cases), [&](std::size_t i, const FinishedRun& finished) {
+    const CaseRun asked = runs[i].make();
     known.at(asked.hash) = point_of(asked, finished);
   });
   const auto temperature_of = [&](const Asked& launch) {
@@ -220,12 +215,8 @@ void add_points(const StudyFile& study, const std::vector<Asked>& launches, cons
 
 /// One of which nothing can be said at any gap.
 void leave_unknown(const Search& search) {
-  for (const double gap : search.scanned) {
-    ClosingPoint& point = search.answer->points.emplace_back();
-    point.gap = gap;
-    point.unknown_for = search.bound.unknown_for;
-  }
-  narrow(*search.answer);
+  for (const double gap : search.scanned)
+    search.answer->points.push_back({.gap = gap, .unknown_for = search.bound.unknown_for});
 }
 
 }  // namespace
@@ -238,8 +229,7 @@ const ClosingPoint* ClosingAnswer::at(double gap) const {
 
 std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
                                                           const std::vector<std::size_t>& cases,
-                                                          const RunBatch& run,
-                                                          const std::function<void(std::size_t)>& on_done) {
+                                                          const RunBatch& run) {
   std::vector<std::vector<ClosingAnswer>> answers(cases.size());
   std::vector<Search> searches;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -253,20 +243,15 @@ std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study
     }
   }
   KnownLaunches known;
-  std::set<std::size_t> open(cases.begin(), cases.end());
-  while (!open.empty()) {
-    const std::vector<Asked> launches = launches_of(study.study, searches);
-    std::set<std::size_t> sought;
-    for (const Asked& each : launches) sought.insert(each.search->index);
-    for (const std::size_t index : open)
-      if (!sought.contains(index)) on_done(index);
-    open = std::move(sought);
+  std::vector<Asked> launches;
+  do {
+    launches = launches_of(study.study, searches);
     add_points(study, launches, run, known);
     for (const Search& search : searches) {
       std::ranges::sort(search.answer->points, {}, &ClosingPoint::gap);
       narrow(*search.answer);
     }
-  }
+  } while (!launches.empty());
   return answers;
 }
 

@@ -260,6 +260,7 @@ ProgressTracker::ProgressTracker(ProgressCallback callback, Clock clock)
 void ProgressTracker::begin(Phase phase) {
   const std::lock_guard lock(mutex_);
   progress_.phase = phase;
+  report();
 }
 
 void ProgressTracker::expect(std::ptrdiff_t tasks, double cost) {
@@ -274,9 +275,10 @@ void ProgressTracker::expect_cases(std::size_t cases) {
   progress_.cases += cases;
 }
 
-void ProgressTracker::cases_ended(std::size_t cases, const std::string& failure) {
+void ProgressTracker::cases_ended(std::ptrdiff_t cases, const std::string& failure) {
   const std::lock_guard lock(mutex_);
-  progress_.cases_done += cases;
+  progress_.cases_done = static_cast<std::size_t>(
+      std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(progress_.cases_done) + cases));
   if (!failure.empty()) {
     progress_.cases_failed += cases;
     const bool is_told_apart =

@@ -3,8 +3,10 @@
 namespace launchsafe::study {
 namespace {
 
-/// A difference of temperatures (K) to the digits that count, never as a power of ten.
+/// A margin or an uncertainty (K) to the digits that count, never as a power of ten; why it is no number.
 std::string kelvin(double value, int digits) {
+  if (std::isnan(value)) return "not known";
+  if (std::isinf(value)) return "infinite because the launch ignites at an end of its ranges";
   return std::abs(value) < std::pow(10.0, digits) ? fmt::format("{:.{}g} K", value, digits)
                                                   : fmt::format("{:.0f} K", value);
 }
@@ -71,10 +73,11 @@ std::string cause_text(const GapVerdict& row) {
   const CaseEvidence& of_case = *row.of_case;
   const std::string unaccepted = unaccepted_text(of_case.input);
   const std::string& optimistic = of_case.input.optimistic;
-  const std::string corner = std::isfinite(row.closing.corner_margin)
-                                 ? fmt::format("the margin is {:.1f} K, and the uncertainty {:.2g} K",
-                                               row.closing.corner_margin, row.closing_uncertainty())
-                                 : "it ignites";
+  const std::string corner =
+      std::isfinite(row.closing.corner_margin)
+          ? fmt::format("the margin is {:.1f} K, and the uncertainty {}", row.closing.corner_margin,
+                        kelvin(row.closing_uncertainty(), 2))
+          : "it ignites";
   return fmt::format(
       fmt::runtime(text), fmt::arg("failure", of_case.failure),
       fmt::arg("warnings", validity_warnings_text(row)), fmt::arg("unaccepted", unaccepted),

@@ -149,6 +149,8 @@ TEST_F(ReportCommand, BadInputIsOneMessage) {
             "margin >= N uncertainty");
   refused({"report", "out", "-o", "safety", "--criterion", "margin >= 2 K", "--criterion-source", " "},
           "--criterion-source");
+  refused({"report", "out", "-o", "safety", "--criterion", "T max <= 9999 K", "--criterion-source", "a"},
+          "the charge ignites at 526.784 K");
   refused({"report", "out", "-o", "safety", "--templates", "nowhere"}, "found no template there");
 }
 

@@ -2,6 +2,7 @@
 // meant.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
+#include "launchsafe/report/study_text.hpp"
 #include "launchsafe/study/accuracy_record.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "study/synthetic_launch.hpp"
@@ -143,6 +144,18 @@ TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {
   }
 }
 
+// 12 K of initial temperature alone are assumed where a study states no uncertainty of its inputs.
+TEST(StudyPlausibility, AStatedUncertaintyIsHeldAgainstTheAssumedOneWhereItIsSmaller) {
+  const auto tells = [](const std::string& kelvins, const std::string& note) {
+    const StudyFile study = study_of(critical_kind + stated("input_uncertainty", kelvins));
+    return std::ranges::count(report::mesh_notes(study), note) == 1;
+  };
+  EXPECT_TRUE(
+      tells("10 K",
+            "Stated by hand: input_uncertainty 10 K instead of at least 12 K assumed, because for a test."));
+  EXPECT_TRUE(tells("12 K", "Stated by hand: input_uncertainty 12 K, because for a test."));
+}
+
 TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
   const std::string text =
       critical_text + "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n" +
@@ -232,6 +245,23 @@ TEST(StudyPlausibility, AcceptancesOfAStudyReachEveryCase) {
     EXPECT_EQ(each.scene.scene.accepted[0].because, "a coated charge");
   }
   EXPECT_FALSE(parse_here(accept("gap.skin_thicknes", "0.2 mm", "a coated charge") + critical_text));
+}
+
+TEST(StudyPlausibility, AnAcceptanceThatNothingNeedsIsTold) {
+  const std::string needed = entry("gap.skin_thickness", "1 cm", "it was measured so"),
+                    of_scene = entry("load.peak", "500 MPa", "as it was stated"),
+                    of_study = entry("tolerance", "0.001 cm", "as it was stated");
+  const std::string text = "accept = [" + needed + ", " + of_scene + ", " + of_study + "]\n" + safe_study("");
+  const StudyFile plausible = study_of(text);
+  EXPECT_EQ(
+      acceptances_of(plausible).unneeded,
+      (std::vector<std::string>{"tolerance = 0.001 cm", "gap.skin_thickness = 1 cm", "load.peak = 500 MPa"}));
+  EXPECT_TRUE(acceptances_of(plausible).accepted.empty());
+  const std::vector<std::string> notes =
+      report::mesh_notes(study_of(text + "gap.skin_thickness = \"1 cm\"\n"));
+  EXPECT_EQ(std::ranges::count(
+                notes, "Accepted, but plausible or in no case: tolerance = 0.001 cm, load.peak = 500 MPa."),
+            1);
 }
 
 TEST(StudyPlausibility, AnAcceptanceIsNoOtherShellForAnAccuracyRecord) {

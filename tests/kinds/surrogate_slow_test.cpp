@@ -91,7 +91,8 @@ vary = [
       others, chosen.size(), [&](std::size_t row) { return chosen[row]; },
       [](std::size_t row, const StudyCase&) { return fmt::format("other {}", row + 1); });
   Timing timing;
-  const std::vector<CaseAnswer> answers = answer_cases(others, two_jobs(), timing);
+  ProgressTracker tracker({});
+  const std::vector<CaseAnswer> answers = answer_cases(others, two_jobs(), timing, tracker);
   ASSERT_TRUE(std::ranges::all_of(answers, &CaseAnswer::completed));
 
   for (const char* name : {"temperature_max", "critical_gap"}) {

@@ -114,6 +114,27 @@ TEST(Sweep, WhileItsGapsCloseItsCasesAreCountedUntilTheyAreFound) {
   EXPECT_EQ(told.back().cases_failed, 0u);
 }
 
+// What has to be done is known from the start, but for what need not be: a share that was reached is not left
+// again, and nothing is complete before the last launch. Costs of launches on other terms differ by a
+// percent.
+TEST(Sweep, ItsProgressCoversTheGapsThatClose) {
+  Counting counting;
+  StudyOptions options = closing_options(counting, [](const auto&, double gap) { return gap > 0.0003; });
+  options.jobs = 1;
+  std::vector<Progress> told;
+  options.progress = [&](const Progress& progress) { told.push_back(progress); };
+  run_critical_gap(parting_sweep_of(closes), options);
+  ASSERT_GT(told.size(), 10u);
+  EXPECT_EQ(told.front().phase, Phase::launches);
+  EXPECT_EQ(told.back().done, told.back().total);
+  double reached = 0.0;
+  for (const Progress& each : told) {
+    EXPECT_GE(each.fraction, reached - 0.01);
+    reached = std::max(reached, each.fraction);
+  }
+  EXPECT_TRUE(std::ranges::is_partitioned(told, [](const Progress& each) { return each.done < each.total; }));
+}
+
 // The worst corner of how a gap closes is not computed in a sweep, whatever is stored of the reservoir.
 TEST_F(StoredSweep, IsSafeNowhereWhereItsGapsClose) {
   Counting counting;

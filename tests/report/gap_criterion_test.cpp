@@ -18,6 +18,8 @@ Row row_of(double gap, bool safe, double margin, double uncertainty, double dist
           {"distance_cm", distance}, {"distance_uncertainty_cm", its_uncertainty}};
 }
 
+constexpr double ignition = 526.784;  // K, of the 155 mm shell
+
 /// The rows of the 155 mm shell's main job, rounded.
 const std::vector<Row> main_job{
     row_of(0.0, true, 103, 22, 0.0394, 0.0094), row_of(0.01, true, 77, 23, 0.0294, 0.0094),
@@ -25,7 +27,7 @@ const std::vector<Row> main_job{
     row_of(0.04, false, -265, 29, -0.001, 0.0094)};
 
 double largest_under(const std::string& text, const std::vector<Row>& table = main_job) {
-  const auto criterion = parse_criterion(text, "a standard");
+  const auto criterion = parse_criterion(text, "a standard", ignition);
   EXPECT_TRUE(criterion) << text;
   return largest_gap_under(*criterion, table).value_or(-1.0);
 }
@@ -114,12 +116,12 @@ TEST(GapCriterion, AnythingElseIsRefused) {
                            "margin >= 2,5 K",
                            "not margin >= 2 K",
                            "margin >= 2 K distance >= 1 mm"}) {
-    const auto parsed = parse_criterion(text, "a standard");
+    const auto parsed = parse_criterion(text, "a standard", ignition);
     ASSERT_FALSE(parsed) << text;
     EXPECT_EQ(parsed.error().key, "--criterion") << text;
   }
   for (const char* source : {"", " ", "\t\r\n"}) {
-    const auto parsed = parse_criterion("margin >= 2 uncertainty", source);
+    const auto parsed = parse_criterion("margin >= 2 uncertainty", source, ignition);
     ASSERT_FALSE(parsed);
     EXPECT_EQ(parsed.error().key, "--criterion-source");
   }
@@ -130,8 +132,10 @@ TEST(GapCriterion, IsRefusedWithTheReason) {
                                   {"T max >= 450 K", "that is small: <="},
                                   {"margin <= 20 K", "that is large: >="},
                                   {"margin >= 0 K", "more than 0"},
-                                  {"probability <= 1", "below 1"}}) {
-    const auto parsed = parse_criterion(text, "a standard");
+                                  {"probability <= 1", "below 1"},
+                                  {"T max <= 526.784 K", "ignites at 526.784 K"},
+                                  {"T max <= 9999 K and margin >= 2 K", "ignites at 526.784 K"}}) {
+    const auto parsed = parse_criterion(text, "a standard", ignition);
     ASSERT_FALSE(parsed) << text;
     EXPECT_NE(parsed.error().found.find(why), std::string::npos) << parsed.error().found;
   }
@@ -139,7 +143,7 @@ TEST(GapCriterion, IsRefusedWithTheReason) {
 
 TEST(GapCriterion, WordsAreToldOnOneLine) {
   const auto parsed =
-      parse_criterion(" margin >=\n 2   K\tand distance >= 1 mm ", " works\n\n# standard  12\r");
+      parse_criterion(" margin >=\n 2   K\tand distance >= 1 mm ", " works\n\n# standard  12\r", ignition);
   ASSERT_TRUE(parsed);
   EXPECT_EQ(parsed->text, "margin >= 2 K and distance >= 1 mm");
   EXPECT_EQ(parsed->source, "works # standard 12");
@@ -159,7 +163,7 @@ TEST(GapCriterion, WhatIsRecommendedIsSafeWithAllThatIsSmaller) {
     std::shuffle(table.begin(), table.end(), random);
     const char* texts[] = {"margin >= 1 uncertainty", "margin >= 0.1 K", "distance >= 1 uncertainty",
                            "distance >= 0.1 cm and margin >= 1 uncertainty"};
-    const auto criterion = parse_criterion(texts[i % 4], "a standard");
+    const auto criterion = parse_criterion(texts[i % 4], "a standard", ignition);
     ASSERT_TRUE(criterion);
     const std::optional<double> largest = largest_gap_under(*criterion, table);
     if (!largest) continue;

@@ -44,7 +44,7 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
 }
 
 TEST_F(SafetyReport, ASweepByItselfRecommendsNothingAndSaysWhatIsExtrapolated) {
-  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12");
+  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12", 526.784);
   ASSERT_TRUE(criterion);
   const std::string page = file_of({copy_of("sweep_pressure_defect")}, "report.md", *criterion);
   EXPECT_TRUE(has(page, "no gap is recommended"));

@@ -7,7 +7,7 @@ namespace launchsafe::report {
 namespace {
 
 TEST_F(SafetyReport, ACriterionIsNamedWithItsSourceAndWhatItAllows) {
-  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12");
+  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12", 526.784);
   ASSERT_TRUE(criterion);
   const std::string page = file_of({shipped("critical_gap_155mm")}, "report.md", *criterion);
   EXPECT_TRUE(has(page, "Recommended largest gap, at 300 K before launch: 0.01 cm"));
@@ -281,7 +281,7 @@ TEST_F(SafetyReport, AnUncertaintyStatedByHandStandsOnPageOneWithItsSource) {
 TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirGap) {
   const path study = copy_of("critical_gap_155mm"), drawn = copy_of("sensitivity");
   const auto recommended = [&](const std::string& text) {
-    const auto criterion = parse_criterion(text, "works standard 12");
+    const auto criterion = parse_criterion(text, "works standard 12", 526.784);
     return nlohmann::json::parse(
         file_of({study, drawn}, "report.json", *criterion))["answer"]["recommended_gap_cm"];
   };
@@ -324,7 +324,7 @@ TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOth
 // Issue 34: SAFE only where the reservoir is SAFE and the worst corner of a gap that closes does not ignite.
 TEST_F(SafetyReport, NoGapIsSafeThatIsNotSafeWhereItCloses) {
   const path reservoir = shipped("critical_gap_155mm"), closing = copy_of("closing_gap_155mm");
-  const auto criterion = *parse_criterion("margin >= 1.5 uncertainty", "works standard 12");
+  const auto criterion = *parse_criterion("margin >= 1.5 uncertainty", "works standard 12", 526.784);
   const auto answer = [&](const std::vector<path>& studies) {
     return nlohmann::json::parse(file_of(studies, "report.json", criterion))["answer"];
   };

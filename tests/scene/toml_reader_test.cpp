@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace launchsafe::scene {
 namespace {
 
@@ -56,6 +58,21 @@ anything = "is read by others"
   EXPECT_EQ(thing->colour, Colour::green);
   EXPECT_EQ(thing->times, (std::vector<double>{1e-3, 2e-5}));
   EXPECT_EQ(thing->share, 1.0);
+}
+
+// -0 equals 0, and yet "-0" would stand in tables, and in the text by which a stored run is found.
+TEST(TomlReader, MinusZeroIsZero) {
+  const auto thing = read_thing("times = \"-0 ms, -0.0 s, 1 ms\"\nshare = -0.0\n");
+  ASSERT_TRUE(thing) << thing.error().message();
+  EXPECT_FALSE(std::signbit(thing->share));
+  for (const double time : thing->times) EXPECT_FALSE(std::signbit(time));
+  const KeyDescription share{.name = "share", .dimension = Dimension::share};
+  const auto written = parse_value("-0 %", share, {});
+  ASSERT_TRUE(written);
+  EXPECT_FALSE(std::signbit(std::get<double>(*written)));
+  const auto varied = read_values(toml::value<std::string>("-0 %, 5 %"), share, "thing.toml");
+  ASSERT_TRUE(varied);
+  EXPECT_FALSE(std::signbit(std::get<double>(varied->front())));
 }
 
 TEST(TomlReader, LeavesDefaultsWhereNothingIsSaid) {

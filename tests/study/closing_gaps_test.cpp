@@ -49,7 +49,7 @@ FinishedRun launch_of(const CaseRun& asked, double kelvin) {
 template <class Finish>
 std::vector<ClosingAnswer> answers_of(const StudyFile& study, Finish finish) {
   return find_closing_gaps(study, {0},
-                           [&](const std::vector<PlannedRun>& runs, const auto& take) {
+                           [&](const std::vector<PlannedRun>& runs, std::ptrdiff_t, const auto& take) {
                              for (std::size_t i = 0; i < runs.size(); ++i) take(i, finish(runs[i].make()));
                            })
       .front();

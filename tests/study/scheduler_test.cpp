@@ -168,6 +168,17 @@ TEST(ProgressTracker, CountsCasesFailuresByReasonAndTheSmallestGaps) {
   EXPECT_EQ(of.told.smallest_gaps.size(), 40u);
 }
 
+TEST(ProgressTracker, CasesThatGoOnAreNotDone) {
+  Tracked of;
+  of.tracker.expect_cases(3);
+  of.tracker.cases_ended(2, "");
+  of.tracker.cases_ended(-2, "");
+  of.tracker.cases_ended(1, "");
+  EXPECT_EQ(of.told.cases_done, 1u);
+  of.tracker.cases_ended(-5, "");
+  EXPECT_EQ(of.told.cases_done, 0u);
+}
+
 TEST(ProgressTracker, TellsFewReasonsApart) {
   Tracked of;
   for (int i = 0; i < 100; ++i) of.tracker.cases_ended(1, "needs " + std::to_string(i) + " GB");

@@ -101,6 +101,19 @@ TEST(Verdict, ReasonsHaveNoPowersOfTen) {
   EXPECT_EQ(reason_of(evidence, none_up_to(1e-3, no_ignition)), "margin 1034 K over uncertainty 138 K");
 }
 
+// 0.035 cm as the only gap and as the end of the search: the 155 mm shell does not ignite there, and with its
+// load raised by 4 % it does. "inf K" said nothing of that.
+TEST(Verdict, AnUncertaintyThatIsNoNumberIsToldInWords) {
+  GapVerdict evidence = calm();
+  evidence.uncertainty.input = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(
+      reason_of(evidence, none_up_to(evidence.gap, no_ignition)),
+      "margin 32 K within the uncertainty, infinite because the launch ignites at an end of its ranges");
+  evidence.uncertainty.input = nan_value;
+  EXPECT_EQ(reason_of(evidence, none_up_to(evidence.gap, no_ignition)),
+            "margin 32 K within the uncertainty, not known");
+}
+
 TEST(Verdict, WhereAnEndIgnitesWithoutAGapNoneIsSafe) {
   GapVerdict evidence = calm();
   evidence.gap = 0.0;

@@ -126,8 +126,10 @@ struct GapCriterion {
 /// Reads "T max <= 450 K", "margin >= 2 uncertainty", "margin >= 20 K", "distance >= 0.01 cm", "distance >= 1
 /// uncertainty", "probability <= 0.05", or several of them with "and" between, with blanks or without.
 /// Margins are in K, distances are those to the critical gap in cm (or mm). Numbers must be positive; one
-/// uncertainty is part of SAFE already, so fewer are refused. Errors: any other text, no source.
-scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source);
+/// uncertainty is part of SAFE already, so fewer are refused, as is T max from `ignition` (K) on, of the
+/// charge. Errors: any other text, no source.
+scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std::string& source,
+                                              double ignition);
 
 /// cm: the largest computed gap that meets the criterion together with every smaller computed one. Only gaps
 /// that were computed count: nothing is interpolated.

@@ -81,7 +81,8 @@ LoadCurveErrors load_curve_errors(const scene::Load& load);
 struct AcceptancesOfStudy {
   std::vector<scene::Implausible> accepted;  ///< by key and by what the user writes as its value
   std::vector<scene::Implausible> missing;   ///< by key and value
-  std::vector<std::string> extrapolated;     ///< as in the reasons of verdicts
+  std::vector<std::string> unneeded;      ///< "load.peak = 500 MPa" that is accepted, and no case has to be
+  std::vector<std::string> extrapolated;  ///< as in the reasons of verdicts
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
 
@@ -156,18 +157,17 @@ std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corne
 /// of that range: as ln of the heating is linear in 1/T, it does so if at both of its ends.
 std::vector<materials::KineticsParameters> kinetics_of(const scene::Scene& scene);
 
-/// Performs runs and hands over what became of each, from any thread.
-using RunBatch = std::function<void(std::vector<PlannedRun> runs,
+/// Performs runs, for which so many cases wait, and hands over what became of each, from any thread.
+using RunBatch = std::function<void(std::vector<PlannedRun> runs, std::ptrdiff_t cases,
                                     const std::function<void(std::size_t run, const FinishedRun&)>& take)>;
 
 /// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study up to the largest
 /// one of its search are computed, then the first that ignites is narrowed down to the study's tolerance. In
 /// detail all of them and a scan between them, with the corner; of many cases from the thinnest up to the
-/// first that ignites or is not known, without the corner. `on_done` is called of each case of which nothing
-/// is sought any more.
-std::vector<std::vector<ClosingAnswer>> find_closing_gaps(
-    const StudyFile& study, const std::vector<std::size_t>& cases, const RunBatch& run,
-    const std::function<void(std::size_t index)>& on_done = [](std::size_t) {});
+/// first that ignites or is not known, without the corner. At last no case waits.
+std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
+                                                          const std::vector<std::size_t>& cases,
+                                                          const RunBatch& run);
 /// Launches of a case that may be asked for, at most.
 std::size_t most_closing_launches(const Study& study, const StudyCase& input);
 
@@ -274,7 +274,8 @@ CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome 
 std::optional<CaseAnswer> judged(CaseAnswer answer, const Study& study, const StudyCase& input);
 
 /// An answer for every case; one that was not run, failed or belongs to another shard says so.
-std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing);
+std::vector<CaseAnswer> answer_cases(const StudyFile& study, const StudyOptions& options, Timing& timing,
+                                     ProgressTracker& tracker);
 
 /// How far a run came that was cut off depends on the machine, and is no part of the result.
 bool was_cut_off(const FinishedRun& run);

@@ -64,8 +64,8 @@ class ProgressTracker {
   void expect(std::ptrdiff_t tasks, double cost);
   /// Cases of the study.
   void expect_cases(std::size_t cases);
-  /// So many cases came to an end, which failed where a reason is given.
-  void cases_ended(std::size_t cases, const std::string& failure);
+  /// So many cases came to an end, which failed where a reason is given; negative of those that go on.
+  void cases_ended(std::ptrdiff_t cases, const std::string& failure);
   void found(FoundGap gap);
   void started();
   /// A running task has done `share` (0..1) of its work since its last report.

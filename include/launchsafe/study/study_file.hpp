@@ -196,9 +196,10 @@ struct CitedLimit {
 
 /// An uncertainty that a study states by hand, and on what grounds.
 struct StatedUncertainty {
-  std::string key;      ///< "numerical_uncertainty"
-  double value = 0;     ///< K, of T max
-  std::string because;  ///< the source, in words
+  std::string key;                ///< "numerical_uncertainty"
+  double value = 0;               ///< K, of T max
+  std::string because;            ///< the source, in words
+  double assumed = not_a_number;  ///< K, at the least, where it is not stated
 };
 
 /// The launch under a raised load, for the spread of the peak pressure.
@@ -254,6 +255,7 @@ struct Study {
 
   /// What the study itself states, rather than its scene, and is not plausible; accepted or not.
   std::vector<scene::Implausible> implausible;
+  std::vector<scene::Acceptance> accepted;  ///< what is accepted of it, needed or not
 };
 
 /// K, on a grid that does not run along the charge, or with other than one particle a cell: the largest bound

@@ -211,7 +211,7 @@ struct ClosingPoint {
   double gap = 0;                             ///< m
   double maximum_temperature = not_a_number;  ///< K, at any depth and station; NaN where a run has none
   bool ignited = false;
-  std::string place;             ///< station of the maximum
+  std::string place = {};        ///< station of the maximum
   double release = 0;            ///< s, of the terms on which that is
   std::string unknown_for = {};  ///< why there is no temperature; empty where there is one
   /// K, up to which T max may be by mesh, steps and columns of its launches, of which the hottest need not be
