@@ -155,9 +155,9 @@ StudyKeys search_keys() {
           plausibly(between(1e-9, 2e-4),
                     "a wider bracket says little of gaps that are tenths of a millimetre"),
       study_number(
-          "largest_gap", Dimension::length, above_to(0, 0.01),
-          "Where the search for the critical gap ends; without ignition up to there only gaps up to half "
-          "of it can be SAFE.",
+          "largest_gap", Dimension::length, above_to(0, study::widest_search),
+          "Where the search for the critical gap ends. Without ignition up to there no gap is SAFE, unless it "
+          "is the largest value, of which gaps up to half can be.",
           &Study::largest_gap) |
           plausibly(between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
   };

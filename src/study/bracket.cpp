@@ -167,12 +167,13 @@ void set_shares(CriticalGap& gap, std::vector<GapShare> shares) {
   gap.shares = std::move(shares);
   gap.bounds = {};
   if (gap.kind == CriticalGapKind::value) gap.bounds = bounds_of(gap.lower, gap.upper, gap.shares);
-  // A critical gap just beyond the end of the search may have its bound well before it: shares without an
-  // ignition up to there are not 0, but unknown. Of gaps up to half of that end the margin decides too.
+  // A critical gap beyond the end of the search may have its bound anywhere before it: shares without an
+  // ignition up to there are not 0, but unknown. Of gaps that the widest search knows the margin decides too.
   if (gap.kind == CriticalGapKind::all_safe)
-    gap.bounds = {
-        std::min(bounds_of(gap.lower, gap.lower, gap.shares).at_least, known_part_of_search * gap.lower),
-        no_ignition};
+    gap.bounds = {gap.lower < widest_search ? 0.0
+                                            : std::min(bounds_of(gap.lower, gap.lower, gap.shares).at_least,
+                                                       known_part_of_search * gap.lower),
+                  no_ignition};
   if (gap.kind == CriticalGapKind::all_ignite)
     gap.bounds = {0.0, bounds_of(gap.upper, gap.upper, gap.shares).at_most};
 }

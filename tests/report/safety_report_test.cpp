@@ -177,7 +177,7 @@ TEST_F(SafetyReport, ABoundOfAnEarlierProgramAtTheEndOfTheSearchIsRefused) {
       found[key] = nullptr;
   });
   EXPECT_TRUE(
-      has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3, and what it follows from makes it 0.15"))
+      has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3, and what it follows from makes it 0"))
       << fault_of({sweep});
 }
 

@@ -119,8 +119,9 @@ struct CriticalGap {
   GapOrBound indicative = math::not_a_number;
 };
 
-/// Of where a search without ignition ended, the part up to which a lower bound may lie.
-constexpr double known_part_of_search = 0.5;
+/// m: where the widest search ends that a study may ask for. Without ignition up to there a lower bound may lie
+/// in the first part of it; an earlier end says nothing of what lies beyond, and gives no bound but 0.
+constexpr double widest_search = 0.01, known_part_of_search = 0.5;
 
 /// Takes the shares, and draws the bounds from them. Nothing can be said of one that is indeterminate.
 void set_shares(CriticalGap& gap, std::vector<GapShare> shares);
