@@ -231,6 +231,13 @@ CalibrationTargets calibration_targets(const StudyFile& study) {
     }
     safe = std::max(safe, row.gap);
     if (!row.calibrated) continue;
+    const double peak = study.scene.scene.load.peak;
+    if (std::abs(row.peak_pressure - peak) > 1e-6 * peak)
+      refuse_rows(study,
+                  fmt::format("a calibrated row of a launch of {}, and a scene of {}",
+                              format_quantity(row.peak_pressure, Dimension::pressure),
+                              format_quantity(peak, Dimension::pressure)),
+                  "rows of the launch that the scene describes");
     const bool is_zero = row.gap == 0.0;
     ++(is_zero ? zero : wide);
     (is_zero ? targets.zero_gap : targets.wide_gap) = row;

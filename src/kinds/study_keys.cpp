@@ -60,6 +60,9 @@ Key<Reference> reference_number(std::string name, Dimension dimension, std::stri
 
 const std::vector<Key<Reference>> published_row_keys{
     reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap) | required(),
+    reference_number("peak_pressure", Dimension::pressure,
+                     "Peak pressure of its launch; constants are fitted to no launch of another.",
+                     &Reference::peak_pressure),
     reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                      &Reference::maximum_temperature),
     text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",
@@ -154,11 +157,11 @@ StudyKeys search_keys() {
           &Study::tolerance) |
           plausibly(between(1e-9, 2e-4),
                     "a wider bracket says little of gaps that are tenths of a millimetre"),
-      study_number(
-          "largest_gap", Dimension::length, above_to(0, study::widest_search),
-          "Where the search for the critical gap ends. Without ignition up to there no gap is SAFE, unless it "
-          "is the largest value, of which gaps up to half can be.",
-          &Study::largest_gap) |
+      study_number("largest_gap", Dimension::length, above_to(0, study::widest_search),
+                   "Where the search for the critical gap ends. Without ignition up to there no gap is SAFE, "
+                   "unless it "
+                   "is the largest value, of which gaps up to half can be.",
+                   &Study::largest_gap) |
           plausibly(between(1e-4, 0.01), "a search that ends at less finds no gap that ignites"),
   };
 }

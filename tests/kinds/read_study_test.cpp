@@ -197,6 +197,18 @@ TEST(ReadStudy, ACalibrationNeedsItsRows) {
   EXPECT_EQ(error.line, 3);
 }
 
+// Constants fitted under 550 MPa to the rows of a launch of 496 MPa made 0.005 cm SAFE, of which those of 496
+// MPa show that it may ignite without a gap.
+TEST(ReadStudy, ACalibrationFitsNothingToRowsOfALaunchOfAnotherPeakPressure) {
+  const std::string start =
+      "kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nreferences = \"table8.toml\"\n[set]\nload.peak "
+      "= ";
+  const scene::InputError error = error_of(start + "\"550 MPa\"\n");
+  EXPECT_NE(error.found.find("a launch of 496 MPa, and a scene of 550 MPa"), std::string::npos)
+      << error.message();
+  study_of(start + "\"496 MPa\"\n");
+}
+
 // A message that names what is allowed must not give an example that is not.
 TEST(ReadStudy, TheExampleOfSeveralNumbersHasNoneThatTheKeyRefuses) {
   scene::KeyDescription key = *scene::find_key(scene::scene_keys(), "gap.roughness");

@@ -83,8 +83,8 @@ TEST(Verdict, WithoutACriticalGapInReachTheMarginDecidesToo) {
 }
 
 // On the 155 mm shell a search that ended at 0.031 cm made 0.03 cm SAFE, of which one up to 0.1 cm found the
-// critical gap at 0.0382 cm, and that it may be as small as 0.0273 cm. With uncertainties of 20 K each one up to
-// 0.0305 cm made 0.0152 cm SAFE, of which one up to 0.1 cm found that it may be as small as 0.0076 cm.
+// critical gap at 0.0382 cm, and that it may be as small as 0.0273 cm. With uncertainties of 20 K each one up
+// to 0.0305 cm made 0.0152 cm SAFE, of which one up to 0.1 cm found that it may be as small as 0.0076 cm.
 TEST(Verdict, AnEarlyEndOfTheSearchMakesNoGapSafe) {
   GapVerdict evidence = calm();
   for (const double end : {3e-4, 3.1e-4, 1e-3, 0.99 * widest_search}) {
@@ -99,7 +99,8 @@ TEST(Verdict, ReasonsHaveNoPowersOfTen) {
   GapVerdict evidence = calm();
   evidence.margin = 1034.5;
   evidence.uncertainty.input = 138.2;
-  EXPECT_EQ(reason_of(evidence, none_up_to(widest_search, no_ignition)), "margin 1034 K over uncertainty 138 K");
+  EXPECT_EQ(reason_of(evidence, none_up_to(widest_search, no_ignition)),
+            "margin 1034 K over uncertainty 138 K");
 }
 
 // 0.035 cm as the only gap and as the end of the search: the 155 mm shell does not ignite there, and with its
@@ -175,7 +176,8 @@ TEST(Verdict, WithoutACriticalGapInReachTheMarginOfTheConstantsAsCalibratedDecid
   evidence.uncertainty.input = 0.125;  // as margins of it are exact
   for (const double margin : {0.125, 0.05, -1.0, nan_value, -std::numeric_limits<double>::infinity()}) {
     evidence.as_calibrated = {{"", evidence.margin + evidence.maximum.temperature - margin, false}};
-    EXPECT_EQ(judge(evidence, none_up_to(widest_search, no_ignition)).verdict, Verdict::indeterminate) << margin;
+    EXPECT_EQ(judge(evidence, none_up_to(widest_search, no_ignition)).verdict, Verdict::indeterminate)
+        << margin;
   }
   evidence.as_calibrated = {{"", evidence.margin + evidence.maximum.temperature - 0.2, false}};
   EXPECT_EQ(judge(evidence, none_up_to(widest_search, no_ignition)).verdict, Verdict::safe);
