@@ -94,7 +94,8 @@ void add_cracks(Numbers& numbers) {
         math::Deviator<double> before{};
         for (int i = 0; i < 3; ++i) {
           before = total_deviator(state);
-          lost = test_support::charge_update(test_support::step_of(law, step), state, de, pressure);
+          lost = launchsafe::test_support::charge_update(launchsafe::test_support::step_of(law, step), state,
+                                                         de, pressure);
         }
         const auto elastic = (0.5 / law.shear_modulus()) * (total_deviator(state) - before);
         const std::string name =
@@ -111,8 +112,8 @@ void add_cracks(Numbers& numbers) {
 /// Pressure and energy of a JWL after an adiabatic step from V = 1: by the mean of its pressures up to 2.5 %,
 /// as charges had it up to version 5 of the model, and beyond along the isentrope.
 std::pair<double, double> jwl_step(const materials::JwlParameters& law, double energy, double v) {
-  const double cold = test_support::jwl_pressure(law, v, 0.0),
-               pressure = test_support::jwl_pressure(law, 1.0, energy);
+  const double cold = launchsafe::test_support::jwl_pressure(law, v, 0.0),
+               pressure = launchsafe::test_support::jwl_pressure(law, 1.0, energy);
   const double half = 0.5 * (v - 1.0), stiffness = law.omega / v;
   double end = (energy - half * (pressure + cold)) / (1.0 + half * stiffness);
   if (std::abs(v - 1.0) > 0.025)
@@ -130,8 +131,9 @@ void add_volume_of_charge_and_gases(Numbers& numbers) {
     }
   };
   const JwlParameters charge = unreacted_composition_b();
-  jwl("unreacted", charge, test_support::jwl_energy_at_temperature(charge, 1.0, 1780.0 * 1717.0, 300.0));
-  jwl("products", test_support::composition_b_products(), 8.5e9);
+  jwl("unreacted", charge,
+      launchsafe::test_support::jwl_energy_at_temperature(charge, 1.0, 1780.0 * 1717.0, 300.0));
+  jwl("products", launchsafe::test_support::composition_b_products(), 8.5e9);
   for (const double pressure : {101325.0, 1e7, 1.4e8})
     numbers.push_back(
         {fmt::format("air at {} Pa", pressure), adiabatic_temperature(AirParameters{}, pressure)});
