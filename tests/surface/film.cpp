@@ -161,7 +161,7 @@ TEST(Film, ConvergesWithSecondOrderInSpace) {
   const trace::BottomTrace trace = film_launch(100, 1.1e6);
   for (const double gap : {1e-4, 4e-3}) {
     const auto at = [&](std::size_t finer) {
-      FilmNumerics numerics{20 * finer, 16 * finer, 12 * finer, 1e-7, 0};
+      FilmNumerics numerics{20 * finer, 16 * finer, 12 * finer, 1e-7};
       return integrate_film(inert_film(), trace, gap, numerics).skin.temperature[2 * 60];
     };
     const double order = order_of(at(1), at(2), at(4));
