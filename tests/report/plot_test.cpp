@@ -192,7 +192,7 @@ TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
 TEST(Plot, NamesOfLinesAcrossStandWhereNothingIsDrawn) {
   Plot plot;
   plot.named_in_place = true;
-  plot.series = {{"", {0, 1, 2}, {9.6, 9.8, 0}, Style::line}};
+  plot.series = {{"", {0, 1, 2}, {9.8, 10, 0}, Style::line}};
   plot.horizontal_lines = {{5, "free"}, {9.5, "in the way"}};
   plot.vertical_lines = {{0.5, "from here"}};
   const std::string text = to_gnuplot(plot);
