@@ -227,7 +227,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
 /// Of many cases the answers, and where gaps close their bounds without the worst corner.
 void run_many(CriticalGapResult& result, const StudyOptions& options) {
   ProgressTracker tracker(options.progress);
-  const std::ptrdiff_t cases = std::ptrdiff_t(result.study.cases.size()) / options.shard.count;
+  const auto cases = std::ptrdiff_t(result.study.cases.size()) / options.shard.count;
   const ClosingLaunches closing(result.study, cases, tracker);
   result.answers = answer_cases(result.study, options, result.timing, tracker);
   if (result.study.scene.scene.surface.model != GapModel::closing) return;

@@ -81,8 +81,8 @@ LoadCurveErrors load_curve_errors(const scene::Load& load);
 struct AcceptancesOfStudy {
   std::vector<scene::Implausible> accepted;  ///< by key and by what the user writes as its value
   std::vector<scene::Implausible> missing;   ///< by key and value
-  std::vector<std::string> unneeded;      ///< "load.peak = 500 MPa" that is accepted, and no case has to be
-  std::vector<std::string> extrapolated;  ///< as in the reasons of verdicts
+  std::vector<std::string> unneeded;         ///< "KEY = VALUE" that is accepted in vain
+  std::vector<std::string> extrapolated;     ///< as in the reasons of verdicts
 };
 AcceptancesOfStudy acceptances_of(const StudyFile& study);
 
