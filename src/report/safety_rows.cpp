@@ -176,17 +176,20 @@ CriticalGap held_gap(const CaseEvidence& judged) {
   return gap;
 }
 
+/// The name of the stored run of a case follows from its launch.
+void hold_run(const CaseEvidence& judged, const study::StudyCase& input) {
+  const std::string hash = study::mechanics_run(input.scene.scene, {}).hash;
+  hold(*judged.study, "runs, " + judged.label, *judged.run,
+       {{"case", judged.label}, {"stored_case", judged.completed() ? "cases/" + hash + ".h5" : ""}});
+}
+
 /// The rows of a case, of whose launch their columns say so much. No verdict warns less than its own parts
 /// do; what is not in the folder may have more to warn of.
 void hold_case(const CaseEvidence& judged, const Row& launch) {
   const StudyEvidence& study = *judged.study;
   const study::StudyCase input = judged.input();
-  if (judged.in_detail())
-    hold(study, "runs, " + judged.label, *judged.run,
-         {{"case", judged.label},
-          {"stored_case", judged.completed()
-                              ? fmt::format("cases/{}.h5", study::mechanics_run(input.scene.scene, {}).hash)
-                              : ""}});
+  const scene::Scene& scene = input.scene.scene;
+  if (judged.in_detail()) hold_run(judged, input);
   const CriticalGap critical = held_gap(judged);
   const auto closing = closing_answers(judged, input);
   study::CaseEvidence evidence;
@@ -196,18 +199,17 @@ void hold_case(const CaseEvidence& judged, const Row& launch) {
   std::vector<GapVerdict> rows;
   for (const double gap : gaps_of(study.planned.study, input)) {
     const Row& row = *judged.verdicts[rows.size()];
-    GapVerdict& made = rows.emplace_back(
-        verdict_in(row, gap, input.scene.scene.charge().kinetics.ignition_temperature, evidence));
-    study::take_closing_evidence(closing, input.scene.scene, made);
+    GapVerdict& made =
+        rows.emplace_back(verdict_in(row, gap, scene.charge().kinetics.ignition_temperature, evidence));
+    study::take_closing_evidence(closing, scene, made);
     made.judgement = study::judge(made, critical);
     const std::string verdict = text_of(row, "verdict"), least = to_string(made.judgement.verdict);
-    const bool is_milder =
-        verdict != "UNSAFE" && verdict != least && !(verdict == "INDETERMINATE" && least == "SAFE");
+    const bool warns_more = verdict == "UNSAFE" || (verdict == "INDETERMINATE" && least == "SAFE");
     Row told = launch;
     told.update({{"gap_cm", shown_gap(gap)},
                  {"margin_K", made.margin},
                  {"uncertainty_K", made.uncertainty.total()},
-                 {"verdict", is_milder ? least : verdict}});
+                 {"verdict", warns_more ? verdict : least}});
     hold(study, fmt::format("verdicts, {}, row {}", judged.label, rows.size()), row, told);
     if (verdict != "SAFE") made.judgement.verdict = study::Verdict::indeterminate;
   }

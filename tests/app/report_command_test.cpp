@@ -1,4 +1,5 @@
 // launchsafe report as a user meets it: of studies that ran, failed or were interrupted, and of bad input.
+#include "launchsafe/report/table.hpp"
 #include "launchsafe/store/file.hpp"
 #include "stored_page.hpp"
 #include "stored_study.hpp"
@@ -12,6 +13,13 @@ class ReportCommand : public StoredStudy {
     write("study.toml", critical_gap_study);
     run({"study", "study.toml", "-o", "out"});
     return "out";
+  }
+  /// Puts other results in the place of those of the study, with their checksum.
+  void forge(const nlohmann::ordered_json& results) {
+    const std::string before = store::sha256(read("out/study.json"));
+    write("out/study.json", results.dump());
+    write("out/manifest.json",
+          with(read("out/manifest.json"), before, store::sha256(read("out/study.json"))));
   }
   bool reports(const std::string& part) const {
     return read("safety/report.md").find(part) != std::string::npos;
@@ -176,13 +184,49 @@ TEST_F(ReportCommand, ASafeThatTheStoredRunDoesNotGiveIsRefused) {
   // Margin and temperature go together, and the checksums with them: only the stored run tells.
   for (const auto& [key, by] : {std::pair{"temperature_max_K", -5.0}, std::pair{"margin_K", 5.0}})
     (*safe)[key] = (*safe)[key].get<double>() + by;
-  const std::string before = store::sha256(read("out/study.json"));
-  write("out/study.json", results.dump());
-  write("out/manifest.json", with(read("out/manifest.json"), before, store::sha256(read("out/study.json"))));
+  forge(results);
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_TRUE(outcome.says("the stored run of")) << outcome.err;
   EXPECT_FALSE(exists("safety"));
+}
+
+// All numbers of a critical gap are moved by as much, so that only the stored run tells.
+TEST_F(ReportCommand, ACriticalGapThatTheStoredRunDoesNotGiveIsRefused) {
+  run_critical_gap();
+  auto results = nlohmann::ordered_json::parse(read("out/study.json"));
+  auto& row = results["cases"][0];
+  ASSERT_EQ(row["critical_gap_kind"], "value");
+  constexpr double by = 0.001;  // cm
+  for (const char* end : {"", "_lower", "_upper", "_at_least", "_at_most"}) {
+    auto& cell = row[fmt::format("critical_gap{}_cm", end)];
+    if (cell.is_number() && cell > 0.0) cell = cell.get<double>() + by;
+  }
+  const std::string reads_as = report::significant(row["critical_gap_cm"], 3) + " cm";
+  row["critical_gap_reads_as"] = row["critical_gap_with_bounds"] = reads_as;  // of one without an upper bound
+  for (auto& share : results["gap_shares"]) {
+    if (share["raised"] == "ignites without a gap")
+      share["lowers_cm"] = share["lowers_cm"].get<double>() + by;
+    for (const char* end : {"raised", "lowered"}) {
+      const std::string gap = share[end];
+      if (gap.ends_with(" cm")) share[end] = report::significant(std::stod(gap) + by, 4) + " cm";
+    }
+  }
+  forge(results);
+  const Outcome outcome = run({"report", "out", "-o", "safety"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(outcome.says("critical_gap_lower_cm of 250 MPa, 30 µm, 1 mm is")) << outcome.err;
+  EXPECT_TRUE(outcome.says("which the stored run contradicts")) << outcome.err;
+}
+
+// The manifest writes the temperature of the air too, which followed that of the charge in each case.
+TEST_F(ReportCommand, CasesAtOtherTemperaturesAreThoseOfTheirStoredRuns) {
+  write("study.toml",
+        critical_gap_study + "\n[[vary]]\nkey = \"initial_temperature\"\nvalues = \"290, 300 K\"\n");
+  run({"study", "study.toml", "-o", "out"});
+  const Outcome outcome = run({"report", "out", "-o", "safety"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(reports("initial\\_temperature 290 K"));
 }
 
 TEST_F(ReportCommand, WithoutCaseFilesItSaysWhatTheyWouldShow) {
