@@ -169,7 +169,9 @@ Plot temperature_plot(const CriticalGapResult& result) {
   for (std::size_t i = 0; i < result.details.size(); ++i) {
     const std::vector<GapVerdict>& gaps = result.answers[i].verdicts;
     const auto end = row + static_cast<std::ptrdiff_t>(gaps.size());
-    Row tables{{"verdicts", Row::array_t(row, end)}, {"cases", Row::array({cases[i]})}};
+    // Temperatures of a part of the launch say nothing of it.
+    Row tables{{"verdicts", result.details[i].completed() ? Row(Row::array_t(row, end)) : Row::array()},
+               {"cases", Row::array({cases[i]})}};
     row = end;
     ignite += std::ranges::any_of(gaps, [](const GapVerdict& gap) { return gap.ignition.has_value(); });
     const StudyCase& input = result.details[i].input;

@@ -103,7 +103,7 @@ Judgement judge_margin(const GapVerdict& row, const CriticalGap& critical) {
     return indeterminate(ReasonCode::margin_within_uncertainty, critical);
   if (!(row.calibrated_margin() > row.uncertainty.total()))
     return indeterminate(ReasonCode::calibrated_margin_within_uncertainty, critical);
-  if (!(row.gap <= critical.bounds.at_least)) return indeterminate(ReasonCode::not_below_bound, critical);
+  if (!(row.gap < critical.bounds.at_least)) return indeterminate(ReasonCode::not_below_bound, critical);
   return {Verdict::safe, ReasonCode::margin_over_uncertainty, critical.bounds.at_least};
 }
 

@@ -12,7 +12,8 @@ class FailingCase : public StoredStudy {
     for (const auto& [key, values] : varied)
       text += "[[vary]]\nkey = \"" + key + "\"\nvalues = " + values + "\n";
     write("study.toml",
-          "kind = \"critical-gap\"\nconfirm = false\ngaps = \"0, 0.01 cm\"\nscene = \"shell.toml\"\naccept = "
+          "kind = \"critical-gap\"\nconfirm = false\ngaps = \"0, 0.01 cm\"\nlargest_gap = \"1 cm\"\nscene = "
+          "\"shell.toml\"\naccept = "
           "[{ key = \"numerics.energy_drift_limit\", "
           "value = \"1e-6\", because = \"the base is loaded by a shock\" }]\nmodel_form_uncertainty = { "
           "value = \"1 K\", "

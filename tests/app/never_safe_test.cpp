@@ -36,7 +36,6 @@ std::string sound_scene() {
 
 const std::string sound_study = R"(kind = "critical-gap"
 scene = "shell.toml"
-largest_gap = "0.02 cm"
 confirm = false
 numerical_uncertainty = { value = "5 K", because = "for a test" }
 fit_uncertainty = { value = "3 K", because = "for a test" }
@@ -178,8 +177,7 @@ TEST_F(NeverSafe, TheAcceptanceOfAllAtOnceIsRefusedWithTheNewForm) {
 /// What nobody accepts makes nothing safe, and undoes no ignition.
 TEST_F(NeverSafe, AGapThatIgnitesIsUnsafeWhereAnAcceptanceIsMissing) {
   run_edited({{"shell.toml", "width = \"5 mm\"", "width = \"7 mm\""},
-              {"study.toml", "confirm = false", "confirm = false\ngaps = \"0, 0.09 cm\""},
-              {"study.toml", "largest_gap = \"0.02 cm\"", "largest_gap = \"0.09 cm\""}});
+              {"study.toml", "confirm = false", "confirm = false\ngaps = \"0, 0.09 cm\""}});
   EXPECT_EQ(verdicts("SAFE"), 0);
   EXPECT_EQ(verdicts("INDETERMINATE"), 1);
   EXPECT_EQ(verdicts("UNSAFE"), 1);

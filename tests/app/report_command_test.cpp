@@ -174,7 +174,8 @@ TEST_F(ReportCommand, ADamagedCaseIsRefused) {
 
 TEST_F(ReportCommand, ASafeThatTheStoredRunDoesNotGiveIsRefused) {
   // Under the default ignition temperature the gaps stay far below it.
-  write("study.toml", critical_gap_study.substr(0, critical_gap_study.find("[set]")));
+  write("study.toml",
+        "largest_gap = \"1 cm\"\n" + critical_gap_study.substr(0, critical_gap_study.find("[set]")));
   run({"study", "study.toml", "-o", "out"});
   EXPECT_EQ(run({"report", "out", "-o", "as_it_is"}).code, 0);
   auto results = nlohmann::ordered_json::parse(read("out/study.json"));

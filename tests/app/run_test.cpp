@@ -130,7 +130,9 @@ TEST_F(RunProgram, ExplainTellsByHowMuchACoolChargePartsFromItsBase) {
     return run({"explain", "shell.toml"}).out;
   };
   EXPECT_EQ(told_of("thickness = \"0 cm\"").find("a kelvin"), std::string::npos);
-  EXPECT_NE(told_of("model = \"closing\"\nthickness = \"0 cm\"").find("µm a kelvin below the temperature"),
+  EXPECT_NE(told_of("model = \"closing\"\nthickness = \"0 cm\"\n[interface.base]\ncondition = "
+                    "\"sliding\"\nfriction = 0")
+                .find("µm a kelvin below the temperature"),
             std::string::npos);
   EXPECT_NE(told_of("opens_by_cooling = \"320 K\"").find("µm a kelvin below 320 K: a gap of"),
             std::string::npos);

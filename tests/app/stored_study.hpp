@@ -19,9 +19,12 @@ inline const std::string sweep_study = R"(kind = "critical-gap"
 scene = "shell.toml"
 early_time = "0.03 ms"
 gaps = "0, 0.01, 0.02 cm"
+largest_gap = "1 cm"
+set = { kinetics.ignition_temperature = "600 K" }
 input_uncertainty = { value = "2 K", because = "for a test" }
 model_form_uncertainty = { value = "1 K", because = "for a test" }
 accept = [
+  { key = "kinetics.ignition_temperature", value = "600 K", because = "nothing is to ignite up to 1 cm" },
   { key = "gap.exchange_time", value = "20 to 40 us", because = "the launch is as much faster" },
   { key = "gap.exchange_time", value = "60 us", because = "the launch is as much faster" },
 ]

@@ -196,6 +196,7 @@ TEST(StudyPlausibility, WhatAStudySetsHasToGiveTheExpectedVelocityToo) {
 // implausible.
 TEST(StudyPlausibility, AStabilityStudyJudgesWithoutIt) {
   StudyFile study = study_of(safe_study("", "gap.skin_thickness = \"5 mm\"\n"));
+  study.study.largest_gap = widest_search;
   const run::MechanicsResult mechanics = synthetic_mechanics(study.cases[0].scene.scene);
   EXPECT_EQ(answer_of(study.study, study.cases[0], mechanics).verdicts[0].judgement.verdict,
             Verdict::indeterminate);
