@@ -117,6 +117,7 @@ void draw_grid(const path& picture, const scene::Scene& scene, Console& console)
 ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(arguments.file));
   const scene::Scene& scene = file.scene;
+  console.remarks(file.notes);
   if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
   const study::StudyFile alone = study_of(file);
@@ -127,7 +128,7 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
 
 ExitCode explain_study(const path& place, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(place));
-  console.remarks(file.notes);
+  console.remarks(file.scene.notes);
   const Forecast forecast =
       study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
   return console.done(forecast_text(file, forecast, {}), forecast_json(file, forecast));

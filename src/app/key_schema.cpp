@@ -53,7 +53,9 @@ Json list_schema(const KeyDescription& key) {
 }
 
 Json word_schema(const KeyDescription& key) {
-  return {{"type", "string"}, {"enum", key.words}};
+  Json words = key.words;
+  for (const keys::FormerWord& each : key.former_words) words.push_back(each.former);
+  return {{"type", "string"}, {"enum", words}};
 }
 
 Json type_of(const KeyDescription& key) {

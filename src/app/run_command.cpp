@@ -215,6 +215,7 @@ run::CaseResult run_with_progress(const scene::Scene& scene, const Console& cons
 
 ExitCode perform(const RunArguments& arguments, Console& console) {
   const scene::SceneFile file = console.value_of(scene::read_scene(arguments.scene));
+  console.remarks(file.notes);
   const scene::Scene& scene = file.scene;
   run::Reach reach{.memory = study::available_memory(), .keeps_skins = true};
   if (arguments.longest_run) reach.longest_run = *arguments.longest_run;

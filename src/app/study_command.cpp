@@ -247,7 +247,7 @@ ExitCode perform(const StudyArguments& arguments, Console& console) {
   if (arguments.output.empty() && !arguments.dry_run)
     console.refuse(
         "study: --output is required unless with --dry-run (launchsafe study --help shows the usage)");
-  console.remarks(file.notes);
+  console.remarks(file.scene.notes);
   if (!file.chosen_setting.empty()) console.remark("setting: " + file.chosen_setting);
   if (arguments.dry_run) return dry_run(file, arguments, console);
   const int jobs = arguments.jobs > 0 ? arguments.jobs : study::available_cores();

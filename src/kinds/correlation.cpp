@@ -68,7 +68,8 @@ void read_entry(StudyFile& study, const toml::table& table, std::size_t entry) {
     refuse(both + ", whose correlation the record of the calibration has",
            "pairs of which one at the most is a constant of that record");
   stated_of(study.study, one, other) = stated_of(study.study, other, one) = text.coefficient;
-  study.notes.push_back(fmt::format("{} vary together, with a coefficient of {:g}", both, text.coefficient));
+  study.scene.notes.push_back(
+      fmt::format("{} vary together, with a coefficient of {:g}", both, text.coefficient));
   own.stated.push_back(std::move(stated));
 }
 

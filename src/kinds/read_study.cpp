@@ -45,6 +45,34 @@ std::vector<std::string> kinds_with(const std::string& name) {
 /// The tables of all study files that are read apart from the keys.
 std::vector<std::string> common_tables() { return {"set", "accept"}; }
 
+/// What study files of earlier versions said, and how that is written now.
+struct FormerKey {
+  std::string_view name, now;
+  std::string_view kind = {};  ///< where another one has such a key still
+};
+constexpr FormerKey former_keys[] = {
+    {"axes", "a [[vary]] with key and values for each axis, and gaps for gap"},
+    {"peak_pressures", "a [[vary]] with key = \"peak_pressure\" and values"},
+    {"crack_radii", "a [[vary]] with key = \"crack_radius\" and values"},
+    {"flaw_sizes", "a [[vary]] with key = \"flaw_size\" and values"},
+    {"input", "a [[vary]] with the same keys for each input"},
+    {"gap", "gaps, in every kind of study"},
+    {"variant", "one [[vary]], and [[vary.variants]] for each variant", "comparison"},
+};
+
+void check_former(const toml::table& root, const std::string& file) {
+  const toml::node* kind = root.get("kind");
+  const std::string name = kind == nullptr ? std::string{} : kind->value_or(std::string{});
+  if (name == "sweep")
+    throw error_at(scene::place_of(*kind, file), "kind", "\"sweep\", which is critical-gap now",
+                   "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
+                   "kind = \"critical-gap\"");
+  for (const FormerKey& former : former_keys)
+    if (const toml::node* node = root.get(former.name);
+        node != nullptr && (former.kind.empty() || former.kind == name))
+      throw error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now);
+}
+
 /// The kind that a study file names. Where it names none, a key that no kind has is the first fault.
 const Kind& read_kind(const toml::table& root, const std::string& file) {
   const toml::node* node = root.get("kind");
@@ -127,7 +155,7 @@ InputError unnumbered(InputError error, const std::string& file) {
 }  // namespace
 
 Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
-                                         const std::string& written, const SceneFile& scene) {
+                                         const std::string& written, SceneFile& scene) {
   const auto& [name, node] = table;
   std::vector<Change> changes;
   if (!node) return changes;
@@ -137,6 +165,8 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
     const auto key = taken(scene::describe_key(scene, leaf.name, place), name);
     const auto value = scene::read_value(*leaf.node, key, file);
     if (!value) return scene::within(name, value.error());
+    if (auto note = scene::note_on_former_word(*leaf.node, key, place))
+      scene.notes.push_back(std::move(*note));
     changes.push_back({leaf.name, *value, place, name + "." + leaf.name});
   }
   return changes;
@@ -187,6 +217,7 @@ Expected<StudyFile> read_study_table(const StudySource& source, const std::strin
   study.file = file;
   study.most_cases = most_cases;
   scene::check_content(source.root, file, scene::InputContent::study);
+  check_former(source.root, file);
   const Kind& kind = read_kind(source.root, file);
   const StudyKeys keys = joined({common_keys(), kind.keys});
   check_bare_uncertainties(source.root, keys, file);

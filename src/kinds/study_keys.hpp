@@ -231,10 +231,10 @@ struct OverrideTable {
   const toml::node* node = nullptr;
 };
 
-/// The changes that a table asks of a scene, or what is wrong with a value. A key that the scene does not know
-/// is refused in any case. `written`: how the table is written.
+/// The changes that a table asks of a scene, which gets the notes on them; or what is wrong with a value. A
+/// key that the scene does not know is refused in any case. `written`: how the table is written.
 Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::string& file,
-                                         const std::string& written, const SceneFile& scene);
+                                         const std::string& written, SceneFile& scene);
 
 /// kinds::read_study of a table; `file` is named in errors.
 Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,

@@ -22,10 +22,12 @@ std::string limits_text(const Limits& limits, Dimension dimension) {
   return {};
 }
 
-/// The word under which a value is written to texts that identify what is stored.
+/// The word under which a value is written to texts that identify what is stored: that of the version that
+/// first had it, so that results of earlier versions are found again.
 const std::string& stored_word(const KeyDescription& key, const std::string& word) {
-  const auto stored = key.stored_words.find(word);
-  return stored == key.stored_words.end() ? word : stored->second;
+  for (const auto& [former, present] : key.former_words)
+    if (word == present) return former;
+  return word;
 }
 
 /// Two values that are allowed: the ends of what is plausible, or else of the range.

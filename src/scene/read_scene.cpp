@@ -250,6 +250,7 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
     Scene& scene = file.scene;
     // Faults of the keys first, then of the tables; within each by line.
     ReadValues read = read_described(table, descriptions_of(scene_keys()), read_apart, file.file).or_throw();
+    file.notes = std::move(read.notes);
     for (auto& [index, value] : read.values) {
       const std::string& name = scene_keys()[index].name;
       file.given[name] = {read.places[name], std::move(value)};

@@ -170,17 +170,16 @@ std::vector<Key<materials::AirParameters>> air_keys() {
 std::vector<Key<Surface>> friction_keys() {
   std::vector<std::pair<std::string, FrictionClosure>> words;
   std::vector<std::string> plausible;
-  std::map<std::string, std::string> stored;
-  for (const auto& row : materials::friction_closures) stored.emplace(row.word, row.stored_word);
   for (const FrictionClosure closure : materials::all_closures) {
     words.emplace_back(word_of(closure), closure);
     if (closure != FrictionClosure::none) plausible.emplace_back(word_of(closure));
   }
   return {
       word_key("closure", Standing::assumed,
-               "Which strain rate the sliding friction acts on: total, inelastic or none.", words,
-               &Surface::friction) |
-          stored_as(stored) |
+               "Which strain rate the sliding friction acts on: total, inelastic or none. "
+               "Files may still say \"literal\" for the total strain rate.",
+               words, &Surface::friction) |
+          formerly({"literal", "total strain rate"}) |
           plausibly(plausible, "without friction heat the published temperatures are missed by 80 K",
                     Role{ActsOn::heat, Part::model}),
       number_key("localisation", Dimension::number, between(0, 1e6), Standing::calibrated,

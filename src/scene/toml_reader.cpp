@@ -109,8 +109,8 @@ std::vector<double> read_numbers(const toml::node& node, const KeyDescription& k
 }
 
 std::string checked_word(const std::string& word, const KeyDescription& key, const Place& place) {
-  for (const auto& [present, stored] : key.stored_words)
-    if (word == stored) return present;
+  for (const auto& [former, present] : key.former_words)
+    if (word == former) return present;
   if (contains(key.words, word)) return word;
   throw error_for(place, key, '"' + word + '"', in_quotes(nearest_of(word, key.words)));
 }
@@ -287,6 +287,15 @@ InputError unknown_key(const Place& place, const std::string& name, const std::v
                   nearest_key(name, known));
 }
 
+std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
+                                               const Place& place) {
+  for (const auto& [former, present] : key.former_words)
+    if (node.value<std::string>() == former)
+      return fmt::format(R"({}:{}: {}: "{}" is now called "{}"; the old word is read in this version only)",
+                         place.file, place.line, key.name, former, present);
+  return std::nullopt;
+}
+
 InputError within(const std::string& table, InputError error) {
   error.key = table + "." + error.key;
   return error;
@@ -344,6 +353,7 @@ Expected<ReadValues> read_described(const toml::table& table, const std::vector<
                        fmt::format("a table, written [{}]", leaf.name));
       }
       read.values.emplace_back(std::distance(keys.begin(), key), value_at(*leaf.node, **key, place));
+      if (auto note = note_on_former_word(*leaf.node, **key, place)) read.notes.push_back(std::move(*note));
       read.places.emplace(leaf.name, place);
     }
     for (const KeyDescription* key : keys)

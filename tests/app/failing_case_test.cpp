@@ -89,5 +89,20 @@ TEST_F(FailingCase, TwentyAreNamedAndTheRestCounted) {
   EXPECT_TRUE(outcome.says("and 5 more cases failed")) << outcome.err;
 }
 
+TEST_F(FailingCase, AFormerWordIsNotedAndComputesTheSame) {
+  write_study({{"peak_pressure", "\"50 MPa\""}});
+  write("study.toml", read("study.toml") + "[set]\nfriction.closure = \"literal\"\n");
+  const Outcome former = run({"study", "study.toml", "-o", "out"});
+  EXPECT_TRUE(former.says("study.toml:13: friction.closure: \"literal\" is now called \"total strain rate\""))
+      << former.err;
+  write("study.toml", [&] {
+    std::string text = read("study.toml");
+    return text.replace(text.find("literal"), 7, "total strain rate");
+  }());
+  const Outcome present = run({"study", "study.toml", "-o", "out", "--update"});
+  EXPECT_FALSE(present.says("is now called")) << present.err;
+  EXPECT_TRUE(present.says("re-used 1 mechanical run, ran 0")) << present.err;
+}
+
 }  // namespace
 }  // namespace launchsafe::app

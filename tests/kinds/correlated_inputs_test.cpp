@@ -156,7 +156,7 @@ TEST(CorrelatedInputs, StatedInputsVaryTogetherAndAreOneInput) {
   const StudyFile file = study_of(sensitivity_start + design + peak + crack + initial +
                                   correlation("\"load.peak\", \"initial_temperature\"", "0.6"));
   ASSERT_EQ(file.study.axes.size(), 3u);
-  EXPECT_EQ(file.notes, std::vector<std::string>{"load.peak and initial_temperature vary together, "
+  EXPECT_EQ(file.scene.notes, std::vector<std::string>{"load.peak and initial_temperature vary together, "
                                                        "with a coefficient of 0.6"});
   EXPECT_EQ(file.study.axes[1].key.name, "initial_temperature");
   ASSERT_EQ(inputs_of(file.study).size(), 2u);

@@ -25,7 +25,7 @@ std::vector<Key<Thing>> thing_keys() {
       flag_key("part.flag", Standing::assumed, "A flag.", &Thing::flag),
       word_key("colour", Standing::assumed, "A word.", {{"red", Colour::red}, {"green", Colour::green}},
                &Thing::colour) |
-          stored_as({{"green", "verdant"}}),
+          formerly({"verdant", "green"}),
       list_key("times", Dimension::time, at_least(0), Standing::assumed, "A list.", &Thing::times) |
           may_be_empty(),
       number_key("share", Dimension::number, between(0, 1), Standing::assumed, "A share.", &Thing::share),
@@ -90,7 +90,7 @@ TEST(TomlReader, ExactTextReadsBackToTheSameDouble) {
   }
 }
 
-TEST(TomlReader, AStoredWordStandsInExactTextAndIsReadBack) {
+TEST(TomlReader, AFormerWordIsReadAsThePresentOneAndKeptInExactText) {
   const auto thing = read_thing("colour = \"verdant\"");
   ASSERT_TRUE(thing) << thing.error().message();
   EXPECT_EQ(thing->colour, Colour::green);

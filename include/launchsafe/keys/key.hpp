@@ -9,7 +9,6 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
-#include <map>
 #include <initializer_list>
 #include <limits>
 #include <string_view>
@@ -83,6 +82,11 @@ struct Plausible {
   std::string because = {};             ///< a clause: why; where all is plausible, why that is
 };
 
+/// A word of an earlier version of the program, and the one that has taken its place.
+struct FormerWord {
+  std::string former, present;
+};
+
 /// All there is to say about a key, apart from where its value goes.
 struct KeyDescription {
   std::string name = {};  ///< dotted, such as "charge.crack_radius"
@@ -90,9 +94,9 @@ struct KeyDescription {
   Dimension dimension = Dimension::number;
   Limits limits = {};
   std::vector<std::string> words = {};  ///< of a word or of words: those that there are
-  /// Of a word: what texts that are the identity of what is stored have for it (scene::exact_toml), where
-  /// that is another one. These are read too.
-  std::map<std::string, std::string> stored_words = {};
+  /// Of a word: those of earlier versions. They are still read, and still written where a text is the
+  /// identity of what is stored (scene::exact_toml).
+  std::vector<FormerWord> former_words = {};
   std::size_t list_length = 0;  ///< of a list that has a fixed one; 0: any
   Standing standing = Standing::assumed;
   std::string sentence = {};
@@ -408,9 +412,9 @@ auto written_where(Condition condition) {
   return [condition = std::move(condition)]<class Owner>(Key<Owner>& key) { key.is_written = condition; };
 }
 
-/// Of a word: it is stored as another one.
-inline auto stored_as(std::map<std::string, std::string> words) {
-  return [words = std::move(words)](KeyDescription& key) { key.stored_words = words; };
+/// Of a word: one had another name in earlier versions.
+inline auto formerly(FormerWord word) {
+  return [word = std::move(word)](KeyDescription& key) { key.former_words.push_back(word); };
 }
 
 /// Of a range: it may also be one value.

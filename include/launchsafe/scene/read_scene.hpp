@@ -232,6 +232,7 @@ struct SceneFile {
   std::vector<std::string> body_materials;  ///< of each body, as the user named it
   std::vector<Source> sources;              ///< of the scene's own values
   std::map<std::string, Place> places;      ///< of "body.<name>.x", "observation_point.<name>.r", ...
+  std::vector<std::string> notes;           ///< on words of earlier versions, a line each
 };
 
 /// Where the user gave a key; the file as a whole if it is a default.

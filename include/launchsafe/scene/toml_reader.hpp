@@ -27,8 +27,8 @@ std::string allowed_text(const KeyDescription& key);
 std::string plausible_text(const KeyDescription& key);
 /// A value as people read it ("0.003 cm", "axisymmetric", "0 to 11.8 cm").
 std::string format_value(const KeyDescription& key, const Value& value);
-/// A value as TOML that reads back to exactly the same; words as they are stored, as texts made of these
-/// identify results.
+/// A value as TOML that reads back to exactly the same; words that had another name in earlier versions under
+/// that one, so that texts made of these identify the same stored results as before.
 std::string exact_toml(const KeyDescription& key, const Value& value);
 
 /// What is needed to name a place in a file.
@@ -71,7 +71,12 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
 struct ReadValues {
   std::vector<std::pair<std::size_t, Value>> values;  ///< index of the key, value
   std::map<std::string, Place> places;                ///< of every key the user gave
+  std::vector<std::string> notes;                     ///< on words of earlier versions, a line each
 };
+
+/// The note on a value that has the name of an earlier version of the program; none of another value.
+std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,
+                                               const Place& place);
 
 /// A key of a table by its dotted name.
 struct Leaf {

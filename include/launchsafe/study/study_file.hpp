@@ -284,7 +284,6 @@ struct StudyFile {
   scene::SceneFile scene;                        ///< with the overrides
   /// SHA-256 of every file that the study rests on besides its scene: another one is another study.
   std::vector<std::string> records;
-  std::vector<std::string> notes;  ///< on what the file says, for people, a line each
   std::string chosen_setting;  ///< what a tolerance picked from an accuracy record, for people; else empty
   Cases cases;                 ///< in the order that the kind says
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
