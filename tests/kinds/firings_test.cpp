@@ -149,7 +149,7 @@ class StudyOnFirings : public FolderWithScene {
       "input_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
       "model_form_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
       "numerical_uncertainty = { value = \"1 K\", because = \"for a test\" }\n"
-      "gaps = \"0, 0.1, 0.3, 0.5 mm\"\n";
+      "gaps = \"0, 0.1, 0.3, 0.5 mm\"\nlargest_gap = \"1 cm\"\n";
 };
 
 int count_safe(const std::vector<GapVerdict>& rows) {

@@ -28,7 +28,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 const std::string head =
     "kind = \"stability\"\nscene = \"scene_155mm.toml\"\nnumerical_uncertainty = { value = \"3 K\", because "
     "= \"for a test\" }\n"
-    "gaps = \"0.01 cm\"\n" +
+    "gaps = \"0.01 cm\"\nlargest_gap = \"1 cm\"\n" +
     synthetic_constants;
 
 std::string group_of(const std::string& cases) {

@@ -250,7 +250,7 @@ TEST(SweepPictures, WhatIsNoValueIsAMarkByItsReasonAndBreaksItsLine) {
   const auto named = [&](const std::string& label) -> const Series& {
     return *std::ranges::find(plot.series, label, &Series::label);
   };
-  EXPECT_EQ(named("50 µm: > 0.1 cm (bound)").x.size(), 3u);
+  EXPECT_EQ(named("10, 20 µm: > 0.1 cm (bound)").x.size(), 3u);
   EXPECT_EQ(plot.subtitle, "dashed: the lower bound of each; not drawn: 1 case indeterminate or failed");
   EXPECT_TRUE(std::isnan(plot.series[4].y[2]));
 }

@@ -201,10 +201,10 @@ TEST(Plot, NamesOfLinesAcrossStandWhereNothingIsDrawn) {
     return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
   };
   EXPECT_NE(how("free").find("graph 0, first 5 left offset 1, 0.8"), std::string::npos) << how("free");
-  EXPECT_NE(how("in the way").find("graph 1, first 9.5 right offset -1, 0.8"), std::string::npos)
-      << how("in the way");
-  EXPECT_EQ(how("from here").find("graph 0.97"), std::string::npos)
-      << how("from here") << ": below the series";
+  EXPECT_NE(how("in the way").find("graph 0, first 9.5 left offset 1, -0.8"), std::string::npos)
+      << how("in the way") << ": below its line, above which the series runs";
+  EXPECT_NE(how("from here").find("graph 0.97 left offset 1, 0.4"), std::string::npos)
+      << how("from here") << ": above the series";
 }
 
 TEST(Plot, BarsNeedTheirEnds) {
