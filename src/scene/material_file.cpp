@@ -110,8 +110,7 @@ const std::vector<Key<Decomposition>>& decomposition_keys() {
   using enum Standing;
   using enum Dimension;
   static const std::vector<Key<Decomposition>> keys = keys::joined(
-      {{text_key("title", input, "Of which explosive, in words.", "RDX", &Decomposition::title) |
-        required()},
+      {{text_key("title", input, "Of which explosive, in words.", "RDX", &Decomposition::title) | required()},
        keys::keys_of_part("", &Decomposition::kinetics,
                           {number_key("activation_temperature", temperature_difference, above_to(0, 1e6),
                                       literature, "Activation energy over the gas constant, E/R.",

@@ -53,8 +53,9 @@ std::string_view checked_image(std::string_view file) {
 
 template <class Archive, class Title>
 void lay_out_title(Archive& archive, Title& title) {
-  archive.group("scene", "What was simulated is in manifest/input",
-                [&] { archive.value("title", title, {"none", "title"}); });
+  archive.group("scene", "What was simulated is in manifest/input", [&] {
+    archive.value("title", title, {"none", "title"});
+  });
 }
 
 /// A reader of the image in a case file's bytes. Throws where it is none.

@@ -75,7 +75,8 @@ std::string particles_of(const Stored& stored) {
   const auto& [snapshot, group] = stored;
   const std::size_t count = snapshot.body.size();
   const std::string one = fmt::format("{}", count);
-  std::string text = mesh_of(stored) + attribute("body", "Scalar", "Cell", item("Int", one, group + "/body")) +
+  std::string text = mesh_of(stored) +
+                     attribute("body", "Scalar", "Cell", item("Int", one, group + "/body")) +
                      attribute("velocity", "Vector", "Cell", item("Float", one + " 3", group + "/velocity")) +
                      attribute("stress", "Tensor6", "Cell", item("Float", one + " 6", group + "/stress"));
   for (const run::SnapshotField& field : run::snapshot_fields()) {

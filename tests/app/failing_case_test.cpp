@@ -93,7 +93,7 @@ TEST_F(FailingCase, AFormerWordIsNotedAndComputesTheSame) {
   write_study({{"peak_pressure", "\"50 MPa\""}});
   write("study.toml", read("study.toml") + "[set]\nfriction.closure = \"literal\"\n");
   const Outcome former = run({"study", "study.toml", "-o", "out"});
-  EXPECT_TRUE(former.says("study.toml:13: friction.closure: \"literal\" is now called \"total strain rate\""))
+  EXPECT_TRUE(former.says("study.toml:14: friction.closure: \"literal\" is now called \"total strain rate\""))
       << former.err;
   write("study.toml", [&] {
     std::string text = read("study.toml");

@@ -176,8 +176,7 @@ TEST_F(SafetyReport, ABoundOfAnEarlierProgramAtTheEndOfTheSearchIsRefused) {
     for (const char* key : {"critical_gap_cm", "critical_gap_upper_cm", "critical_gap_at_most_cm"})
       found[key] = nullptr;
   });
-  EXPECT_TRUE(
-      has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3, and what it follows from makes it 0"))
+  EXPECT_TRUE(has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3, and what it follows from makes it 0"))
       << fault_of({sweep});
 }
 

@@ -333,12 +333,12 @@ inline constexpr std::tuple stored_closing_samples{
 struct GapResult {
   double gap = 0;  ///< m
   surface::SkinHistory skin;
-  surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
-  surface::Maximum at_points;    ///< over the observation points; NaN without any
-  surface::AirEnergy air;        ///< what the skin took from the air
-  double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
-  bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
-  std::optional<ClosingHistory> closing;        ///< where the gap closes
+  surface::Maximum at_stations;           ///< T_max over the stations, the whole bottom: what verdicts use
+  surface::Maximum at_points;             ///< over the observation points; NaN without any
+  surface::AirEnergy air;                 ///< what the skin took from the air
+  double sampling_error = 0;              ///< K, |T_max - T_max on the thinned trace|
+  bool with_mechanics = false;            ///< integrated inside the mechanics rather than on its trace
+  std::optional<ClosingHistory> closing;  ///< where the gap closes
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 

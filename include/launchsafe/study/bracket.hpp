@@ -119,8 +119,8 @@ struct CriticalGap {
   GapOrBound indicative = math::not_a_number;
 };
 
-/// m: where the widest search ends that a study may ask for. Without ignition up to there a lower bound may lie
-/// in the first part of it; an earlier end says nothing of what lies beyond, and gives no bound but 0.
+/// m: where the widest search ends that a study may ask for. Without ignition up to there a lower bound may
+/// lie in the first part of it; an earlier end says nothing of what lies beyond, and gives no bound but 0.
 constexpr double widest_search = 0.01, known_part_of_search = 0.5;
 
 /// Takes the shares, and draws the bounds from them. Nothing can be said of one that is indeterminate.
