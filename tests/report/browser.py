@@ -89,10 +89,14 @@ def with_markup(study, folder):
     shutil.copytree(study, copy)
     digest = lambda: hashlib.sha256((copy / "study.json").read_bytes()).hexdigest()
     before, results = digest(), json.loads((copy / "study.json").read_text())
-    results["title"] = MARKUP
+    title, results["title"] = results["title"], MARKUP
     (copy / "study.json").write_text(json.dumps(results))
-    manifest = (copy / "manifest.json").read_text()
-    (copy / "manifest.json").write_text(manifest.replace(before, digest()))
+    manifest = json.loads((copy / "manifest.json").read_text().replace(before, digest()))
+    # The study file that the manifest has asks for that title too: as TOML, whose strings are JSON's.
+    asked, _, rest = manifest["input"].rpartition(f"'{title}'")
+    manifest["input"] = asked + json.dumps(MARKUP) + rest
+    manifest["input_sha256"] = hashlib.sha256(manifest["input"].encode()).hexdigest()
+    (copy / "manifest.json").write_text(json.dumps(manifest))
     return copy
 
 
