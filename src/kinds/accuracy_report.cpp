@@ -125,12 +125,21 @@ void share_axis(report::PlotAxis Plot::*axis, std::vector<double> Series::*value
   for (Plot& panel : panels) (panel.*axis).minimum = least, (panel.*axis).maximum = most;
 }
 
+/// What a variant is: behind the comma of its title, where it has one of its own, or its name.
+std::string description_of(const VariantAccuracy& variant, const VariantAccuracy& first) {
+  const std::string& title = variant.study.study.title;
+  const std::size_t comma = title.find(", ");
+  const bool has_own = title != first.study.study.title && comma != std::string::npos;
+  return has_own ? title.substr(comma + 2) : variant.name;
+}
+
 Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
   if (variants.size() == 1) return error_plot(*variants.front());
   Plot plot;
   double largest = 0;  // K, of all variants as the scene has it
   for (const VariantAccuracy* each : variants) {
-    plot.panels.push_back(error_plot(*each));
+    Plot& panel = plot.panels.emplace_back(error_plot(*each));
+    panel.title = description_of(*each, *variants.front()) + ": " + panel.title;
     if (const AccuracyRow* own = each->baseline())
       largest = std::max(largest, told_distance(*each, own->largest_temperature_error));
   }
@@ -146,13 +155,6 @@ Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
       if (&panel != &plot.panels.back() && each.x.size() > 1) each.label.clear();
   }
   return plot;
-}
-
-/// What a variant is: behind the comma of its title, or its name.
-std::string description_of(const VariantAccuracy& variant) {
-  const std::string& title = variant.study.study.title;
-  const std::size_t comma = title.find(", ");
-  return comma == std::string::npos ? variant.name : title.substr(comma + 2);
 }
 
 /// "3 K from its limit; lab frame: up to 390 K": the scene's own setting, and the method that comes out
@@ -221,8 +223,7 @@ Plot error_plot(const VariantAccuracy& variant) {
     if (row.setting.reference || !row.baseline)
       add_mark(row, distance, row.setting.reference ? meshes : method);
   }
-  plot.title = (variant.name.empty() ? "As in the scene T max is " : description_of(variant) + ": ") +
-               finding_of(variant, methods);
+  plot.title = (variant.name.empty() ? "As in the scene T max is " : "") + finding_of(variant, methods);
   for (auto& [word, method] : methods) plot.series.push_back(std::move(method));
   plot.series.push_back(std::move(meshes));
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });

@@ -101,8 +101,7 @@ TEST(AccuracyReport, OfVariantsHasOneTableOnePictureAndARecordEach) {
     if (const auto* picture = std::get_if<report::Picture>(&item)) {
       ++pictures;
       ASSERT_EQ(picture->plot.panels.size(), 2u);
-      // By the description of its model, which has no title here: that of the scene's charge.
-      EXPECT_EQ(picture->plot.panels[1].title, "Composition B, gap at the charge bottom: 2 K from its limit");
+      EXPECT_EQ(picture->plot.panels[1].title, "one_gap: 2 K from its limit") << "it has no title of its own";
     }
   }
   EXPECT_EQ(tables, 1u);
@@ -163,6 +162,16 @@ TEST(AccuracyReport, ThePictureTellsMethodsApartAndHasNoDistanceOfAFlame) {
   EXPECT_EQ(ignites->y, std::vector<double>{160.0});
   EXPECT_NE(method->colour, ignites->colour);
   EXPECT_TRUE(plot.title.ends_with("; lab frame, ignites (10 ms, no reaction): up to 160 K")) << plot.title;
+}
+
+TEST(AccuracyReport, APanelIsNamedByWhatATitleOfItsOwnHasBehindAComma) {
+  const report::Report report = kinds::report_of(made_accuracy(
+      false, "[[variant]]\nname = \"own\"\n[[variant]]\nname = \"other\"\ntitle = \"Shell, bonded\"\n"));
+  for (const auto& item : report.items)
+    if (const auto* picture = std::get_if<report::Picture>(&item)) {
+      EXPECT_TRUE(picture->plot.panels.at(0).title.starts_with("own: ")) << picture->plot.panels[0].title;
+      EXPECT_TRUE(picture->plot.panels.at(1).title.starts_with("bonded: ")) << picture->plot.panels[1].title;
+    }
 }
 
 TEST(AccuracyReport, PanelsOfVariantsHaveTheSameAxesAndOneLegend) {
