@@ -164,11 +164,13 @@ std::string frame_commands(const Plot& plot, std::size_t width) {
         "textcolor "
         "rgb '#444444'\n",
         quoted(plot.subtitle), aside);
+  const Legend legend = legend_of(plot);
+  if (legend.rows == 0) return text + "unset key\n";
   return text +
          fmt::format(
              "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing "
              "1.25\n",
-             legend_of(plot).columns);
+             legend.columns);
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -232,6 +234,18 @@ std::string panel_commands(const Plot& plot) {
   return text + "unset multiplot\n";
 }
 
+/// Some six round values.
+std::vector<Tic> tics_between(double least, double most) {
+  const double wanted = (most - least) / 6.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
+  double step = 10.0 * power;
+  for (const double digit : {5.0, 2.0, 1.0})
+    if (digit * power >= wanted) step = digit * power;
+  std::vector<Tic> tics;
+  for (double at = step * std::ceil(least / step); at < most; at += step)
+    tics.push_back({at, significant(at, 6)});
+  return tics;
+}
+
 }  // namespace
 
 std::string unfit(const Plot& plot) {
@@ -263,9 +277,13 @@ void cut_axis(double line, Plot& plot) {
   double lowest = line;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double beyond = std::max(0.25 * (line - lowest), 20.0);
-  const double top = line + beyond, bottom = lowest - beyond;
-  std::vector<Series> at_ends;
+  const double row = std::max(0.14 * (line - lowest), 12.0);
+  const auto rows = std::ranges::count_if(plot.series, [&](const Series& series) {
+    return std::ranges::any_of(series.y, [&](double temperature) { return temperature > line; });
+  });
+  const double top = line + row * static_cast<double>(std::max<std::ptrdiff_t>(rows, 1)),
+               bottom = lowest - 2.0 * row;
+  std::vector<Series> arrows;
   const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
     Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
     for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -274,22 +292,19 @@ void cut_axis(double line, Plot& plot) {
     }
     if (heads.x.empty()) return;
     plot.subtitle = "arrows: the bar goes on beyond";
-    at_ends.push_back(std::move(heads));
+    arrows.push_back(std::move(heads));
   };
+  double level = line;
   for (Series& series : plot.series) {
-    const auto hottest = std::ranges::max_element(series.y);
-    if (plot.named_in_place && hottest != series.y.end() && *hottest > top) {
-      Series& value = at_ends.emplace_back(series);
-      value.label = significant(*hottest, 4) + " K";
-      value.x = {series.x[static_cast<std::size_t>(hottest - series.y.begin())]};
-      value.y = {top};
-    }
-    for (double& temperature : series.y) temperature = std::min(temperature, top);
     cut(series, series.upper, top, Mark::up_triangle);
     cut(series, series.lower, bottom, Mark::down_triangle);
+    if (std::ranges::all_of(series.y, [&](double temperature) { return temperature <= line; })) continue;
+    level += row;
+    for (double& temperature : series.y) temperature = temperature > line ? level : temperature;
   }
-  std::ranges::move(at_ends, std::back_inserter(plot.series));
+  std::ranges::move(arrows, std::back_inserter(plot.series));
   plot.y.maximum = top;
+  plot.y.tics = tics_between(bottom, line);
 }
 
 }  // namespace launchsafe::report

@@ -38,9 +38,14 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
 /// What T max and the critical gap of a launch are by; those of gaps that close have pictures of their own.
 constexpr const char* by_reservoir = " by a reservoir of air";
 
-/// "No computed gap is SAFE; critical gap by a reservoir of air 0.038 +0.010 −0.011 cm"
-std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe) {
+/// "No computed gap is SAFE: where it closes it may ignite from 0 cm on", or "SAFE up to 0.01 cm; critical
+/// gap by a reservoir of air 0.038 +0.010 −0.011 cm".
+std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe,
+                       const Series& corner_ignitions) {
   const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
+  if (!largest && !corner_ignitions.x.empty())
+    return fmt::format("No computed gap is SAFE: where it closes it may ignite from {} cm on",
+                       significant(std::ranges::min(corner_ignitions.x), 6));
   return fmt::format(
       "{}; critical gap{} {}",
       largest ? fmt::format("{} up to {} cm", safe, significant(*largest, 6)) : "No computed gap is SAFE",
@@ -54,18 +59,14 @@ std::string safe_words(const Row& tables, const std::string& by_whose_air, bool 
   return fmt::format("SAFE{}, {}", by_whose_air, invented ? "in a demonstration" : "as somebody accepts");
 }
 
-/// "published at G2, computed at S13, after 18 ms": not all is of one place.
+/// "published after 18 ms, at another place"
 std::string published_words(const Row& comparison, const scene::Load& load) {
-  std::set<std::string> published, computed;
-  for (const Row& row : comparison) {
-    published.insert(text_of(row, "temperature_max_published_place"));
-    computed.insert(text_of(row, "temperature_max_place"));
-  }
-  published.erase("");
-  const std::string time = scene::time_text(scene::read_time(load));
-  return published.empty() ? "published, after " + time
-                           : fmt::format("published at {}, computed at {}, after {}",
-                                         fmt::join(published, ", "), fmt::join(computed, ", "), time);
+  const bool is_elsewhere = std::ranges::any_of(comparison, [](const Row& row) {
+    const std::string place = text_of(row, "temperature_max_published_place");
+    return !place.empty() && place != text_of(row, "temperature_max_place");
+  });
+  return fmt::format("published after {}{}", scene::time_text(scene::read_time(load)),
+                     is_elsewhere ? ", at another place" : "");
 }
 
 void add_critical_gap(const Row& critical, Plot& plot) {
@@ -83,20 +84,28 @@ void add_critical_gap(const Row& critical, Plot& plot) {
 Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   const double initial = scene.initial_temperature, ignition = scene.charge().kinetics.ignition_temperature;
   const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
-  Series corner = points_of(verdicts, "temperature_max_corner_K", {.colour = purple, .mark = Mark::diamond});
-  const bool corner_ignites =
-      std::ranges::any_of(corner.y, [&](double temperature) { return temperature > ignition; });
-  corner.label = fmt::format("closing, worst corner{}", corner_ignites ? ": ignites" : "");
-  const bool held_against_closing = scene.surface.model == scene::GapModel::closing || !corner.x.empty();
+  const auto corner_of = [&](bool ignited, Series look) {
+    Row rows = verdicts;
+    std::erase_if(rows.get_ref<Row::array_t&>(), [&](const Row& row) {
+      return (number_of(row, "temperature_max_corner_K") > ignition) != ignited;
+    });
+    return points_of(rows, "temperature_max_corner_K", std::move(look));
+  };
+  const Series corner =
+      corner_of(false, {.label = "worst corner where it closes", .colour = purple, .mark = Mark::diamond});
+  const Series corner_ignitions = corner_of(
+      true, {.label = "worst corner where it closes: ignites", .colour = vermilion, .mark = Mark::diamond});
+  const bool held_against_closing =
+      scene.surface.model == scene::GapModel::closing || !corner.x.empty() || !corner_ignitions.x.empty();
   const bool is_green =
       found_in(tables, "demonstration").is_null() &&
       std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
   const std::string safe = safe_words(tables, held_against_closing ? "" : by_reservoir, is_green);
-  Plot plot{.title = finding_of(verdicts, critical, safe),
+  Plot plot{.title = finding_of(verdicts, critical, safe, corner_ignitions),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 410,
+            .height = 350,
             .named_in_place = true};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
@@ -105,7 +114,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
                   judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
                   points_of(ignited, "temperature_max_K",
                             {.label = "UNSAFE: ignites", .colour = vermilion, .mark = Mark::cross}),
-                  corner,
+                  corner_ignitions, corner,
                   points_of(found_in(tables, "comparison"), "temperature_max_published_K",
                             {.label = published_words(found_in(tables, "comparison"), scene.load),
                             .colour = black,

@@ -94,9 +94,9 @@ struct Plot {
   int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
-/// Ends the y axis a part beyond a line across and the points below it: how hot a burning skin is says
-/// nothing of a gap, and how far a bar goes nothing of the points. What is hotter stands at that end with its
-/// value, and a bar that goes on has an arrow there.
+/// Ends the y axis beyond a line across: how hot a burning skin is says nothing of a gap, and how far a bar
+/// goes nothing of the points. What is hotter stands in a row of its series above the line, where the axis has
+/// no numbers, and a bar that goes on beyond has an arrow at its end.
 void cut_axis(double line, Plot& plot);
 
 /// A rectangle with a value; one without a value (NaN) is drawn in plain grey.
