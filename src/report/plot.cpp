@@ -234,9 +234,9 @@ std::string panel_commands(const Plot& plot) {
   return text + "unset multiplot\n";
 }
 
-/// Some six round values.
+/// At most ten round values.
 std::vector<Tic> tics_between(double least, double most) {
-  const double wanted = (most - least) / 6.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
+  const double wanted = (most - least) / 9.0, power = std::pow(10.0, std::floor(std::log10(wanted)));
   double step = 10.0 * power;
   for (const double digit : {5.0, 2.0, 1.0})
     if (digit * power >= wanted) step = digit * power;
