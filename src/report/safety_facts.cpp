@@ -300,7 +300,7 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_model
   Row row = with_measures(judged, verdict, nullptr);
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
-               known = is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
+               known = ignited || is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
   const int decimals = decimals_for(number_of(row, "uncertainty_K"));
   const auto told = [&](double value) {
     return judged.completed() && std::isfinite(value) ? Row(value) : Row();
@@ -330,6 +330,19 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
     const double gap = number_of(*each.critical, "critical_gap_cm");
     return each.is_own() ? -HUGE_VAL : std::isnan(gap) ? HUGE_VAL : gap;
   });
+}
+
+/// K: the hottest of gaps whose worst corner ignites, with all but the instant of release at its worst;
+/// nothing where no gap tells.
+Row hottest_but_for_release(const Row& shares, double ignition) {
+  double hottest = -HUGE_VAL;
+  for (const Row& row : shares) {
+    double temperature = number_of(row, "own_terms_K");
+    for (const char* share : {"of_base_K", "of_roughness_K", "of_air_flow_K"})
+      temperature += number_of(row, share);
+    if (number_of(row, "corner_K") > ignition) hottest = std::fmax(hottest, temperature);
+  }
+  return std::isfinite(hottest) ? Row(hottest) : Row();
 }
 
 // --- what the report says ---
@@ -423,7 +436,11 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   if (of_launch) add_launch(evidence, cases, all);
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
-  if (const StudyEvidence* closing = held_against(evidence)) facts["held_against"] = closing->label;
+  if (const StudyEvidence* closing = held_against(evidence)) {
+    facts["held_against"] = closing->label;
+    facts["closing"]["held_K"] =
+        hottest_but_for_release(closing->rows("closing_shares"), number_of(facts["scene"], "ignition_K"));
+  }
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
   std::set<std::string> models;  // under which ignition is not excluded
   for (const Row* row : rows("main.verdicts except verdict UNSAFE with model_form"))
