@@ -174,42 +174,61 @@ std::string cell_text(const Cell& cell, const Column& column) {
   return {};
 }
 
-/// What people read: the cells as text, the headings first, and below it what all rows say alike.
+/// What people read: the cells as text, the headings first, and below it what several rows say alike.
 struct Grid {
   std::vector<Column> columns;
   std::vector<std::vector<std::string>> lines;
   std::vector<std::string> below;
 };
 
-/// The sentence that a column has in all rows, of which there are several; empty of one with short cells.
-std::string said_in_all(const Table& table, std::size_t place) {
-  if (table.rows.size() < 2 || !is_text(table.columns[place])) return {};
-  const auto text_in = [&](const auto& row) { return cell_text(row[place], table.columns[place]); };
-  const std::string text = text_in(table.rows.front());
-  const bool everywhere =
-      std::ranges::all_of(table.rows, [&](const auto& row) { return text_in(row) == text; });
-  return everywhere && text.size() >= shortest_shared_sentence ? text : std::string{};
+/// The clauses with which all cells of a column end alike; empty where they are short.
+std::string shared_end(const std::vector<std::string>& cells) {
+  if (cells.size() < 2) return {};
+  std::string shared = cells.front();
+  const auto is_end = [&](const std::string& cell) {
+    return cell == shared || cell.ends_with("; " + shared);
+  };
+  while (!shared.empty() && !std::ranges::all_of(cells, is_end)) {
+    const std::size_t next = shared.find("; ");
+    shared = next == std::string::npos ? "" : shared.substr(next + 2);
+  }
+  return shared.size() >= shortest_shared_sentence ? shared : "";
+}
+
+/// Takes out of the cells of a column what they share; below stands what it was.
+void share_sentences(const std::string& label, std::vector<std::string>& cells,
+                     std::vector<std::string>& below) {
+  if (const std::string shared = shared_end(cells); !shared.empty()) {
+    below.push_back(fmt::format("{}, in all rows: {}", label, shared));
+    for (std::string& cell : cells)
+      cell.erase(cell.size() - shared.size() - (cell.size() > shared.size() ? 2 : 0));
+  }
+  constexpr std::ptrdiff_t often = 3;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string sentence = cells[i];
+    if (sentence.size() < shortest_shared_sentence || std::ranges::count(cells, sentence) < often) continue;
+    const std::string note = fmt::format("note {}", below.size() + 1);
+    below.push_back(note + ": " + sentence);
+    std::ranges::replace(cells, sentence, note);
+  }
 }
 
 template <class Escape>
 Grid grid_of(const Table& table, Escape escape) {
-  Grid grid{.lines = std::vector<std::vector<std::string>>(1)};
-  std::vector<std::size_t> places = places_for(table, Audience::people);
-  std::erase_if(places, [&](std::size_t place) {
-    const std::string said = said_in_all(table, place);
-    if (!said.empty())
-      grid.below.push_back(escape(fmt::format("{}, in all rows: {}", table.columns[place].label(), said)));
-    return !said.empty();
-  });
-  for (const std::size_t place : places) {
-    grid.columns.push_back(table.columns[place]);
-    grid.lines.front().push_back(escape(table.columns[place].label()));
+  Grid grid{.lines = std::vector<std::vector<std::string>>(table.rows.size() + 1)};
+  for (const std::size_t place : places_for(table, Audience::people)) {
+    const Column& column = table.columns[place];
+    std::vector<std::string> cells;
+    for (const auto& row : table.rows) cells.push_back(cell_text(row[place], column));
+    const std::size_t said = grid.below.size();
+    if (is_text(column)) share_sentences(column.label(), cells, grid.below);
+    const auto is_empty = [](const std::string& cell) { return cell.empty(); };
+    if (grid.below.size() > said && std::ranges::all_of(cells, is_empty)) continue;
+    grid.columns.push_back(column);
+    grid.lines.front().push_back(escape(column.label()));
+    for (std::size_t i = 0; i < cells.size(); ++i) grid.lines[i + 1].push_back(escape(cells[i]));
   }
-  for (const auto& row : table.rows) {
-    auto& line = grid.lines.emplace_back();
-    for (const std::size_t place : places)
-      line.push_back(escape(cell_text(row[place], table.columns[place])));
-  }
+  for (std::string& each : grid.below) each = escape(each);
   return grid;
 }
 

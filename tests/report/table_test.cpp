@@ -104,8 +104,28 @@ TEST(Table, ASentenceThatAllRowsShareStandsOnceBelowIt) {
             "gap [cm]\n--------\n     0.1\n     0.2\n\nreason, in all rows: " + sentence + "\nA note.\n");
   EXPECT_NE(to_markdown(table).find("\n\nreason, in all rows: " + sentence), std::string::npos);
   EXPECT_NE(to_csv(table).find("0.2," + std::string("\"") + sentence), std::string::npos);
+  table.rows[0][1] = "ignition; " + sentence;
+  EXPECT_EQ(to_text(table),
+            "gap [cm]  reason\n--------  --------\n     0.1  ignition\n     0.2\n\nreason, in all rows: " +
+                sentence + "\nA note.\n")
+      << "the clauses that they end with";
   table.rows.push_back({0.3, std::string("another")});
   EXPECT_EQ(to_text(table).find("in all rows"), std::string::npos);
+}
+
+TEST(Table, ASentenceOfSeveralRowsIsANoteBelowIt) {
+  const std::string sentence =
+      "extrapolated: the constants were calibrated on another launch, and it is long";
+  Table table{"", {{"gap", "gap", keys::fixed(1, centimetre)}, {"reason", "reason"}}, {}, {}};
+  for (const double gap : {0.1, 0.2}) table.rows.push_back({gap, sentence});
+  table.rows.push_back({0.3, std::string("ignition")});
+  EXPECT_EQ(to_text(table).find("note 1"), std::string::npos) << "two rows are read in place";
+  table.rows.push_back({0.4, sentence});
+  EXPECT_EQ(to_text(table),
+            "gap [cm]  reason\n--------  --------\n     0.1  note 1\n     0.2  note 1\n     0.3  ignition\n  "
+            "   0.4  note 1\n\n"
+            "note 1: " +
+                sentence + "\n");
 }
 
 TEST(Table, MarkdownHasItsRuleAndAlignment) {
