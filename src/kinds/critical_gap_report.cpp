@@ -136,6 +136,7 @@ std::string answer_in_detail(const CriticalGapResult& result) {
     Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update({{"why", text_of(outcome.critical.reason)},
                 {"by_reservoir", !outcome.input.closing},
+                {"accepted", outcome.evidence && !study::accepted_text(outcome.evidence->input).empty()},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
     lines.push_back(said("critical_gap.sentence", {{"row", row}}).front());

@@ -1,5 +1,7 @@
 #include "scene_file.hpp"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include <set>
 
 namespace launchsafe::scene {
@@ -22,8 +24,11 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || byte >= 0xc0;
 }
 
-/// Whether a reason is one in words: several, of enough letters, not one letter again and again.
+/// Whether a reason is one in words: several, of enough letters, not one letter again and again, and no mark
+/// of one that is still to be written.
 bool is_in_words(const std::string& text) {
+  for (const char* unwritten : {"todo", "tbd", "fixme", "fill in", "reason here"})
+    if (boost::algorithm::icontains(text, unwritten)) return false;
   std::string letters;
   std::ranges::copy_if(text, std::back_inserter(letters), is_letter);
   const std::set<char> different(letters.begin(), letters.end());
@@ -148,7 +153,8 @@ void check_reason(const std::string& text, const Place& place, const std::string
   throw error_at(
       place, key, fmt::format("\"{}\"", text),
       fmt::format(
-          "a reason in words, at least two and {} letters on one line: it is printed beside every verdict",
+          "a reason in words, at least two and {} letters on one line, none to be written later: it is "
+          "printed beside every verdict",
           fewest_letters));
 }
 

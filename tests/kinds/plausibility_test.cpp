@@ -97,7 +97,11 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(judgement_in(warned).reason, "not plausible")) << judgement_in(warned).reason;
     EXPECT_EQ(warned.details[0].critical.kind, CriticalGapKind::indeterminate) << key;
     const std::string reasons = accept_all(study_of(safe_study("", overrides)), "it was measured so");
-    const Told accepted = judgement_in(run_safe_study(reasons, overrides));
+    const CriticalGapResult meant = run_safe_study(reasons, overrides);
+    const Told accepted = judgement_in(meant);
+    EXPECT_EQ(says(answer(meant), "SAFE by a reservoir of air, as somebody accepts"),
+              accepted.verdict == Verdict::safe)
+        << answer(meant);
     EXPECT_FALSE(says(accepted.reason, "not plausible")) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;

@@ -300,6 +300,8 @@ TEST(Plausibility, RefusesAcceptancesThatNameNoKeyOrGiveNoReason) {
   refused("[" + entry("gap.exchange_time", "3 ms", "") + "]", "accept.because", "\"\"", "letters");
   refused("[" + entry("gap.exchange_time", "3 ms", "12345678910") + "]", "accept.because", "\"12345678910\"",
           "letters");
+  refused("[" + entry("gap.exchange_time", "3 ms", "TODO fill in reason") + "]", "accept.because",
+          "\"TODO fill in reason\"", "letters");
   refused("[" + entry("gap.exchange_time", "3 ms", "two lines\\nof words") + "]", "accept.because",
           "two lines", "one line");
   refused("[" + entry("load.peak", "620 MPa", "it is meant") + ", " +
