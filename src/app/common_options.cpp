@@ -209,14 +209,14 @@ bool same_study(const store::Manifest& one, const store::Manifest& other) {
 }
 
 bool holds_store(const path& folder) {
-  return !store::results_files_in(folder).empty() || !store::list_folder(folder / "cases").empty();
+  return !store::results_files_in(folder).empty() || !scene::list_folder(folder / "cases").empty();
 }
 
 std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
                                               const store::Manifest& manifest, bool update) {
   const auto record = store::record_of_report(folder);
   if (!record) return record.error().message;
-  std::vector<std::string> foreign = store::list_folder(folder);
+  std::vector<std::string> foreign = scene::list_folder(folder);
   std::erase_if(foreign, [&](const std::string& name) {
     return !kinds::may_write(kind, name) ||
            store::state_of(folder, *record, name) != store::FileState::foreign;
@@ -236,7 +236,7 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
 }
 
 void remove_leftovers(const path& folder) {
-  for (const std::string& name : store::list_folder(folder)) store::remove_leftover(folder / name);
+  for (const std::string& name : scene::list_folder(folder)) store::remove_leftover(folder / name);
 }
 
 }  // namespace launchsafe::app

@@ -45,14 +45,6 @@ scene::Scene measurable(scene::Scene scene) {
 
 // --- what is not plausible ---
 
-/// What cannot be read is left to the reader of scenes to complain about.
-scene::InputContent content_of(const path& file) {
-  const auto text = scene::read_text_file(file);
-  if (!text) return scene::InputContent::unknown;
-  const auto table = scene::parse_toml(*text, file.string());
-  return table ? scene::content_of(*table) : scene::InputContent::unknown;
-}
-
 std::string line_of(const scene::Implausible& value) {
   if (value.accepted()) return scene::accepted_text({value});
   return "validity warning: " + scene::validity_warning(value);
@@ -243,7 +235,8 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
       !std::filesystem::exists(arguments.file) && is_of_key(word))
     console.refuse(
         fmt::format("explain: found no file \"{0}\"; of keys tells: launchsafe explain --keys {0}", word));
-  if (content_of(arguments.file) != scene::InputContent::study) return explain_scene(arguments, console);
+  if (scene::content_of(arguments.file) != scene::InputContent::study)
+    return explain_scene(arguments, console);
   if (arguments.picture)
     console.refuse(
         fmt::format("--grid: found {}, which is no scene; allowed: a scene, such as that of a study",

@@ -131,10 +131,16 @@ void draw(const report::DrawnCase& drawn, const Selection& selection, bool table
 }
 
 ExitCode perform(const PlotArguments& arguments, Console& console) {
+  constexpr const char* allowed = "a case file, such as launchsafe run SCENE.toml -o DIR writes";
+  std::vector<std::string> inside;  // a folder, or that of a study
+  for (const path& folder : {arguments.file, arguments.file / "cases"})
+    for (const std::string& name : scene::list_folder(folder))
+      if (name.ends_with(".h5")) inside.push_back((folder / name).string());
+  if (!inside.empty())
+    console.refuse(
+        scene::error_at({arguments.file.string()}, {}, "a folder", allowed, scene::quoted_list(inside)));
   const auto file = store::read_case_with_scene(arguments.file);
-  if (!file)
-    console.refuse(file.error().message +
-                   "; allowed: a case file, such as launchsafe run SCENE.toml -o DIR writes");
+  if (!file) console.refuse(fmt::format("{}; allowed: {}", file.error().message, allowed));
   report::DrawnCase drawn{file->scene, file->stored.result};
   if (arguments.references) drawn.published = console.value_of(kinds::read_references(*arguments.references));
   const bool tables = arguments.tables;

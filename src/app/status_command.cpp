@@ -22,9 +22,7 @@ std::string study_folder_near(const path& folder) {
   std::vector<path> candidates{folder.parent_path(), folder.lexically_normal().parent_path().parent_path()};
   std::error_code failed;
   const path around = fs::is_directory(folder, failed) ? folder : folder.parent_path();
-  for (const auto& entry : fs::directory_iterator(around.empty() ? "." : around, failed))
-    if (entry.is_directory(failed)) candidates.push_back(entry.path());
-  std::sort(candidates.begin() + 2, candidates.end());
+  for (const std::string& name : scene::list_folder(around)) candidates.push_back(around / name);
   const auto found = std::ranges::find_if(
       candidates, [](const path& each) { return !each.empty() && !store::statuses_in(each).empty(); });
   return found == candidates.end() ? "" : found->lexically_normal().string();

@@ -172,18 +172,10 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
   return changes;
 }
 
-SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
-                           const std::string& key, const Place& place) {
-  const std::filesystem::path path = folder / name;
-  std::error_code status;
-  if (std::filesystem::exists(path, status)) return taken(scene::read_scene(path));
-  throw error_at(place, key, fmt::format("\"{}\", which does not exist", name),
-                 "a scene file, by its path from the study file's folder", scene::nearest_file(folder, name));
-}
-
 study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,
                                     StudyFile& study) {
-  study.scene = read_named_scene(study.study.scene, source.folder, "scene", place_of_key(study, "scene"));
+  study.scene = taken(scene::read_scene(scene::named_file(
+      source.folder, study.study.scene, place_of_key(study, "scene"), "scene", "a scene file")));
   for (const OverrideTable& each : overrides) apply_overrides(each, study);
   use_calibration(study, source.folder);
   scene::check_expected_velocity(study.scene);
@@ -241,9 +233,8 @@ Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::pa
 }
 
 Expected<StudyFile> read_study(const std::filesystem::path& file, const StudyRequest& request) {
-  const auto text = scene::read_text_file(file);
-  if (!text) return text.error();
-  return parse_study(*text, file, request);
+  const auto text = scene::read_text_file(file, scene::largest_input, scene::InputContent::study);
+  return text ? parse_study(*text, file, request) : text.error();
 }
 
 std::vector<scene::DocumentedKey> describe_study_keys() {

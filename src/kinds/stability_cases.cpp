@@ -70,8 +70,9 @@ Changed with_keys(SceneFile start, const std::vector<OverrideTable>& all, const 
 SceneFile starting_scene(const CaseReader& reader) {
   if (reader.launch.scene.empty()) return reader.study.scene;
   const toml::node* at = reader.table.get("scene");
-  const SceneFile own = read_named_scene(reader.launch.scene, reader.source.folder, "group.cases.scene",
-                                         scene::place_of(at ? *at : reader.table, reader.study.file));
+  const Place place = scene::place_of(at ? *at : reader.table, reader.study.file);
+  const SceneFile own = taken(scene::read_scene(scene::named_file(
+      reader.source.folder, reader.launch.scene, place, "group.cases.scene", "a scene file")));
   return taken(with_keys(own, {{"set", reader.source.root.get("set")}}, reader.study.file));
 }
 

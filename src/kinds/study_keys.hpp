@@ -240,10 +240,6 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
 Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
                                      std::size_t most_cases);
 
-/// Reads a scene by its path from the study file's folder; the fault of a missing one is at `key`.
-SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
-                           const std::string& key, const Place& place);
-
 /// Reads the scene that the study names, then the overrides, in their order, then the constants of a
 /// calibration, then the numerics that a tolerance (K, of T max) picks from the accuracy records that the
 /// study names, which are returned.

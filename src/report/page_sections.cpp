@@ -247,7 +247,7 @@ Row findings_of(const Row& told) {
 /// What a folder holds, as the index names it; null where that is neither a page nor a picture.
 Row entry_of(const path& folder, const std::string& place) {
   Row entry{{"place", place}, {"title", ""}, {"findings", Row::array()}};
-  for (const std::string& name : store::list_folder(folder))
+  for (const std::string& name : scene::list_folder(folder))
     for (const auto& [ending, list] : {std::pair{".svg", "pictures"}, {".html", "pages"}, {".md", "pages"}})
       if (name.ends_with(ending)) entry[list].push_back({{"file", place + "/" + name}, {"name", name}});
   if (!entry.contains("pages") && !entry.contains("pictures")) return {};
@@ -272,7 +272,7 @@ Row entry_of(const path& folder, const std::string& place) {
 }
 
 void add_parts(const path& root, const std::string& place, Row& parts) {
-  for (const std::string& name : store::list_folder(root / place)) {
+  for (const std::string& name : scene::list_folder(root / place)) {
     const std::string part = place + "/" + name;
     if (!std::filesystem::is_directory(root / part)) continue;
     if (Row entry = entry_of(root / part, part); !entry.is_null()) parts.push_back(std::move(entry));
@@ -284,7 +284,7 @@ void add_parts(const path& root, const std::string& place, Row& parts) {
 
 std::string index_page(const path& folder) {
   Row entries = Row::array();
-  for (const std::string& name : store::list_folder(folder)) {
+  for (const std::string& name : scene::list_folder(folder)) {
     if (!std::filesystem::is_directory(folder / name)) continue;
     Row entry = entry_of(folder / name, name);
     if (entry.is_null()) continue;

@@ -140,6 +140,21 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
+/// What to suggest in the place of a file that does not exist, named by its path from a folder: such a path
+/// to one of that name in a folder beside it, or to the nearest name there is beside it; empty for none.
+std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+  const std::filesystem::path beside = folder / name.parent_path();
+  const std::string wanted = name.filename().string();
+  const std::vector<std::string> names = list_folder(beside);
+  if (contains(names, wanted)) return {};  // it is there, as something else
+  std::error_code failure;
+  const auto inner = std::ranges::find_if(names, [&](const std::string& each) {
+    return std::filesystem::is_regular_file(beside / each / wanted, failure);
+  });
+  const std::string near = inner == names.end() ? nearest_of(wanted, names) : *inner + "/" + wanted;
+  return near.empty() ? near : quotable(in_quotes((name.parent_path() / near).string()), longest_quoted);
+}
+
 }  // namespace
 
 std::string_view without_blanks_around(std::string_view text) {
@@ -222,27 +237,42 @@ Expected<std::string> read_regular_file(const std::filesystem::path& file, std::
   }
 }
 
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest) {
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest,
+                                     InputContent wanted) {
   auto text = read_regular_file(file, largest);
-  if (text || !text.error().file_missing) return text;
+  if (text) return text;
   InputError error = text.error();
-  error.suggestion = nearest_file({}, file);
+  std::vector<std::string> inside;
+  if (wanted != InputContent::unknown)
+    for (const std::string& name : list_folder(file))
+      if (name.ends_with(".toml") && content_of(file / name) == wanted)
+        inside.push_back((file / name).string());
+  error.suggestion = error.file_missing ? nearest_file({}, file) : quoted_list(inside);
   return error;
 }
 
-std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name) {
+std::vector<std::string> list_folder(const std::filesystem::path& folder) {
+  std::vector<std::string> found;
+  std::error_code status;
+  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, status), end;
+       !status && entry != end; entry.increment(status))
+    found.push_back(entry->path().filename());
+  std::ranges::sort(found);
+  return found;
+}
+
+std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name,
+                                 const Place& place, std::string_view key, const std::string& wanted) {
   std::error_code failure;
-  std::vector<std::string> names;
-  const auto beside = folder / name.parent_path();
-  for (std::filesystem::directory_iterator entry(beside.empty() ? "." : beside, failure), end;
-       !failure && entry != end; entry.increment(failure)) {
-    names.push_back(entry->path().filename().string());
-  }
-  std::ranges::sort(names);
-  if (std::ranges::binary_search(names, name.filename().string()))
-    return {};  // it is there, as something else
-  const std::string near = nearest_of(name.filename().string(), names);
-  return near.empty() ? near : quotable(in_quotes((name.parent_path() / near).string()), longest_quoted);
+  if (std::filesystem::exists(folder / name, failure)) return folder / name;
+  throw error_at(place, key, fmt::format("\"{}\", which does not exist", name),
+                 wanted + ", by its path from this file's folder", nearest_file(folder, name));
+}
+
+InputContent content_of(const std::filesystem::path& file) {
+  const auto text = read_text_file(file);
+  const auto table = text ? parse_toml(*text, file.string()) : InputError{};
+  return table ? content_of(*table) : InputContent::unknown;
 }
 
 InputContent content_of(const toml::table& root) {

@@ -27,12 +27,8 @@ void read_named(const toml::table& root, const std::string& name, const std::vec
 void read_curve_file(SceneFile& file) {
   Load& load = file.scene.load;
   if (load.curve_file.empty()) return;
-  const std::filesystem::path path = file.folder / load.curve_file;
-  std::error_code status;
-  if (!std::filesystem::exists(path, status))
-    throw fault_at(file, "load.curve", fmt::format("\"{}\", which does not exist", load.curve_file),
-                   "a CSV file, by its path from the scene file's folder",
-                   nearest_file(file.folder, load.curve_file));
+  const auto path =
+      named_file(file.folder, load.curve_file, place_of_key(file, "load.curve"), "load.curve", "a CSV file");
   PressureCurve curve = read_pressure_curve(path).or_throw();
   load.curve_time = std::move(curve.time);
   load.curve_pressure = std::move(curve.pressure);
@@ -154,15 +150,9 @@ void read_own_materials(const toml::table& table, SceneFile& file, std::vector<N
   };
   if (const toml::node* node = table.get("material_file")) {
     const auto named = std::get<std::string>(read_value(*node, material_file_key(), file.file).or_throw());
-    const std::filesystem::path path = file.folder / named;
-    const auto text = read_text_file(path);
-    if (!text)
-      throw error_at(place_of(*node, file.file), "material_file",
-                     fmt::format("\"{}\", which cannot be read", named),
-                     "a TOML file with tables [material.NAME] and [contact.NAME], by its path from the "
-                     "scene file's folder",
-                     nearest_file(file.folder, named));
-    const toml::table content = parse_toml(*text, path.string()).or_throw();
+    const auto path = named_file(file.folder, named, place_of(*node, file.file), "material_file",
+                                 "a TOML file with tables [material.NAME] and [contact.NAME]");
+    const toml::table content = parse_toml(read_text_file(path).or_throw(), path.string()).or_throw();
     check_material_tables(content, path.string());
     add(content, path.string());
   }
@@ -274,7 +264,8 @@ Expected<SceneFile> parse_scene(std::string_view text, const std::filesystem::pa
 }
 
 Expected<SceneFile> read_scene(const std::filesystem::path& file) {
-  return caught([&] { return parse_scene(read_text_file(file).or_throw(), file).or_throw(); });
+  const auto text = read_text_file(file, largest_input, InputContent::scene);
+  return text ? parse_scene(*text, file) : text.error();
 }
 
 Expected<KeyDescription> describe_key(const SceneFile& file, const std::string& name, const Place& place) {

@@ -150,14 +150,4 @@ bool sync_folder(const std::filesystem::path& folder) {
   return descriptor.is_open() && (::fsync(descriptor.number()) == 0 || errno == EINVAL || errno == ENOTSUP);
 }
 
-std::vector<std::string> list_folder(const std::filesystem::path& folder) {
-  std::vector<std::string> found;
-  std::error_code status;
-  for (std::filesystem::directory_iterator entry(folder, status), end; !status && entry != end;
-       entry.increment(status))
-    found.push_back(entry->path().filename());
-  std::ranges::sort(found);
-  return found;
-}
-
 }  // namespace launchsafe::store

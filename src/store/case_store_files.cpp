@@ -82,14 +82,14 @@ bool is_store_name(std::string_view name) {
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const std::string& name : list_folder(folder))
+  for (const std::string& name : scene::list_folder(folder))
     if (part_in(name, stem, ending)) files.push_back(folder / name);
   return files;
 }
 
 std::vector<std::string> stored_hashes(const StoreNames& names) {
   std::vector<std::string> hashes;
-  for (const std::string& name : list_folder(names.cases())) {
+  for (const std::string& name : scene::list_folder(names.cases())) {
     const std::filesystem::path file(name);
     if (file.extension() == ".h5" && is_case_hash(file.stem().string())) hashes.push_back(file.stem());
   }
@@ -122,7 +122,7 @@ Error told_who_writes(const Error& error, const std::filesystem::path& results) 
 }
 
 void remove_leftovers_of(const StoreNames& names) {
-  for (const std::string& temporary : list_folder(names.cases())) {
+  for (const std::string& temporary : scene::list_folder(names.cases())) {
     const std::optional<std::string> name = name_behind(temporary);
     if (!name || !is_case_hash(name->substr(0, name->find('.')))) continue;
     // A part excludes whole studies and others of its own name.
@@ -169,7 +169,7 @@ std::optional<nlohmann::ordered_json> status_in(std::string_view content) {
 std::vector<StoreStatus> statuses_in(const std::filesystem::path& folder) {
   std::vector<StoreStatus> parts;
   std::optional<StoreStatus> whole;
-  for (const std::string& name : list_folder(folder)) {
+  for (const std::string& name : scene::list_folder(folder)) {
     const std::optional<std::string> part = part_of_status(name);
     const auto text = part ? read_file(folder / name) : Error{};
     const auto members = text ? status_in(*text) : std::nullopt;

@@ -105,12 +105,8 @@ Tables tables_of(const toml::table& root, const std::string& name, const StudyFi
 
 std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
                             const std::string& key, const std::string& name, const std::string& wanted) {
-  auto text = scene::read_text_file(folder / name);
-  if (text) return std::move(*text);
-  refuse_at(
-      study, key,
-      fmt::format("\"{}\", which {}", name, text.error().file_missing ? "does not exist" : "cannot be read"),
-      wanted + ", by its path from the study file's folder", scene::nearest_file(folder, name));
+  return scene::read_text_file(scene::named_file(folder, name, place_of_key(study, key), key, wanted))
+      .or_throw();
 }
 
 std::vector<Leaf> leaves_as_written(const toml::table& table) {

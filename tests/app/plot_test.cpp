@@ -104,7 +104,11 @@ TEST_F(Plotted, RefusesWhatIsNoCase) {
   expect_refused({"half.h5", "-o", "out"}, "half.h5: truncated");
   expect_refused({"none.h5", "-o", "out"}, "none.h5");
   expect_refused({"shell.toml", "-o", "out"}, "shell.toml: not a launchsafe case file");
-  expect_refused({".", "-o", "out"}, "allowed: a case file");
+  expect_refused({".", "-o", "out"}, "found a folder; allowed: a case file");
+  expect_refused({".", "-o", "out"}, "did you mean \"./half.h5\"");
+  std::filesystem::create_directories(folder() / "study/cases");
+  write("study/cases/one.h5", whole);
+  expect_refused({"study", "-o", "out"}, "did you mean \"study/cases/one.h5\"?");
 }
 
 TEST_F(Plotted, RefusesWordsAndTimesThatItDoesNotKnow) {

@@ -48,6 +48,32 @@ TEST_F(ReadTextFile, ReadsRegularFilesOnly) {
   EXPECT_NE(found("self").find("cannot be read"), std::string::npos);
 }
 
+TEST_F(ReadTextFile, AMissingFileIsSuggestedFromTheFoldersBesideIt) {
+  std::filesystem::create_directories(folder() / "studies/scene.toml.d");
+  std::ofstream(folder() / "studies/scene.toml") << "text";
+  std::ofstream(folder() / "scene.tom") << "text";
+  const auto suggestion = [this](const std::string& name) {
+    return read_text_file(folder() / name).error().suggestion;
+  };
+  EXPECT_EQ(suggestion("scene.toml"), '"' + (folder() / "studies/scene.toml").string() + '"');
+  EXPECT_EQ(suggestion("scene.tml"), '"' + (folder() / "scene.tom").string() + '"');
+  EXPECT_EQ(suggestion("quite different"), "");
+}
+
+TEST_F(ReadTextFile, InThePlaceOfAFolderTheFilesOfThatContentInItAreSuggested) {
+  std::ofstream(folder() / "a.toml") << "kind = \"critical-gap\"";
+  std::ofstream(folder() / "b.toml") << "kind = \"accuracy\"";
+  std::ofstream(folder() / "scene.toml") << "body = []";
+  std::ofstream(folder() / "notes.md") << "kind = \"accuracy\"";
+  const auto suggestion = [this](InputContent wanted) {
+    return read_text_file(folder(), largest_input, wanted).error().suggestion;
+  };
+  const std::string studies = quoted_list({(folder() / "a.toml").string(), (folder() / "b.toml").string()});
+  EXPECT_EQ(suggestion(InputContent::study), studies);
+  EXPECT_EQ(suggestion(InputContent::scene), quoted_list({(folder() / "scene.toml").string()}));
+  EXPECT_EQ(suggestion(InputContent::unknown), "");
+}
+
 TEST_F(ReadTextFile, AFileHasALargestSize) {
   std::ofstream(folder() / "four") << "text";
   EXPECT_TRUE(read_text_file(folder() / "four", 4));

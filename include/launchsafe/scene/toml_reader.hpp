@@ -52,12 +52,20 @@ inline constexpr std::size_t largest_input = std::size_t{16} << 20, largest_curv
 /// The content of a regular file of at most `largest` bytes, or why it cannot be read. Never waits for a pipe
 /// or a device.
 Expected<std::string> read_regular_file(const std::filesystem::path& file, std::size_t largest);
-/// The same of a file that a user named: in the place of a missing one the nearest name in its folder is
-/// suggested.
-Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input);
-/// What to suggest in the place of a file that does not exist, named by its path from a folder: such a path
-/// with the nearest name there is beside it, in quotation marks; empty for none.
-std::string nearest_file(const std::filesystem::path& folder, const std::filesystem::path& name);
+/// What a file of input is of: people give a study where a scene is asked for, and the other way round.
+enum class InputContent { scene, study, materials, unknown };
+
+/// The same of a file that a user named: in the place of a missing one that is suggested which was
+/// perhaps meant, in that of a folder the files in it that are of what is wanted.
+Expected<std::string> read_text_file(const std::filesystem::path& file, std::size_t largest = largest_input,
+                                     InputContent wanted = InputContent::unknown);
+/// The path of a file that a key names by its path from a folder, that of the key's own file. Throws the
+/// fault of one that is not there: `wanted` says which file that should be.
+std::filesystem::path named_file(const std::filesystem::path& folder, const std::string& name,
+                                 const Place& place, std::string_view key, const std::string& wanted);
+/// The names of what is in a folder, sorted, so that nothing depends on the file system's order; none of one
+/// that cannot be read.
+std::vector<std::string> list_folder(const std::filesystem::path& folder);
 
 /// One value of a table, checked against its key.
 Expected<Value> read_value(const toml::node& node, const KeyDescription& key, const std::string& file);
@@ -153,12 +161,11 @@ Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_table
 /// The error for a name that no key has, with the nearest one that exists.
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known);
 
-/// What a file of input is of: people give a study where a scene is asked for, and the other way round.
-enum class InputContent { scene, study, materials, unknown };
-
-/// By its keys: a scene has bodies; a study names its kind or its scene; a file of materials has nothing but
-/// materials and contacts.
+/// By the keys of a file: a scene has bodies; a study names its kind or its scene; a file of materials has
+/// nothing but materials and contacts.
 InputContent content_of(const toml::table& root);
+/// Of a file; unknown where it cannot be read, about which its reader complains.
+InputContent content_of(const std::filesystem::path& file);
 
 /// Throws the fault of a file that is clearly of something else than is wanted.
 void check_content(const toml::table& root, const std::string& file, InputContent wanted);

@@ -68,10 +68,6 @@ Result<std::filesystem::path> move_to_numbered_name(const std::filesystem::path&
 /// The whole content of a regular file. Errors: missing, unreadable.
 Result<std::string> read_file(const std::filesystem::path& path);
 
-/// The names of what is in a folder, sorted, so that nothing depends on the file system's order; none of one
-/// that cannot be read.
-std::vector<std::string> list_folder(const std::filesystem::path& folder);
-
 // --- calling another program ---
 
 /// What ends a program that was called.
