@@ -223,10 +223,9 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
   });
   if (!foreign.empty())
     return fmt::format(
-        "{} holds files that launchsafe did not write ({}{}), and nothing is overwritten; move them away or "
+        "{} holds files that launchsafe did not write ({}), and nothing is overwritten; move them away or "
         "name another folder",
-        folder.string(), foreign.front(),
-        foreign.size() > 1 ? fmt::format(" and {} more", foreign.size() - 1) : "");
+        folder.string(), scene::first_of(foreign, 1));
   if (update || record->manifest.input_sha256.empty() || same_study(record->manifest, manifest))
     return std::nullopt;
   return fmt::format(

@@ -6,19 +6,10 @@
 namespace launchsafe::app {
 namespace {
 
-/// The first of them where they are many.
-std::string list_of(const std::vector<std::string>& names) {
-  constexpr std::size_t most_named = 4;
-  const std::size_t named = std::min(names.size(), most_named);
-  std::string text =
-      fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(named), ", "));
-  if (named < names.size()) text += fmt::format(" and {} more", names.size() - named);
-  return text;
-}
-
 report::Table interval_table(const scene::Scene& scene) {
   using scene::GridInterval, keys::millimetre, keys::significant;
   const char* of_edge = "Bodies whose edge is there.";
+  const auto list_of = [](const std::vector<std::string>& names) { return scene::first_of(names, 4); };
   const report::Quantities<GridInterval> quantities{
       {"along", "along", keys::text(), "Direction.", &GridInterval::along},
       {"from", "from", significant(7, millimetre), "Where it begins.", &GridInterval::from},

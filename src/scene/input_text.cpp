@@ -333,6 +333,12 @@ std::string nearest_of(std::string_view word, const std::vector<std::string>& ca
   return nearest;
 }
 
+std::string first_of(std::vector<std::string> names, std::size_t most) {
+  const std::size_t more = names.size() - std::min(most, names.size());
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 std::string quoted_list(const std::vector<std::string>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {

@@ -229,14 +229,10 @@ void summarise_materials(std::vector<Difference>& foreign) {
   }
   if (names.size() < 2) return;
   std::erase_if(foreign, of_material);
-  constexpr std::size_t most_named = 3;
-  const std::string rest =
-      names.size() > most_named ? fmt::format(" and {} more", names.size() - most_named) : "";
-  names.resize(std::min(names.size(), most_named));
   const auto place = std::ranges::find(foreign, scene::foreign_interfaces,
                                        [](const Difference& each) { return each.key.name; });
   foreign.insert(place, {{.name = scene::foreign_material, .kind = scene::KeyKind::text},
-                         fmt::format("{}{}, {}", fmt::join(names, ", "), rest, short_digest(values)),
+                         fmt::format("{}, {}", scene::first_of(names, 3), short_digest(values)),
                          std::string("other numbers")});
 }
 

@@ -104,5 +104,11 @@ TEST(InputText, MessagesAreOneLineOfLimitedLength) {
   EXPECT_EQ(quotable("as it is", 20), "as it is");
 }
 
+TEST(InputText, OfManyNamesTheFirstAreTold) {
+  EXPECT_EQ(first_of({"a", "b", "c"}, 1), "a and 2 more");
+  EXPECT_EQ(first_of({"a", "b", "c"}, 3), "a, b, c");
+  EXPECT_EQ(first_of({}, 3), "");
+}
+
 }  // namespace
 }  // namespace launchsafe::scene

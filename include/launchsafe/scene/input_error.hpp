@@ -84,6 +84,9 @@ std::string quotable(std::string_view text, std::size_t longest);
 /// are near to none.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "a, b and 3 more": the first ones of several names.
+std::string first_of(std::vector<std::string> names, std::size_t most);
+
 /// `"a", "b" or "c"`.
 std::string quoted_list(const std::vector<std::string>& words);
 
