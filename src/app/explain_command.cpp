@@ -47,7 +47,8 @@ scene::Scene measurable(scene::Scene scene) {
 
 std::string line_of(const scene::Implausible& value) {
   if (value.accepted()) return scene::accepted_text({value});
-  return "validity warning: " + scene::validity_warning(value);
+  return fmt::format("validity warning: {}{}", scene::validity_warning(value),
+                     value.suggestion.empty() ? "" : fmt::format("; did you mean \"{}\"?", value.suggestion));
 }
 
 /// A study of the scene alone, under the shipped calibration.

@@ -58,6 +58,16 @@ std::string entry_to_write(const std::string& key, const std::string& value) {
                      plain ? '"' + value + '"' : exact_toml({.kind = KeyKind::text}, value));
 }
 
+/// The value under another prefix of its unit, where that makes it plausible: "496 MPa" of 496 kPa. What
+/// follows from keys is written nowhere.
+std::string under_another_prefix(const KeyDescription& key, const Value& value) {
+  const auto* number = std::get_if<double>(&value);
+  if (!number || key.standing == Standing::derived || units_of(key.dimension).empty()) return {};
+  for (const double factor : {1.0, 1e3, 1e-3, 1e6, 1e-6})
+    if (is_plausible(key, factor * *number)) return factor == 1.0 ? "" : format_value(key, factor * *number);
+  return {};
+}
+
 void check_value(const Acceptance& acceptance, const KeyDescription& key,
                  const std::map<std::string, Place>& places) {
   constexpr double widest = 2.0;
@@ -118,7 +128,8 @@ bool same_value(const Value& a, const Value& b, double tolerance) {
 
 Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
                         const Value& value, std::string range) {
-  Implausible found{std::move(name), format_value(key, value), std::move(range), {}, {}};
+  Implausible found{
+      std::move(name), format_value(key, value), std::move(range), {}, {}, under_another_prefix(key, value)};
   for (const Acceptance& each : accepted) {
     if (each.key != found.key || found.accepted()) continue;
     found.accepted_value = each.value;

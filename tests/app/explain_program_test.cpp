@@ -43,6 +43,22 @@ TEST_F(ExplainedProgram, ListsTheKeysThatHaveAWord) {
   EXPECT_NE(none.err.find("\"lode\""), std::string::npos) << none.err;
 }
 
+TEST_F(ExplainedProgram, SaysOfASceneWhatIsNotPlausibleAsOfAStudyOfIt) {
+  write("shell.toml", with(tiny_scene, "\"50 MPa\"", "\"500 kPa\""));
+  write("study.toml",
+        "kind = \"critical-gap\"\nscene = \"shell.toml\"\ngaps = \"0 cm\"\nearly_time = \"0.03 ms\"\n");
+  const auto plausibility = [this](const char* file) {
+    const std::string text = run({"explain", file}).out;
+    const auto begin = text.find("\nPlausibility\n");
+    EXPECT_NE(begin, std::string::npos) << text;
+    return text.substr(begin, text.find("\nAcceptances\n", begin) - begin);
+  };
+  const std::string of_scene = plausibility("shell.toml");
+  EXPECT_NE(of_scene.find("load.peak = 0.5 MPa is not plausible"), std::string::npos) << of_scene;
+  EXPECT_NE(of_scene.find("did you mean \"500 MPa\"?"), std::string::npos) << of_scene;
+  EXPECT_EQ(plausibility("study.toml"), of_scene);
+}
+
 TEST_F(ExplainedProgram, HasEveryKeyOfAReaderInItsSchemaWithUnitRangeAndExample) {
   const Json schema = Json::parse(run({"explain", "--schema", "scene"}).out);
   EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-04/schema#");

@@ -65,6 +65,20 @@ TEST(Plausibility, EveryDefaultAndTheShippedSceneArePlausible) {
   EXPECT_EQ(validity_warnings_of(shipped().scene), "");
 }
 
+TEST(Plausibility, SuggestsThePrefixOfTheUnitThatMakesAValuePlausible) {
+  const auto suggestion = [](const std::string& key, const char* value) {
+    for (const Implausible& each : implausible_values(shipped_with({{key, value}}).scene))
+      if (each.key == key) return each.suggestion;
+    return std::string("plausible");
+  };
+  EXPECT_EQ(suggestion("load.peak", "496 kPa"), "496 MPa");
+  EXPECT_EQ(suggestion("charge.crack_radius", "30 mm"), "30 µm");
+  EXPECT_EQ(suggestion("load.peak", "5 GPa"), "") << "nothing that a factor of a thousand mends";
+  // What follows from keys stands nowhere.
+  for (const Implausible& each : implausible_values(shipped_with({{"load.peak", "496 kPa"}}).scene))
+    EXPECT_TRUE(each.key == "load.peak" || each.suggestion.empty()) << each.key;
+}
+
 // Each of these ended with every gap SAFE, or might have: the air does not heat, the skin is thick, nothing
 // rubs, cracks, ignites or moves.
 TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
