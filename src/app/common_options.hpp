@@ -68,8 +68,10 @@ std::pair<CLI::App&, Arguments&> add_command(CLI::App& app, CommandLine& line, c
   return {command, *arguments};
 }
 
-/// Where to read how to write a command line that makes no sense.
-inline constexpr const char* usage_hint = " (launchsafe --help shows the usage)";
+/// Where to read how to write a command line of a command, "report ", or of any, "", that makes no sense.
+inline std::string usage_hint(const std::string& command) {
+  return fmt::format(" (launchsafe {}--help shows the usage)", command);
+}
 
 /// Refuses `-o --json`, which would name a file or folder that nobody means, and "". `type`: what the help
 /// calls it.

@@ -230,7 +230,8 @@ bool is_of_key(const std::string& word) {
 }
 
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
-  if (const std::string fault = contradiction(arguments); !fault.empty()) console.refuse(fault + usage_hint);
+  if (const std::string fault = contradiction(arguments); !fault.empty())
+    console.refuse(fault + usage_hint("explain "));
   if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
   if (const std::string word = arguments.file.string();
       !std::filesystem::exists(arguments.file) && is_of_key(word))

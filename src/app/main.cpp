@@ -53,13 +53,6 @@ bool asks_for_json(int argument_count, const char* const* arguments) {
   return false;
 }
 
-/// What is not among these words, with the nearest of them; `place` is where it stands.
-std::string unknown_word(const std::string& place, const std::string& word, const std::string& allowed,
-                         const std::vector<std::string>& known) {
-  const std::string nearest = word == "help" ? "--help" : scene::nearest_of(word, known);
-  return scene::InputError{{}, 0, 0, place, '"' + word + '"', allowed, nearest}.message();
-}
-
 std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : command.get_options())
@@ -67,45 +60,40 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The first command or option that there is none of; empty where all are known.
-std::string unknown_word_in(const CLI::App& app, int argument_count, const char* const* arguments) {
-  if (argument_count < 2) return {};
-  const std::string given = arguments[1];
-  const bool is_bare = given.starts_with('-');
-  std::vector<std::string> commands, options;
-  if (is_bare) options = option_names(app);
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    commands.push_back(command->get_name());
-    if (command->get_name() == given) options = option_names(*command);
+/// What is wrong with a word that a command, or the program itself, does not take: with the nearest that
+/// there is, and the commands that have such an option. Empty where what lacks is the command.
+std::string fault_of_word(const std::string& given, const CLI::App& command, const CLI::App& app) {
+  const std::string word = given.substr(0, given.find('=')),
+                    name = &command == &app ? "" : command.get_name();
+  std::vector<std::string> known, others;
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+    known.push_back(each->get_name());
+    const std::vector<std::string> options = option_names(*each);
+    if (std::ranges::find(options, word) != options.end()) others.push_back(each->get_name());
   }
-  if (options.empty()) return unknown_word("", given, fmt::format("{}", fmt::join(commands, ", ")), commands);
-  const std::string command = is_bare ? "" : given,
-                    help = "launchsafe " + command + (is_bare ? "" : " ") + "--help";
-  for (int i = is_bare ? 1 : 2; i < argument_count; ++i) {
-    const std::string_view argument = arguments[i];
-    if (argument == "--") break;
-    const std::string name(argument.substr(0, argument.find('=')));
-    if (!name.starts_with("--") || std::ranges::find(options, name) != options.end()) continue;
-    std::vector<std::string> others;
-    for (const std::string& other : commands)
-      if (const auto known = option_names(*app.get_subcommand(other));
-          std::ranges::find(known, name) != known.end())
-        others.push_back(other);
-    if (others.size() == commands.size()) continue;  // what lacks is the command
-    return unknown_word(command, name, "the options that " + help + " lists", options) +
-           (others.empty() ? "" : fmt::format("; {} is an option of {}", name, fmt::join(others, ", ")));
+  if (others.size() == known.size()) return {};
+  std::string allowed = fmt::format("{}", fmt::join(known, ", ")), elsewhere;
+  if (word.starts_with('-')) {
+    known = option_names(command);
+    allowed = name.empty() ? "its options" : "options of " + name;
+  } else if (!name.empty()) {
+    known.clear();
+    allowed = "no more arguments";
   }
-  return {};
+  if (word == "--set")
+    elsewhere = "; a study's file sets values: set = { load.peak = \"500 MPa\" } above its first [table]";
+  else if (!others.empty())
+    elsewhere = fmt::format("; {} is an option of {}", word, fmt::join(others, ", "));
+  std::string nearest = word == "help" ? "--help" : scene::nearest_of(word, known);
+  if (name.empty() && word.ends_with(".toml")) nearest = "launchsafe study " + word;
+  return scene::InputError{{}, 0, 0, name, '"' + word + '"', allowed, nearest}.message() + elsewhere;
 }
 
-/// "STUDY.toml is required": an argument is named as the help names it; empty for anything else that is
-/// wrong.
-std::string missing_word_in(const CLI::App& app, const CLI::ParseError& error) {
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-    for (const CLI::Option* option : command->get_options())
-      if (app.got_subcommand(command->get_name()) && option->get_positional() &&
-          option->get_name() + " is required" == error.what())
-        return words_of(command->get_name(), option->get_name()).type + " is required";
+/// "STUDY.toml is required", which the help calls so; empty for anything else that is wrong.
+std::string missing_word_of(const CLI::App& command, const CLI::ParseError& error) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_positional() && option->get_name() + " is required" == error.what())
+      return words_of(command.get_name(), option->get_name()).type + " is required";
   return {};
 }
 
@@ -144,10 +132,15 @@ CommandLine parse_command_line(int argument_count, const char* const* arguments)
     app.exit(success, help, help);
     if (!help.str().empty()) line.perform = print(help.str());
   } catch (const CLI::ParseError& error) {
-    std::string fault = unknown_word_in(app, argument_count, arguments);
-    if (fault.empty()) fault = missing_word_in(app, error);
+    const std::vector<CLI::App*> called = app.get_subcommands();
+    const CLI::App& command = called.empty() ? app : *called.front();
+    std::string fault;
+    if (const auto words = app.remaining(true); !words.empty())
+      fault = fault_of_word(words.front(), command, app);
+    if (fault.empty()) fault = missing_word_of(command, error);
     if (fault.empty()) fault = error.what();
-    line.perform = [fault = fault + usage_hint](Console& console) -> ExitCode { console.refuse(fault); };
+    fault += usage_hint(called.empty() ? "" : command.get_name() + " ");
+    line.perform = [fault](Console& console) -> ExitCode { console.refuse(fault); };
   }
   line.json = asks_for_json(argument_count, arguments);
   return line;

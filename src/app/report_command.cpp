@@ -76,7 +76,8 @@ std::string contradiction(const ReportArguments& report) {
 }
 
 ExitCode perform(const ReportArguments& arguments, Console& console) {
-  if (const std::string fault = contradiction(arguments); !fault.empty()) console.refuse(fault + usage_hint);
+  if (const std::string fault = contradiction(arguments); !fault.empty())
+    console.refuse(fault + usage_hint("report "));
   if (arguments.index) return write_index(arguments.studies.front(), console);
   // Its report.md would take the place of the study's.
   if (const auto there = store::read_study_record(arguments.output);

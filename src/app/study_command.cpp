@@ -245,8 +245,7 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
 ExitCode perform(const StudyArguments& arguments, Console& console) {
   const study::StudyFile file = console.value_of(kinds::read_study(arguments.study, {arguments.tolerance}));
   if (arguments.output.empty() && !arguments.dry_run)
-    console.refuse(
-        "study: --output is required unless with --dry-run (launchsafe study --help shows the usage)");
+    console.refuse("--output is required unless with --dry-run" + usage_hint("study "));
   console.remarks(file.scene.notes);
   if (!file.chosen_setting.empty()) console.remark("setting: " + file.chosen_setting);
   if (arguments.dry_run) return dry_run(file, arguments, console);
