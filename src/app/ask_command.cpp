@@ -321,9 +321,9 @@ void add_ask(CLI::App& app, CommandLine& line) {
   add_required(command, "study", ask.study);
   add(command, "--set", ask.settings)->allow_extra_args(false);
   const auto read_gap = [](std::string_view text) {
-    const auto gap = parse_scene_quantity<scene::Dimension::length>(text);
-    return gap && scene::find_key(scene::scene_keys(), "gap.thickness")->limits.contain(*gap) ? gap
-                                                                                              : std::nullopt;
+    const double gap = parse_scene_quantity<Dimension::length>(text);
+    const bool is_gap = scene::find_key(scene::scene_keys(), "gap.thickness")->limits.contain(gap);
+    return is_gap ? std::optional(gap) : std::nullopt;
   };
   CLI::Option* gap = add_amount(command, "--gap", ask.gap, read_gap);
   add(command, "--csv", ask.csv)->excludes(gap);

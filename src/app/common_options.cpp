@@ -3,26 +3,10 @@
 #include <boost/algorithm/string.hpp>
 #include <unistd.h>
 
-#include <charconv>
 #include <sstream>
 
 namespace launchsafe::app {
 namespace {
-
-/// Units by their names in small letters, with their sizes.
-using Units = std::map<std::string, double>;
-
-std::optional<double> parse_amount(std::string_view text, const Units& units) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{}) return std::nullopt;
-  const std::string rest = boost::algorithm::to_lower_copy(std::string(end, text.data() + text.size()));
-  const auto found =
-      units.find(boost::algorithm::trim_copy_if(rest, [](char letter) { return letter == ' '; }));
-  if (found == units.end()) return std::nullopt;
-  const double amount = number * found->second;
-  return std::isfinite(amount) && amount > 0 ? std::optional(amount) : std::nullopt;
-}
 
 /// What an argument takes, by the type that its help shows, as variables of the script: files of an
 /// extension, folders, or the words of a closed list, which are in small letters with bars between. Empty for
@@ -58,27 +42,17 @@ Json row_of(const CLI::App& command) {
   return row;
 }
 
-}  // namespace
-
-std::optional<double> parse_size(std::string_view text) {
-  Units units{{"b", 1.0}};
-  double thousands = 1.0, kibis = 1.0;
-  for (const char* prefix : {"k", "m", "g", "t"}) {
-    units[prefix] = units[std::string(prefix) + "b"] = thousands *= 1e3;
-    units[std::string(prefix) + "ib"] = kibis *= 1024.0;
+/// Why `read` refuses a text, for which it may throw the fault; none of a text that it takes.
+scene::Fault fault_of_text(const std::string& text, const std::function<bool(const std::string&)>& read) {
+  try {
+    if (read(text)) return std::nullopt;
+    return scene::error_at({}, {}, '"' + text + '"', {});
+  } catch (const scene::InputError& fault) {
+    return fault;
   }
-  const auto size = parse_amount(text, units);
-  constexpr double largest = 1e18;  // what whole numbers of bytes are counted with
-  return size && *size >= 1 && *size <= largest ? size : std::nullopt;
 }
 
-std::optional<double> parse_duration(std::string_view text) {
-  return parse_amount(text, {{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}, {"d", 86400}});
-}
-
-std::optional<double> parse_temperature_difference(std::string_view text) {
-  return parse_amount(text, {{"", 1}, {"k", 1}});
-}
+}  // namespace
 
 std::string footer_of(const std::string& command) {
   const std::string& text = help_texts().at(command + ".txt");
@@ -115,8 +89,13 @@ CLI::Option* add_read(CLI::App& command, const std::string& name,
                       std::function<bool(const std::string&)> read) {
   const OptionWords& words = words_of(command.get_name(), name);
   const auto read_or_refuse = [name, read, &words](const std::string& text) {
-    if (!read(text))
-      throw CLI::ValidationError(name, fmt::format("found \"{}\"; allowed: {}", text, words.allowed));
+    scene::Fault fault = fault_of_text(text, read);
+    if (!fault) return;
+    fault->allowed = words.allowed;
+    // The first unit of a quantity is not that of every option: 105 is no calibre of 105 cm.
+    if (fault_of_text(boost::algorithm::erase_all_copy(fault->suggestion, "\""), read))
+      fault->suggestion = "";
+    throw CLI::ValidationError(name, fault->message());
   };
   return command.add_option_function<std::string>(name, read_or_refuse, words.meaning)->type_name(words.type);
 }

@@ -23,26 +23,20 @@ using AddCommand = void(CLI::App& app, CommandLine& line);
 AddCommand add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
     add_init, add_import_curve, add_report;
 
-/// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm".
-template <scene::Dimension dimension>
-std::optional<double> parse_scene_quantity(std::string_view text) {
-  const auto value = scene::parse_quantity(text, dimension);
-  return value ? std::optional(*value) : std::nullopt;
-}
-/// The same of what is more than zero.
-template <scene::Dimension dimension>
-std::optional<double> parse_positive(std::string_view text) {
-  const auto value = parse_scene_quantity<dimension>(text);
-  return value && *value > 0.0 ? value : std::nullopt;
-}
+using scene::Dimension;
 
-/// Bytes: "8GB", "500 MB", "1.5GiB", "8e9 B". kB, MB, GB and TB are powers of 1000; KiB, MiB, GiB and TiB of
-/// 1024. Nothing for any other text, and for less than a byte or more than 1e18.
-std::optional<double> parse_size(std::string_view text);
-/// Seconds: "90s", "10min", "2h", "1.5 d"; kelvins: "2K", "0.5". Nothing for any other text, and for what is
-/// not more than zero.
-std::optional<double> parse_duration(std::string_view text);
-std::optional<double> parse_temperature_difference(std::string_view text);
+/// SI, of a quantity as scenes have them: "5 MPa", "-0.3 bar", "0.2 ms", "155 mm". Throws why it is none,
+/// which `add_read` tells.
+template <Dimension dimension>
+double parse_scene_quantity(std::string_view text) {
+  return scene::parse_quantity(text, dimension).or_throw();
+}
+/// The same of what is more than zero, such as "8GB", and at most 1e18, which whole numbers count.
+template <Dimension dimension>
+std::optional<double> parse_positive(std::string_view text) {
+  const double value = parse_scene_quantity<dimension>(text);
+  return value > 0.0 && value <= 1e18 ? std::optional(value) : std::nullopt;
+}
 
 /// What the help of a command says below its options.
 std::string footer_of(const std::string& command);
@@ -93,7 +87,7 @@ CLI::Option* add_required(CLI::App& command, const std::string& name, Value& val
   return add(command, name, value)->required();
 }
 
-/// An option whose text is read by `read`; one for which that is false is refused.
+/// An option whose text is read by `read`; one for which that is false, or throws an InputError, is refused.
 CLI::Option* add_read(CLI::App& command, const std::string& name,
                       std::function<bool(const std::string&)> read);
 /// The same of an amount, of which `parse` makes nothing for any other text.

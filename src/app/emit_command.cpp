@@ -257,8 +257,8 @@ void add_emit(CLI::App& app, CommandLine& line) {
   constexpr int most_shards = 10000;
   add_required(command, "--shards", emit.shards)->check(CLI::Range(1, most_shards));
   add_jobs(command, emit.jobs);
-  add_amount(command, "--memory", emit.memory, parse_size);
-  add_amount(command, "--time-limit", emit.time_limit, parse_duration);
+  add_amount(command, "--memory", emit.memory, parse_positive<Dimension::memory>);
+  add_amount(command, "--time-limit", emit.time_limit, parse_positive<Dimension::duration>);
   add(command, "--sbatch", emit.sbatch)->allow_extra_args(false);
 }
 

@@ -138,7 +138,6 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
 }  // namespace
 
 void add_import_curve(CLI::App& app, CommandLine& line) {
-  using scene::Dimension;
   auto [command, import] = add_command<ImportCurveArguments>(app, line, "import-curve");
   add_required(command, "record", import.record);
   add(command, "-o,--output", import.output);

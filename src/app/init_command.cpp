@@ -82,12 +82,12 @@ void add_init(CLI::App& app, CommandLine& line) {
   auto [command, init] = add_command<InitArguments>(app, line, "init");
   const auto read_calibre = [&calibre = init.calibre](const std::string& text) {
     constexpr double smallest = 0.02, largest = 0.5;
-    calibre = parse_scene_quantity<scene::Dimension::length>(text).value_or(0.0);
+    calibre = parse_scene_quantity<Dimension::length>(text);
     return calibre >= smallest && calibre <= largest;
   };
   add_read(command, "--calibre", read_calibre)->required();
   CLI::Option* curve = add(command, "--curve", init.curve);
-  add_amount(command, "--peak", init.peak, parse_positive<scene::Dimension::pressure>)->excludes(curve);
+  add_amount(command, "--peak", init.peak, parse_positive<Dimension::pressure>)->excludes(curve);
   add_required(command, "-o,--output", init.output);
 }
 

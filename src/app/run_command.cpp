@@ -272,7 +272,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   auto [command, run] = add_command<RunArguments>(app, line, "run");
   add_required(command, "scene", run.scene);
   add(command, "-o,--output", run.output);
-  add_amount(command, "--longest-run", run.longest_run, parse_duration);
+  add_amount(command, "--longest-run", run.longest_run, parse_positive<Dimension::duration>);
 }
 
 }  // namespace launchsafe::app

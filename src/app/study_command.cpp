@@ -329,14 +329,14 @@ void add_study(CLI::App& app, CommandLine& line) {
   add_required(command, "study", study.study);
   add(command, "-o,--output", study.output);
   add_jobs(command, study.jobs);
-  add_amount(command, "--memory", study.memory, parse_size);
-  add_amount(command, "--time-limit", study.time_limit, parse_duration);
-  add_amount(command, "--longest-run", study.longest_run, parse_duration);
+  add_amount(command, "--memory", study.memory, parse_positive<Dimension::memory>);
+  add_amount(command, "--time-limit", study.time_limit, parse_positive<Dimension::duration>);
+  add_amount(command, "--longest-run", study.longest_run, parse_positive<Dimension::duration>);
   add_amount(command, "--until", study.until,
              [](const std::string& text) { return report::next_clock_time(text, std::time(nullptr)); });
   add_read(command, "--shard",
            [&shard = study.shard](const std::string& text) { return study::parse_shard(text, shard); });
-  add_amount(command, "--tolerance", study.tolerance, parse_temperature_difference);
+  add_amount(command, "--tolerance", study.tolerance, parse_positive<Dimension::temperature_difference>);
   add(command, "--dry-run", study.dry_run);
   add(command, "--update", study.update);
 }
@@ -347,7 +347,7 @@ void add_merge(CLI::App& app, CommandLine& line) {
   add_required(command, "-o,--output", merge.output);
   add(command, "folder", merge.folders);
   add(command, "--update", merge.update);
-  add_amount(command, "--tolerance", merge.tolerance, parse_temperature_difference);
+  add_amount(command, "--tolerance", merge.tolerance, parse_positive<Dimension::temperature_difference>);
   add_jobs(command, merge.jobs);
 }
 

@@ -10,7 +10,7 @@ namespace launchsafe::scene {
 namespace {
 
 constexpr std::string_view between_ends = " to ";
-constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::memory) + 1;
+constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::duration) + 1;
 
 /// Most units are powers of ten of the SI unit, so that a decimal number converts without rounding twice. A
 /// number in any other unit becomes (number + shift) * factor in SI.
@@ -102,7 +102,13 @@ const DimensionInfo& info_of(Dimension dimension) {
       {"heat", "\"1 kJ\"", "J", {{"kJ", 3}, {"J", 0}}, {}},
       {"heat per area", "\"1 kJ/m2\"", "J/m2", {{"kJ/m2", 3}, {"J/m2", 0}}, {}},
       {"rate of pressure", "\"1 MPa/ms\"", "Pa/s", {{"MPa/ms", 9}, {"Pa/s", 0}}, {}},
-      {"size of memory", "\"1 MB\"", "B", {{"MB", 6}, {"B", 0}}, {}},
+      {"size of memory",
+       "\"8 GB\"",
+       "B",
+       {{"GB", 9}, {"MB", 6}, {"TB", 12}, {"kB", 3}, {"B", 0}},
+       {},
+       {{"KiB", 0, 0x1p10L}, {"MiB", 0, 0x1p20L}, {"GiB", 0, 0x1p30L}, {"TiB", 0, 0x1p40L}}},
+      {"duration", "\"10 min\"", "s", {{"s", 0}}, {}, {{"min", 0, 60}, {"h", 0, 3600}, {"d", 0, 86400}}},
   }};
   return table[static_cast<std::size_t>(dimension)];
 }

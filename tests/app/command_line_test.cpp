@@ -120,6 +120,27 @@ TEST_F(CommandLineProgram, AnArgumentTooManyIsToldAsOtherWordsAre) {
   EXPECT_TRUE(run({"run", "scene.toml", "-x"}).says("run: found \"-x\"; allowed: options of run"));
 }
 
+TEST_F(CommandLineProgram, AQuantityOfAnOptionIsReadAsThoseOfFiles) {
+  const auto error = [this](const char* calibre) {
+    return run({"init", "--calibre", calibre, "-o", "out"}).err;
+  };
+  EXPECT_NE(error("105").find("\"105\", without a unit; allowed: 20 mm to 50 cm"), std::string::npos);
+  EXPECT_NE(error("105,5 mm").find("where a comma may be a decimal point"), std::string::npos);
+  EXPECT_NE(error("5 m").find("found \"5 m\"; allowed: 20 mm to 50 cm"), std::string::npos);
+  // A unit that makes no calibre is not suggested.
+  EXPECT_EQ(error("105").find("did you mean"), std::string::npos);
+  const auto says = [this](const char* option, const char* amount, const char* suggestion) {
+    const Outcome refused = run({"study", "s.toml", "-o", "out", option, amount});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_TRUE(refused.says(fmt::format("did you mean \"{}\"?", suggestion))) << refused.err;
+  };
+  says("--tolerance", "2", "2 K");
+  says("--memory", "8", "8 GB");
+  says("--memory", "8gb", "8 GB");
+  says("--memory", "8G", "8 GB");
+  says("--time-limit", "10m", "10 min");
+}
+
 TEST_F(CommandLineProgram, AnEmptyNameIsRefused) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"run", ""}, {"study", "study.toml", "-o", ""}, {"report", "", "-o", "x"}}) {

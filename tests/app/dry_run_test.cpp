@@ -120,11 +120,11 @@ TEST_F(DryRun, RepairsNothing) {
 }
 
 TEST_F(DryRun, AmountsAreRead) {
-  for (const char* size : {"500 MB", "1.5GiB"})
+  for (const char* size : {"500 MB", "1.5GiB", "8e9B"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 0) << size;
-  for (const char* size : {"8XB", "8", "much", "-1GB", "0", "inf"})
+  for (const char* size : {"8XB", "8", "much", "-1GB", "0", "inf", "1e30 GB"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--memory", size}).code, 2) << size;
-  for (const char* time : {"1.5 d", "90s"})
+  for (const char* time : {"1.5 d", "90s", "10min", "2h"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 0) << time;
   for (const char* time : {"10 parsecs", "10", "soon", "-1s", "0s", "nan"})
     EXPECT_EQ(run({"study", "study.toml", "--dry-run", "--time-limit", time}).code, 2) << time;

@@ -48,7 +48,7 @@ TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
       {{"run", "absent.toml"}, 2, "absent.toml"},
       {{"run", "unknown_key.toml", "-o", "out"}, 2, "peek_time"},
       {{"run", "shell.toml", "-o", "shell.toml"}, 2, "no folder"},
-      {{"run", "shell.toml", "--longest-run", "0.01ms"}, 2, "--longest-run"},
+      {{"run", "shell.toml", "--longest-run", "1e-5s"}, 2, "--longest-run"},
       {{"study", "study.toml"}, 2, "--output"},
       {{"study", "study.toml", "-o", "out", "--jobs", "100000000"}, 2, "--jobs"},
       {{"study", "study.toml", "-o", "out", "--shard", "1/2000000000"}, 2, "--shard"},

@@ -22,7 +22,7 @@ TEST_F(Reach, ARunThatCouldNotEndIsRefusedWithKeyAndReason) {
   EXPECT_TRUE(slow.says("slow.toml:14:")) << slow.err;
   EXPECT_TRUE(slow.says("numerics.time_step_factor")) << slow.err;
   EXPECT_TRUE(slow.says("30 days")) << slow.err;
-  const Outcome bounded = run({"run", "shell.toml", "-o", "out", "--longest-run", "0.01ms"});
+  const Outcome bounded = run({"run", "shell.toml", "-o", "out", "--longest-run", "1e-5s"});
   EXPECT_EQ(bounded.code, 2) << bounded.err;
   EXPECT_TRUE(bounded.says("numerics.cell_size")) << bounded.err;
   EXPECT_TRUE(bounded.says("a run of at most 1e-05 s")) << bounded.err;

@@ -163,7 +163,7 @@ TEST(Quantity, IsShownInTheUnitThatReadsBest) {
 }
 
 TEST(Quantity, EveryUnitReadsBackThroughIt) {
-  for (int i = 0; i <= static_cast<int>(Dimension::memory); ++i) {
+  for (int i = 0; i <= static_cast<int>(Dimension::duration); ++i) {
     const auto dimension = static_cast<Dimension>(i);
     for (const std::string& unit : units_of(dimension)) {
       const auto value = parse_quantity("1.5 " + unit, dimension);

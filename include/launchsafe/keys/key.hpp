@@ -42,7 +42,9 @@ enum class Dimension {
   energy,
   energy_per_area,
   pressure_rate,
-  memory
+  // Of options too: what a computation takes.
+  memory,
+  duration
 };
 
 /// Where a value comes from; the letters are those of the reports: P, L, D, A, C; `input` is what the user
