@@ -59,6 +59,11 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   if (arguments.curve) {
     csv = console.value_of(scene::read_text_file(*arguments.curve, scene::largest_curve));
     curve = console.value_of(scene::parse_pressure_curve(csv, arguments.curve->string()));
+    const auto& duration = *scene::find_key(scene::scene_keys(), "load.duration");
+    if (!duration.limits.contain(curve->time.back()))
+      console.refuse(scene::error_at({arguments.curve->string()}, {},
+                                     "a curve that ends at " + scene::time_text(curve->time.back()),
+                                     scene::allowed_text(duration)));
   }
   const NamedTexts files = files_of(arguments, curve, csv);
   const std::vector<std::string> said = write_where_absent(arguments.output, files, console);

@@ -73,6 +73,14 @@ TEST_F(OwnShell, AveragesARoughCurveInTheSceneWhereItCountsAsUncertainty) {
   EXPECT_EQ(run({"import-curve", "gauge.csv", "--filter", "0.2 ms"}).code, 2);
 }
 
+TEST_F(OwnShell, IsNotInitialisedFromACurveThatIsNoLaunch) {
+  write("seconds.csv", "time_s,pressure_MPa\n0,0\n1,100\n2,400\n3,0\n");
+  const Outcome refused = run({"init", "--calibre", "105 mm", "--curve", "seconds.csv", "-o", "shell"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(refused.says("seconds.csv: found a curve that ends at 3 s; allowed: a time")) << refused.err;
+  EXPECT_FALSE(exists("shell"));
+}
+
 TEST_F(OwnShell, IsInitialisedForEveryCalibreWithoutImplausibleValues) {
   for (const char* calibre : {"20 mm", "76 mm", "105 mm", "155 mm", "203 mm", "50 cm"}) {
     const std::string folder = std::string("shell ") + calibre;
