@@ -230,9 +230,10 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
   if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
     return Token{number, without_blanks_around(rest)};
-  const bool may_count_thousands =
-      number.find('.') != std::string_view::npos || digits_of(rest.substr(1)) == 3;
-  if (may_count_thousands) throw comma_fault(whole, dimension, {});
+  const std::size_t decimals = digits_of(rest.substr(1));
+  const bool has_point =
+      number.find('.') != std::string_view::npos || rest.substr(1 + decimals).starts_with('.');
+  if (has_point || decimals == 3) throw comma_fault(whole, dimension, {});
   std::string pointed(whole);
   std::ranges::replace(pointed, ',', '.');
   throw comma_fault(whole, dimension, '"' + pointed + '"');

@@ -70,6 +70,7 @@ TEST(Quantity, ADecimalCommaIsAFaultThatSaysWhy) {
   expect_fault(parse_quantity("0,5 mm", Dimension::length), "\"0.5 mm\"");
   expect_fault(parse_quantity("1,000 MPa", Dimension::pressure), "");
   expect_fault(parse_quantity("1.250,5 MPa", Dimension::pressure), "");
+  expect_fault(parse_quantity("0,0.01 MPa", Dimension::pressure), "");
   expect_fault(parse_range("0,5 to 1,5 mm", Dimension::length), "\"0.5 to 1.5 mm\"");
   expect_fault(parse_list("0,5 mm", Dimension::length), "\"0.5 mm\" or \"0, 5 mm\"");
   expect_fault(parse_list("1,25 mm", Dimension::length), "\"1.25 mm\" or \"1, 25 mm\"");
