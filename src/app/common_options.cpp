@@ -208,9 +208,10 @@ std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::K
   if (update || record->manifest.input_sha256.empty() || same_study(record->manifest, manifest))
     return std::nullopt;
   return fmt::format(
-      "{} holds the results of a different study or model, and nothing is overwritten; with --update the "
-      "report there moves to {} and stored cases are used where they fit; or name another folder",
-      folder.string(), (folder / "earlier-N").string());
+      "{} holds the results of a different study or model ({}), and nothing is overwritten; with --update "
+      "the report there moves to {} and stored cases are used where they fit; or name another folder",
+      folder.string(), study::difference_of_inputs(manifest.input_text, record->manifest.input_text),
+      (folder / "earlier-N").string());
 }
 
 void remove_leftovers(const path& folder) {

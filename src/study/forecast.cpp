@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <regex>
 #include <sstream>
 
 namespace launchsafe::study {
@@ -10,29 +11,33 @@ namespace {
 
 using store::CaseState, store::RunRecord;
 
-/// The lines of one text that the other does not have, "key = value" each.
+/// The line of a table in a list as that of a key: "G1 = { x = ... }" of "  { name = 'G1', x = ... },".
+std::string as_line_of_key(const std::string& line) {
+  static const std::regex table(R"(^  \{ name = '(.*?)', (.*),$)");
+  return std::regex_replace(line, table, "$1 = { $2");
+}
+
+/// The lines that one text alone has, "key = value".
 std::vector<std::string> lines_only_in(const std::string& text, const std::string& other) {
   std::map<std::string, int> counts;
   std::istringstream others(other), own(text);
   for (std::string line; std::getline(others, line);) ++counts[line];
   std::vector<std::string> result;
   for (std::string line; std::getline(own, line);)
-    if (--counts[line] < 0) result.push_back(line);
+    if (--counts[line] < 0 && !line.empty()) result.push_back(as_line_of_key(line));
   return result;
 }
 
-/// What is different from a stored case of the same label.
-std::string difference(const std::string& input, const RunRecord& before, store::CaseStore& store) {
-  const auto stored = store.input_of(before.hash);
-  if (!stored) return "never run here";
-  constexpr std::size_t most = 3;
-  std::vector<std::string> changed = lines_only_in(input, *stored);
-  const std::size_t count = changed.size();
-  changed.resize(std::min(count, most));
-  std::string text =
-      fmt::format("other input than the stored case {:.8}: now {}", before.hash, fmt::join(changed, "; "));
-  if (count > most) text += fmt::format("; and {} more", count - most);
-  return text;
+/// The value, as people read it, that one of the lines of an input gives a name.
+std::string value_in(const std::vector<std::string>& lines, const std::string& name) {
+  const auto line =
+      std::ranges::find_if(lines, [&](const auto& each) { return each.starts_with(name + " = "); });
+  if (line == lines.end()) return "nothing";
+  std::string text = line->substr(name.size() + 3);
+  std::erase_if(text, [](char c) { return c == '"' || c == '\''; });
+  if (const auto* key = scene::find_key(scene::scene_keys(), name))
+    if (const auto value = scene::parse_value(text, *key, {})) text = scene::format_value(*key, *value);
+  return scene::quotable(text, 80);
 }
 
 /// Runs that are done, by their labels.
@@ -52,9 +57,12 @@ std::string why_run(const CaseRun& needed, store::CaseStore* store, const Done& 
     constexpr std::array ends{"done", "failed", "timed out", "interrupted"};
     return fmt::format("{} before: {}", ends.at(static_cast<std::size_t>(entry->state)), entry->reason);
   }
-  const auto same_label = done.find(needed.label);
-  if (same_label == done.end()) return "never run here";
-  return difference(identity_of(needed).input(), same_label->second, *store);
+  const auto before = done.find(needed.label);
+  if (before == done.end()) return "never run here";
+  const auto stored = store->input_of(before->second.hash);
+  if (!stored) return "never run here";
+  return fmt::format("other input than the stored case {:.8}: {}", before->second.hash,
+                     difference_of_inputs(identity_of(needed).input(), *stored));
 }
 
 /// True for a run that would not be tried now: it was timed out under a limit no smaller than today's, or it
@@ -156,6 +164,16 @@ std::vector<CaseRuns> some_of(std::vector<CaseRuns> cases, std::size_t most) {
 }
 
 }  // namespace
+
+std::string difference_of_inputs(const std::string& here, const std::string& there) {
+  const std::vector<std::string> own = lines_only_in(here, there), others = lines_only_in(there, here);
+  const std::string first = !own.empty() ? own.front() : !others.empty() ? others.front() : "";
+  const std::size_t end = first.find(" = "), count = std::max(own.size(), others.size());
+  if (end == std::string::npos) return "another model, or another file that it rests on";
+  const std::string name = first.substr(0, end);
+  return fmt::format("{} = {} here, {} there{}", name, value_in(own, name), value_in(others, name),
+                     count > 1 ? fmt::format(" and {} more", count - 1) : "");
+}
 
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach) {
   for (const StudyCase& input : study.cases)

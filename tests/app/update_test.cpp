@@ -25,6 +25,7 @@ TEST_F(ChangedStudy, IsRefusedAndToldOfUpdate) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
   EXPECT_TRUE(refused.says("--update")) << refused.err;
+  EXPECT_TRUE(refused.says("(load.peak = 255 MPa here, 250 MPa there)")) << refused.err;
   EXPECT_TRUE(results_in("out") == before);
   EXPECT_FALSE(exists("out/earlier-1"));
 }
@@ -39,6 +40,18 @@ TEST_F(ChangedStudy, OfAFileThatItRestsOnIsAnotherStudy) {
   const Outcome refused = run({"study", "study.toml", "-o", "out"});
   EXPECT_EQ(refused.code, 2) << refused.err;
   EXPECT_TRUE(refused.says("--update")) << refused.err;
+  EXPECT_TRUE(refused.says("another file that it rests on")) << refused.err;
+}
+
+TEST_F(ChangedStudy, IsToldWithItsFirstDifferenceAndHowManyMoreThereAre) {
+  write("study.toml", with(with(sweep_study, "0, 0.01, 0.02 cm", "0, 0.01 cm"), "\"1 cm\"", "\"0.9 cm\""));
+  const Outcome refused = run({"study", "study.toml", "-o", "out"});
+  EXPECT_TRUE(refused.says("gaps = 0, 0.01 cm here, 0, 0.01, 0.02 cm there and 1 more")) << refused.err;
+  write("study.toml", sweep_study);
+  write("shell.toml", with(far_scene(), "r = \"1 cm\"", "r = \"1.2 cm\""));
+  const Outcome moved = run({"study", "study.toml", "-o", "out"});
+  EXPECT_TRUE(moved.says("(G1 = { x = 0.039 m, r = 0.012 m } here, { x = 0.039 m, r = 0.01 m } there)"))
+      << moved.err;
 }
 
 TEST_F(ChangedStudy, WithOtherThermalInputNeedsNoRun) {

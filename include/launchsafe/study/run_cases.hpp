@@ -272,6 +272,10 @@ struct Forecast {
 /// Why a study is not begun at all: every one of its cases is out of reach. The error of the first.
 std::optional<scene::InputError> all_out_of_reach(const StudyFile& study, const run::Reach& reach);
 
+/// The first difference between what determines two cases or studies, "key = value" a line, and how many more
+/// there are: "load.peak = 450 MPa here, 496 MPa there and 1 more".
+std::string difference_of_inputs(const std::string& here, const std::string& there);
+
 /// `update_rate` (particle updates per second on a core) is used where no recorded run knows better.
 /// `most_cases`: of so many the runs are planned.
 Forecast forecast_study(const StudyFile& study, const StudyOptions& options, double update_rate,
