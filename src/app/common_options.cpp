@@ -191,13 +191,20 @@ bool holds_store(const path& folder) {
   return !store::results_files_in(folder).empty() || !scene::list_folder(folder / "cases").empty();
 }
 
-std::optional<std::string> obstacle_in_folder(const path& folder, const kinds::Kind& kind,
+std::optional<std::string> obstacle_in_folder(const path& folder, const study::StudyFile& file,
                                               const store::Manifest& manifest, bool update) {
   const auto record = store::record_of_report(folder);
   if (!record) return record.error().message;
+  std::error_code failed;
+  const bool holds_input =
+      std::filesystem::equivalent(folder, std::filesystem::absolute(file.file).parent_path(), failed);
+  if (holds_input && record->manifest.input_sha256.empty() && !holds_store(folder))
+    return fmt::format(
+        "{} is the folder of the study's file, and results are kept apart from input; did you mean -o {}?",
+        folder.string(), shell_quoted((folder / "results").string()));
   std::vector<std::string> foreign = scene::list_folder(folder);
   std::erase_if(foreign, [&](const std::string& name) {
-    return !kinds::may_write(kind, name) ||
+    return !kinds::may_write(kinds::kind_of(file.study), name) ||
            store::state_of(folder, *record, name) != store::FileState::foreign;
   });
   if (!foreign.empty())

@@ -220,8 +220,8 @@ ExitCode perform(const EmitArguments& arguments, Console& console) {
   for (path* each : {&study.asked.study, &study.asked.output}) *each = absolute_path(*each);
   study.asked.jobs = std::max(1, study.asked.jobs);
   console.refuse_any(fault_of(study));
-  console.refuse_any(obstacle_in_folder(study.asked.output, kinds::kind_of(file.study),
-                                        study_manifest(file, study.asked.jobs), false));
+  console.refuse_any(
+      obstacle_in_folder(study.asked.output, file, study_manifest(file, study.asked.jobs), false));
   study.needs = needs_of(file, study.asked.shards, study.asked.jobs);
   const Json request = request_of(study);
   const path folder = slurm_folder(arguments.output);  // as the user named it

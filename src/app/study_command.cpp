@@ -45,8 +45,7 @@ class StudySession {
     // Never an absolute path: it would name this machine.
     record_.study = asked.study.is_absolute() ? asked.study.filename() : asked.study;
     const auto refuse_obstacle = [&] {
-      console.refuse_any(
-          obstacle_in_folder(asked.output, kinds::kind_of(file.study), record_.manifest, asked.update));
+      console.refuse_any(obstacle_in_folder(asked.output, file, record_.manifest, asked.update));
     };
     refuse_obstacle();
     console.refuse_any(prepare_output_folder(asked.output));
@@ -223,8 +222,7 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
   std::unique_ptr<store::CaseStore> store;
   if (!folder.empty()) {
     // Where the study itself would refuse the folder.
-    if (const auto obstacle =
-            obstacle_in_folder(folder, kinds::kind_of(file.study), study_manifest(file, 1), arguments.update))
+    if (const auto obstacle = obstacle_in_folder(folder, file, study_manifest(file, 1), arguments.update))
       console.remark(*obstacle);
     if (holds_store(folder)) store = console.stored(store::CaseStore::open_to_read(folder));
   }

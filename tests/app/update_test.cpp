@@ -102,6 +102,20 @@ TEST_F(ChangedStudy, TellsBeforeWhyARunRuns) {
 
 class ForeignFolder : public StoredStudy {};
 
+TEST_F(ForeignFolder, ResultsAreKeptApartFromTheStudysFile) {
+  const Outcome refused = run({"study", "study.toml", "-o", "."});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(refused.says(". is the folder of the study's file")) << refused.err;
+  EXPECT_TRUE(refused.says("did you mean -o ./results?")) << refused.err;
+  EXPECT_FALSE(exists("cases"));
+  // Where an earlier version wrote them they stay in use.
+  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
+  std::filesystem::copy(folder() / "study.toml", folder() / "out");
+  std::filesystem::copy(folder() / "shell.toml", folder() / "out");
+  const Outcome present = run({"study", "out/study.toml", "-o", "out"});
+  EXPECT_EQ(present.code, 0) << present.err;
+}
+
 TEST_F(ForeignFolder, FilesOfSomebodyElseAreNotOverwritten) {
   std::filesystem::create_directory(folder() / "out");
   write("out/report.md", "mine");
