@@ -99,6 +99,7 @@ std::vector<double> read_numbers(const toml::node& node, const KeyDescription& k
   if (key.may_be_value && (node.is_number() || (node.is_string() && !is_range(node.ref<std::string>()))))
     return std::vector<double>(2, read_number(node, key, place));
   if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
+  if (node.is_number() && key.kind == KeyKind::list) return {read_number(node, key, place)};
   const toml::array* array = node.as_array();
   const bool too_short = array && array->empty() && !key.may_be_empty;
   if (!array || key.kind == KeyKind::range || too_short) throw error_for(place, key, found_text(node));
@@ -203,6 +204,7 @@ std::string found_text(const toml::node& node) {
     for (const toml::node& element : *array) text += (text.empty() ? "[ " : ", ") + found_text(element);
     return text + " ]";
   }
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
   std::ostringstream stream;
   node.visit([&stream](const auto& concrete) { stream << concrete; });
   return stream.str();

@@ -20,11 +20,12 @@ TEST(FuzzedInput, WhatBeginsLikeNoKeyIsAnErrorWithItsLine) {
   }
 }
 
-// A list of small numbers where one number is asked: toml++ took the logarithm of 4.9e-324 for a length.
+// A list of small numbers where one number is asked: toml++ took the logarithm of 4.9e-324, of which 5e-324
+// is the shortest name, for a length.
 TEST(FuzzedInput, AListOfTinyNumbersIsQuotedAsItIs) {
   const auto table = parse_toml("a = [4.9e-324, 0.01]", "shell.toml");
   ASSERT_TRUE(table);
-  EXPECT_TRUE(found_text(*table->get("a")).starts_with("[ 4.9")) << found_text(*table->get("a"));
+  EXPECT_EQ(found_text(*table->get("a")), "[ 5e-324, 0.01 ]");
 }
 
 // Likewise of a value.

@@ -154,6 +154,19 @@ TEST(TomlReader, RefusesWrongTypes) {
   }
 }
 
+TEST(TomlReader, SaysNumbersInTheFewestDigitsThatReadBack) {
+  const InputError wrong = read_thing("length = 496.3").error();
+  EXPECT_EQ(wrong.found, "496.3, without a unit");
+  EXPECT_EQ(wrong.suggestion, "\"496.3 cm\"");
+  EXPECT_EQ(read_thing("colour = [0.1, 0.3]").error().found, "[ 0.1, 0.3 ]");
+}
+
+TEST(TomlReader, OneNumberInThePlaceOfAListIsReadAsOneValueOfIt) {
+  const InputError wrong = read_thing("times = 0.3").error();
+  EXPECT_EQ(wrong.found, "0.3, without a unit");
+  EXPECT_EQ(wrong.suggestion, "\"0.3 ms\"");
+}
+
 TEST(TomlReader, SuggestsTheNearestWordAndKey) {
   EXPECT_EQ(read_thing("colour = \"gren\"").error().suggestion, "\"green\"");
   EXPECT_EQ(read_thing("lenght = \"1 cm\"").error().suggestion, "length");
