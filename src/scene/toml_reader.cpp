@@ -7,6 +7,7 @@
 #ifdef TOML_ASSERT
 #error "toml++ was included before it could be changed: this file must be compiled by itself"
 #endif
+#include <cctype>
 #include <cstdint>
 #define TOML_ASSERT(condition) static_assert(true)
 #include <toml++/impl/preprocessor.h>
@@ -146,6 +147,23 @@ std::string checked_texts(const toml::node& node, const KeyDescription& key, con
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// What was perhaps meant by a value without quotation marks, in which the parser stopped: "1.3" of 1,3, and
+/// "\"2.5 mm\"" of 2.5 mm. Empty for anything else.
+std::string with_quotes_or_point(std::string_view text, const toml::source_position& stop) {
+  for (auto line = stop.line; line > 1; --line) text.remove_prefix(text.find('\n') + 1);
+  text = text.substr(0, text.find('\n'));
+  const std::size_t begin = text.find_last_of('=', stop.column - 1) + 1;
+  const std::size_t end = text.find_first_of("#}", begin);
+  const std::string value(without_blanks_around(text.substr(begin, end - begin)));
+  if (begin == 0 || value.empty() || !std::isdigit(static_cast<unsigned char>(value.front())) ||
+      value.find_first_of("\"'=[") != std::string::npos)
+    return {};
+  const auto number = parse_quantity(value, Dimension::number);
+  const std::string pointed = number ? "" : number.error().suggestion;
+  if (!pointed.empty()) return pointed.substr(1, pointed.size() - 2);
+  return std::isdigit(static_cast<unsigned char>(value.back())) ? std::string{} : '"' + value + '"';
+}
+
 /// More tables of one name than anybody writes; each is compared with all the others.
 void check_counts(const toml::table& table, const std::string& file) {
   constexpr std::size_t most_tables = 10'000;
@@ -232,9 +250,9 @@ Expected<toml::table> parse_toml(std::string_view text, const std::string& file)
       check_counts(table, file);
       return table;
     } catch (const toml::parse_error& error) {
-      throw error_at(place_at(error.source(), file), {},
-                     fmt::format("text that is not TOML ({})", error.description()),
-                     "TOML, such as key = \"2.5 mm\"");
+      throw error_at(
+          place_at(error.source(), file), {}, fmt::format("text that is not TOML ({})", error.description()),
+          "TOML, such as key = \"2.5 mm\" or key = 2.5", with_quotes_or_point(text, error.source().begin));
     }
   });
 }

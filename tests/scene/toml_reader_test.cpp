@@ -167,6 +167,18 @@ TEST(TomlReader, OneNumberInThePlaceOfAListIsReadAsOneValueOfIt) {
   EXPECT_EQ(wrong.suggestion, "\"0.3 ms\"");
 }
 
+TEST(TomlReader, SuggestsTheDecimalPointOfANumberAndTheQuotationMarksOfAQuantity) {
+  for (const char* text : {"share = 1,3", "length = \"1 cm\"\nshare = 1,3  # a remark\n"})
+    EXPECT_EQ(read_thing(text).error().suggestion, "1.3") << text;
+  EXPECT_EQ(read_thing("length = 2.5 mm  # a remark").error().suggestion, "\"2.5 mm\"");
+  EXPECT_EQ(read_thing("length = 30um").error().suggestion, "\"30um\"");
+  EXPECT_EQ(read_thing("times = 0, 0.3 ms").error().suggestion, "\"0, 0.3 ms\"");
+  EXPECT_EQ(read_thing("part = { length = 2 cm }").error().suggestion, "\"2 cm\"");
+  // What may divide thousands, or belong to a list, is not guessed.
+  for (const char* text : {"share = 1,300", "share = 0, 0.01", "share = 0,0.01", "share = ,"})
+    EXPECT_EQ(read_thing(text).error().suggestion, "") << text;
+}
+
 TEST(TomlReader, SuggestsTheNearestWordAndKey) {
   EXPECT_EQ(read_thing("colour = \"gren\"").error().suggestion, "\"green\"");
   EXPECT_EQ(read_thing("lenght = \"1 cm\"").error().suggestion, "length");
