@@ -220,21 +220,13 @@ double measured_update_rate(const scene::Scene& scene, Console& console) {
   return rate > 0.0 ? rate : run::cautious_update_rate;  // where the run breaks at its first step
 }
 
-/// Whether a word is of the name of a key: "load.peak", "load".
-bool is_of_key(const std::string& word) {
-  const auto has_word = [&](const scene::DocumentedKey& each) {
-    return (each.description.name + ".").starts_with(word + ".");
-  };
-  return std::ranges::any_of(scene::describe_keys(), has_word) ||
-         std::ranges::any_of(kinds::describe_study_keys(), has_word);
-}
-
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (const std::string fault = contradiction(arguments); !fault.empty())
     console.refuse(fault + usage_hint("explain "));
   if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
   if (const std::string word = arguments.file.string();
-      !std::filesystem::exists(arguments.file) && is_of_key(word))
+      !std::filesystem::exists(arguments.file) &&
+      (scene::has_key(scene::describe_keys(), word) || scene::has_key(kinds::describe_study_keys(), word)))
     console.refuse(
         fmt::format("explain: found no file \"{0}\"; of keys tells: launchsafe explain --keys {0}", word));
   if (scene::content_of(arguments.file) != scene::InputContent::study)

@@ -145,10 +145,21 @@ void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& 
       study.cases.relabel(i, fmt::format("{} ({})", study.cases.label(i), before + 1));
 }
 
-/// People do not number the tables of a study: "vary.0.range" is vary.range to them.
-InputError unnumbered(InputError error, const std::string& file) {
-  static const std::regex numbered(R"(^([^.]*)\.[0-9]+(\..*)$)");
-  if (error.file == file) error.key = std::regex_replace(error.key, numbered, "$1$2");
+/// A fault as people are told of it, who do not number the tables of a study: "vary.0.range" is vary.range to
+/// them; who write keys of the study below its first table, or those of its scene as they stand there. A
+/// group has a `set` of its own.
+InputError told(InputError error, const std::string& file) {
+  static const std::regex numbered(R"(^([^.]*)\.[0-9]+(\..*)$)"), in_table(R"(^[^.]*\.([^.]*).*$)");
+  if (error.file != file) return error;
+  error.key = std::regex_replace(error.key, numbered, "$1$2");
+  if (error.found != scene::an_unknown_key) return error;
+  const std::string inner = std::regex_replace(error.key, in_table, "$1");
+  const bool is_set = inner == "set" && !error.key.starts_with("group.");
+  const bool is_in_table = inner != error.key && (is_set || scene::has_key(describe_study_keys(), inner));
+  std::string meant = is_in_table ? inner : "";
+  if (scene::has_key(scene::describe_keys(), error.key))
+    meant = fmt::format("set = {{ {} = ... }}", error.key);
+  if (!meant.empty()) error.suggestion = meant + std::string(scene::above_tables);
   return error;
 }
 
@@ -221,7 +232,7 @@ Expected<StudyFile> read_study_table(const StudySource& source, const std::strin
   if (study.study.title.empty()) study.study.title = study.scene.scene.title;
   return study;
 } catch (const InputError& error) {
-  return unnumbered(error, file);
+  return told(error, file);
 }
 
 Expected<StudyFile> parse_study(std::string_view text, const std::filesystem::path& path,

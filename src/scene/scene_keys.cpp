@@ -328,6 +328,11 @@ const std::vector<Key<ObservationPoint>>& observation_point_keys() {
   return keys;
 }
 
+bool has_key(const std::vector<DocumentedKey>& keys, const std::string& name) {
+  return std::ranges::any_of(
+      keys, [&](const DocumentedKey& each) { return (each.description.name + ".").starts_with(name + "."); });
+}
+
 std::vector<DocumentedKey> describe_keys() {
   std::vector<DocumentedKey> documented;
   document(documented, scene_keys(), "");

@@ -292,19 +292,19 @@ Expected<std::vector<Value>> read_values(const toml::node& node, const KeyDescri
 
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known) {
   const std::string section = section_of(name);
-  std::vector<std::string> siblings;
-  for (const std::string& candidate : known)
-    if (section_of(candidate) == section) siblings.push_back(last_part(candidate));
-  std::string allowed = section.empty() ? "the keys " : fmt::format("in [{}] the keys ", section);
-  if (siblings.empty()) {
-    for (const std::string& candidate : known) {
-      const std::string other = section_of(candidate);
-      if (!other.empty() && !contains(siblings, other)) siblings.push_back(other);
-    }
-    allowed = "the tables ";
+  std::vector<std::string> siblings, tables;
+  for (const std::string& candidate : known) {
+    const std::string other = section_of(candidate);
+    if (other == section) siblings.push_back(last_part(candidate));
+    if (!other.empty() && !contains(tables, other)) tables.push_back(other);
   }
-  return error_at(place, name, "an unknown key", allowed + fmt::format("{}", fmt::join(siblings, ", ")),
-                  nearest_key(name, known));
+  std::string allowed = section.empty() ? "the keys " : fmt::format("in [{}] the keys ", section);
+  if (siblings.empty()) allowed = tables.empty() ? "the keys " : "the tables ";
+  const auto& listed = !siblings.empty() ? siblings : !tables.empty() ? tables : known;
+  // A key of the file below a table is read as one of that table.
+  const std::string inner = name.substr(name.find('.') + 1);
+  return error_at(place, name, an_unknown_key, allowed + fmt::format("{}", fmt::join(listed, ", ")),
+                  contains(known, inner) ? inner + std::string(above_tables) : nearest_key(name, known));
 }
 
 std::optional<std::string> note_on_former_word(const toml::node& node, const KeyDescription& key,

@@ -139,6 +139,13 @@ TEST(ReadStudy, FaultsNameFileLineKeyFoundAndAllowed) {
                "unknown");
 }
 
+// People write the keys of a scene as they stand there.
+TEST(ReadStudy, AKeyOfScenesIsToldHowAStudySetsIt) {
+  for (const char* text : {"[load]\npeak = \"450 MPa\"\n", "load.peak = \"450 MPa\"\n"})
+    EXPECT_EQ(error_of(critical_kind + text).suggestion,
+              "set = { load.peak = ... } above the first [table], where it belongs");
+}
+
 // Issue 30, point 12: an uncertainty that a study states by hand says where it comes from, as accept does.
 TEST(ReadStudy, AnUncertaintyThatIsStatedByHandNeedsItsSourceInWords) {
   for (const std::string key :

@@ -179,6 +179,18 @@ TEST(TomlReader, SuggestsTheDecimalPointOfANumberAndTheQuotationMarksOfAQuantity
     EXPECT_EQ(read_thing(text).error().suggestion, "") << text;
 }
 
+TEST(TomlReader, AKeyOfTheFileBelowATableIsToldWhereItBelongs) {
+  EXPECT_EQ(read_thing("[part]\nlength = \"1 cm\"").error().suggestion,
+            "length above the first [table], where it belongs");
+  EXPECT_EQ(read_thing("[part]\npart.count = 2").error().suggestion,
+            "part.count above the first [table], where it belongs");
+  EXPECT_EQ(read_thing("[part]\ncuont = 2").error().suggestion, "part.count");
+}
+
+TEST(TomlReader, OfATableWithoutTablesAllKeysAreTold) {
+  EXPECT_EQ(unknown_key({}, "set.load.peak", {"gap", "source"}).allowed, "the keys gap, source");
+}
+
 TEST(TomlReader, SuggestsTheNearestWordAndKey) {
   EXPECT_EQ(read_thing("colour = \"gren\"").error().suggestion, "\"green\"");
   EXPECT_EQ(read_thing("lenght = \"1 cm\"").error().suggestion, "length");

@@ -41,6 +41,9 @@ TEST(CitedLimits, WhatIsNoneIsRefused) {
   const auto expect = [](const std::string& line, const ExpectedError& error) {
     expect_error_in(critical_kind + line + "\n", error);
   };
+  const std::string limit = "[[cited_limit]]\ngap = \"0.5 mm\"\nsource = \"someone\"\n";
+  expect(limit + "set = { load.peak = \"450 MPa\" }",
+         {6, "cited_limit.set.load.peak", "unknown key", "the keys gap", "set above the first [table]"});
   expect("cited_limit = 3", {3, "cited_limit", "3", "[[cited_limit]]"});
   expect("cited_limit = [{ source = \"someone\" }]", {3, "cited_limit.gap", "missing"});
   expect("cited_limit = [{ gap = \"0.5 mm\" }]", {3, "cited_limit.source", "missing"});

@@ -222,6 +222,8 @@ struct DocumentedKey {
 /// All keys of a scene file, those of its tables as "body.x", "interface.NAME.friction",
 /// "observation_point.x" and "accept.key".
 std::vector<DocumentedKey> describe_keys();
+/// Whether a key has that name, or is in a table of that name: "load.peak", "load".
+bool has_key(const std::vector<DocumentedKey>& keys, const std::string& name);
 
 /// A valid scene, and what in it was said rather than assumed.
 struct SceneFile {

@@ -158,6 +158,9 @@ Expected<std::vector<std::pair<Owner, std::map<std::string, Place>>>> read_table
   });
 }
 
+/// What is found where no key has a name, and where a key of a file belongs that was found in a table of it.
+inline constexpr std::string_view an_unknown_key = "an unknown key",
+                                  above_tables = " above the first [table], where it belongs";
 /// The error for a name that no key has, with the nearest one that exists.
 InputError unknown_key(const Place& place, const std::string& name, const std::vector<std::string>& known);
 
