@@ -19,13 +19,29 @@ ExitCode print_list(std::string text, Json members, Console& console) {
   return console.done(text, std::move(members));
 }
 
-bool has(const std::string& name, const std::string& word) { return name.find(word) != std::string::npos; }
+/// Names with a word in them; all for an empty one.
+struct NameSearch {
+  std::string word;
+  std::vector<std::string> names = {};  ///< all that were asked about
 
-/// The keys with a word in their name; all for an empty one.
-Json listed(const std::vector<scene::DocumentedKey>& keys, const std::string& word) {
+  bool finds(const std::string& name) {
+    names.push_back(name);
+    return name.find(word) != std::string::npos;
+  }
+  /// Ends the command where none was found. `what` they are names of; `example`: a word.
+  [[noreturn]] void refuse(const char* option, const char* what, const char* example,
+                           Console& console) const {
+    console.refuse(scene::error_at({}, option, fmt::format("\"{}\", which no {} has", word, what),
+                                   fmt::format("a part of a name, such as {}", example),
+                                   scene::nearest_of(word, names)));
+  }
+};
+
+/// The keys that are searched for.
+Json listed(const std::vector<scene::DocumentedKey>& keys, NameSearch& search) {
   Json rows = Json::array();
   for (const auto& [described, default_text] : keys)
-    if (has(described.name, word))
+    if (search.finds(described.name))
       rows.push_back({{"key", described.name},
                       {"si_unit", scene::si_unit_of(described.dimension)},
                       {"allowed", scene::allowed_text(described)},
@@ -47,30 +63,31 @@ std::string text_of_keys(Json rows) {
 
 /// The keys of scene and study files, from the same descriptions that read them.
 ExitCode explain_keys(const std::string& word, Console& console) {
-  Json rows{{"keys", listed(scene::describe_keys(), word)}};
+  NameSearch search{word};
+  Json rows{{"keys", listed(scene::describe_keys(), search)}};
   if (word.empty())
     for (const auto& [described, value] : scene::derived_quantities())
       rows["derived_quantities"].push_back({{"quantity", described.name},
                                             {"si_unit", scene::si_unit_of(described.dimension)},
                                             {"plausible", scene::plausible_text(described)},
                                             {"sentence", described.sentence}});
-  rows["study_keys"] = listed(kinds::describe_study_keys(), word);
+  rows["study_keys"] = listed(kinds::describe_study_keys(), search);
   Json facts{{"standings", word.empty() ? standings() : ""}};
   for (const auto& [name, list] : rows.items()) facts[name] = text_of_keys(list);
   if (facts["keys"] == "" && facts["study_keys"] == "")
-    console.refuse(fmt::format(
-        "explain --keys: found \"{}\", which no key has; allowed: a part of a name, such as load", word));
+    search.refuse("explain --keys", "key", "load", console);
   return print_list(told("keys.txt", facts), rows, console);
 }
 
 /// Every column of the tables of all kinds, from the same descriptions that write them.
 ExitCode explain_results(const std::string& word, Console& console) {
+  NameSearch search{word};
   Json list = Json::array();
   for (const kinds::Kind& kind : kinds::kinds()) {
     for (const report::ReportTable& table : kind.results()) {
       Json columns = Json::array();
       for (const report::Column& column : table.table.columns)
-        if (const std::string key = column.key(); has(key, word))
+        if (const std::string key = column.key(); search.finds(key))
           columns.push_back({{"key", key},
                              {"name", column.heading},
                              {"unit", column.form.unit},
@@ -80,11 +97,7 @@ ExitCode explain_results(const std::string& word, Console& console) {
             {{"kind", kind.traits.name}, {"member", table.member}, {"csv", table.csv}, {"columns", columns}});
     }
   }
-  if (list.empty())
-    console.refuse(
-        fmt::format("explain --results: found \"{}\", which no column has; allowed: a part of a name, such "
-                    "as critical_gap",
-                    word));
+  if (list.empty()) search.refuse("explain --results", "column", "critical_gap", console);
   return print_list(told("results.txt", {{"tables", list}, {"all", word.empty()}}), {{"results", list}},
                     console);
 }

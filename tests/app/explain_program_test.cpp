@@ -43,6 +43,12 @@ TEST_F(ExplainedProgram, ListsTheKeysThatHaveAWord) {
   EXPECT_NE(none.err.find("\"lode\""), std::string::npos) << none.err;
 }
 
+TEST_F(ExplainedProgram, SuggestsTheNearestNameOfWhatItLists) {
+  EXPECT_TRUE(run({"explain", "--keys", "load.peek"}).says("did you mean load.peak?"));
+  EXPECT_TRUE(run({"explain", "--keys", "largest_gab"}).says("did you mean largest_gap?"));
+  EXPECT_TRUE(run({"explain", "--results", "temprature_max_K"}).says("did you mean temperature_max_K?"));
+}
+
 TEST_F(ExplainedProgram, SaysOfASceneWhatIsNotPlausibleAsOfAStudyOfIt) {
   write("shell.toml", with(tiny_scene, "\"50 MPa\"", "\"500 kPa\""));
   write("study.toml",
