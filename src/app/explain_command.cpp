@@ -63,14 +63,9 @@ study::StudyFile study_of(const scene::SceneFile& file) {
 
 /// What is not plausible; what is to be accepted, ready to copy; and acceptances that accept nothing.
 std::string checks_text(const std::vector<std::string>& implausible, const study::AcceptancesOfStudy& all) {
-  Json facts{{"plausibility", implausible}, {"acceptances", Json::array()}};
-  Json& lines = facts["acceptances"];
-  if (!all.missing.empty())
-    lines.push_back("not accepted; a file that does says, with reasons in words:\n" +
-                    scene::acceptances_to_write(all.missing));
-  for (const std::string& each : all.unneeded)
-    lines.push_back(fmt::format("accept names {}, which nothing needs", each));
-  return told("checks.txt", facts);
+  return told("checks.txt", {{"plausibility", implausible},
+                             {"missing", scene::acceptances_to_write(all.missing)},
+                             {"unneeded", all.unneeded}});
 }
 
 /// One sentence for every value that is not plausible, of the cases of a study and of what it states itself,

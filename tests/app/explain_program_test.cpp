@@ -65,6 +65,15 @@ TEST_F(ExplainedProgram, SaysOfASceneWhatIsNotPlausibleAsOfAStudyOfIt) {
   EXPECT_EQ(plausibility("study.toml"), of_scene);
 }
 
+TEST_F(ExplainedProgram, SaysThatNoVerdictIsSafeWhereNobodyAcceptsAValue) {
+  write("shell.toml", with(tiny_scene, "\"0.5\"\nbecause", "\"0.6\"\nbecause"));
+  const std::string told = run({"explain", "shell.toml"}).out;
+  EXPECT_NE(told.find("No verdict that rests on these can be SAFE as it stands"), std::string::npos) << told;
+  EXPECT_NE(told.find("\naccept = [\n  { key = \"numerics.energy_drift_limit\", value = \"0.5\""),
+            std::string::npos)
+      << told;
+}
+
 TEST_F(ExplainedProgram, HasEveryKeyOfAReaderInItsSchemaWithUnitRangeAndExample) {
   const Json schema = Json::parse(run({"explain", "--schema", "scene"}).out);
   EXPECT_EQ(schema["$schema"], "http://json-schema.org/draft-04/schema#");
