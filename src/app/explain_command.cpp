@@ -109,9 +109,9 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
   const study::StudyFile alone = study_of(file);
-  return console.done(scene_text(scene, scene_json(scene, update_rate)) +
-                          checks_text(plausibility_lines(alone), study::acceptances_of(alone)),
-                      scene_json(scene, update_rate));
+  const Json facts = scene_json(scene, update_rate);
+  return console.done(
+      scene_text(scene, facts) + checks_text(plausibility_lines(alone), study::acceptances_of(alone)), facts);
 }
 
 ExitCode explain_study(const path& place, Console& console) {
