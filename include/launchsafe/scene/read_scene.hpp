@@ -135,6 +135,7 @@ struct Implausible {
   std::string range;           ///< what is plausible, with its reason, or what is calibrated
   std::string because;         ///< why the user accepts it; empty: he does not
   std::string accepted_value;  ///< what he says of the key's value, be it this one or not; empty: nothing
+  std::vector<std::string> stands_for = {};  ///< keys of the scene, of one that is told for several
   bool accepted() const { return !because.empty(); }
 };
 
