@@ -178,7 +178,7 @@ SceneFile read_named_scene(const std::string& name, const std::filesystem::path&
   std::error_code status;
   if (std::filesystem::exists(path, status)) return taken(scene::read_scene(path));
   throw error_at(place, key, fmt::format("\"{}\", which does not exist", name),
-                 "a scene file, by its path from the study file's folder", scene::nearest_file(folder, name));
+                 "a scene file, by its path from this file's folder", scene::nearest_file(folder, name));
 }
 
 study::AccuracyRecords settle_scene(const StudySource& source, const std::vector<OverrideTable>& overrides,

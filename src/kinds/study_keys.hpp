@@ -240,7 +240,7 @@ Expected<std::vector<Change>> changes_in(const OverrideTable& table, const std::
 Expected<StudyFile> read_study_table(const StudySource& source, const std::string& file,
                                      std::size_t most_cases);
 
-/// Reads a scene by its path from the study file's folder; the fault of a missing one is at `key`.
+/// Reads a scene by its path from the folder of the naming file; the fault of a missing one is at `key`.
 SceneFile read_named_scene(const std::string& name, const std::filesystem::path& folder,
                            const std::string& key, const Place& place);
 
