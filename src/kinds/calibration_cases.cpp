@@ -16,20 +16,17 @@ namespace {
 void check_fit_of_load(const StudyFile& study, const CalibrationTargets& targets) {
   constexpr const char* key = "load_fitted";
   const Load& load = study.scene.scene.load;
-  if (!load.curve_time.empty())
-    refuse_at(study, key, "a load to be fitted beside a measured curve",
-              "load_fitted = false, or a scene without load.curve");
-  if (load.shape != scene::LoadShape::bell)
-    refuse_at(study, key, fmt::format("a load of shape \"{}\"", word_of(load.shape)),
-              "load.shape = \"bell\", whose peak time, width and steepness are fitted");
+  const bool is_measured = !load.curve_time.empty();
+  if (is_measured || load.shape != scene::LoadShape::bell)
+    refuse_at(study, key,
+              is_measured ? "a measured curve" : fmt::format("a load of shape \"{}\"", word_of(load.shape)),
+              "load.shape = \"bell\" without load.curve, whose peak time, width and steepness are fitted");
   const std::size_t numbers = fitted_numbers(targets.zero_gap) + fitted_numbers(targets.wide_gap);
   if (numbers < fitted_keys.size())
-    refuse_at(
-        study, key,
-        fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
-        fmt::format("at least {} of maximum_temperature, early_temperature, rise_begins and rise_ends in the "
-                    "two rows together",
-                    fitted_keys.size()));
+    refuse_at(study, key,
+              fmt::format("{} numbers in the calibrated rows for {} unknowns", numbers, fitted_keys.size()),
+              "no fewer of maximum_temperature, early_temperature, rise_begins and rise_ends in both rows "
+              "together");
 }
 
 const std::vector<Key<CalibrationSettings>> calibration_keys{
@@ -64,13 +61,13 @@ const std::vector<Key<Firing>> firing_row_keys{
                "How many rounds.", &Firing::rounds),
     number_key("pressure", Dimension::pressure, above_to(0, 10e9), Standing::input,
                "Their mean peak pressure.", &Firing::pressure) |
-        usually("that of the scene"),
+        usually("that of the scene file"),
     number_key("pressure_spread", Dimension::pressure, between(0, 1e9), Standing::input,
                "Its standard deviation from round to round.", &Firing::pressure_spread) |
         usually("2 % of it"),
     number_key("temperature", Dimension::temperature, between(200, 400), Standing::input,
                "Mean temperature of charge and air.", &Firing::temperature) |
-        usually("that of the scene"),
+        usually("that of the scene file"),
     number_key("temperature_spread", Dimension::temperature_difference, between(0, 100), Standing::input,
                "Its standard deviation from round to round.", &Firing::temperature_spread) |
         usually("6 K"),
@@ -80,12 +77,31 @@ const std::vector<Key<Firing>> firing_row_keys{
         scene::value_or_range() | required(),
 };
 
-/// What a firing leaves out is of the scene, or assumed.
-void complete(Firing& firing, const Scene& scene) {
-  const auto fill = [](double& number, double usual) { number = std::isnan(number) ? usual : number; };
-  fill(firing.pressure, study::fired_pressure(scene.load));
+/// What a firing leaves out is as the scene file states it, or a spread that is assumed. Neither [set] nor a
+/// default tells how rounds were fired. The peak of a measured curve is its own, unless it is scaled.
+void complete(Firing& firing, const StudyFile& study, std::size_t place) {
+  const SceneFile& file = study.scene;
+  const Load& load = file.scene.load;
+  const auto fill = [&](double& number, double usual, const char* name = "", const char* key = "") {
+    if (!std::isnan(number)) return;
+    number = usual;
+    if (*key && !(file.given.contains(key) && scene::place_of_key(file, key).file == file.file))
+      throw error_at(place_of_key(study, fmt::format("firing.{}.gap", place)), fmt::format("firing.{}", name),
+                     fmt::format("nothing, and {} is of [set] or a default", key),
+                     fmt::format("{} in [[firing]], or {} in the scene file alone", name, key));
+  };
+  const char* const of_curve = load.curve_file.empty() ? "load.curve_pressure" : "load.curve";
+  const bool has_own_peak = !load.curve_time.empty() && !load.rescale_to_peak;
+  const double peak = study::fired_pressure(load);
+  fill(firing.pressure, peak, "pressure", has_own_peak ? of_curve : "load.peak");
+  if (has_own_peak && !study::same_number(firing.pressure, peak))
+    refuse_at(study, fmt::format("firing.{}.pressure", place),
+              fmt::format("{} beside a measured curve with a peak of {}",
+                          format_quantity(firing.pressure, Dimension::pressure),
+                          format_quantity(peak, Dimension::pressure)),
+              "that of the curve, or load.rescale_to_peak = true in the scene");
   fill(firing.pressure_spread, study::assumed_load_spread / study::coverage_factor * firing.pressure);
-  fill(firing.temperature, scene.initial_temperature);
+  fill(firing.temperature, file.scene.initial_temperature, "temperature", "initial_temperature");
   fill(firing.temperature_spread, study::assumed_temperature_spread / study::coverage_factor);
 }
 
@@ -100,18 +116,6 @@ SceneFile scene_of(const StudyFile& study, const Firing& firing, std::size_t pla
     changes.push_back({key, value, place_of_key(study, named), named});
   }
   return taken(study::with_changes(study.scene, changes));
-}
-
-/// The load of a measured curve has a peak of its own.
-void check_curve(const StudyFile& study, const Firing& firing, std::size_t place) {
-  const Load& load = study.scene.scene.load;
-  const double peak = study::fired_pressure(load);
-  if (!load.curve_time.empty() && !load.rescale_to_peak && !study::same_number(firing.pressure, peak))
-    refuse_at(study, fmt::format("firing.{}.pressure", place),
-              fmt::format("{} beside a measured curve with a peak of {}",
-                          format_quantity(firing.pressure, Dimension::pressure),
-                          format_quantity(peak, Dimension::pressure)),
-              "that of the curve, or load.rescale_to_peak = true in the scene");
 }
 
 /// Rounds that are listed twice would prove twice as much.
@@ -147,8 +151,7 @@ void read_firings(const toml::table& root, StudyFile& study) {
   std::vector<Firing>& firings = settings_of<CalibrationSettings>(study.study).firings.firings;
   study::read_rows(root, "firing", firing_row_keys, study.file, study, firings);
   for (std::size_t place = 0; place < firings.size(); ++place) {
-    complete(firings[place], study.scene.scene);
-    check_curve(study, firings[place], place);
+    complete(firings[place], study, place);
     check_counted_once(study, firings, place);
   }
   for (std::size_t place = 0; place < firings.size(); ++place)
@@ -191,6 +194,32 @@ void check_firings(const StudyFile& study) {
                 "a record of plausible constants, about which those of the firings are sought");
 }
 
+/// Constants that were fitted to the rows of another launch would pass as those of this one. A model of the
+/// launch is free, and what is fitted.
+void check_launch_of_rows(const StudyFile& study) {
+  using enum keys::Part;
+  const bool load_fitted = settings_of<CalibrationSettings>(study).load_fitted;
+  for (std::size_t i = 0; i < study.study.references.size(); ++i) {
+    const std::string& name = study.study.references[i].scene;
+    if (name.empty()) refuse_rows(study, "a row without scene", "the scene of its launch in each row");
+    const Place place = place_of_key(study, fmt::format("reference.{}.scene", i));
+    const auto folder = std::filesystem::path(place.file).parent_path();
+    const Scene of_row =
+        taken(scene::read_scene(scene::named_file(folder, name, place, "reference.scene", "a scene file")))
+            .scene;
+    for (const study::Difference& each : study::differences(study.scene.scene, of_row)) {
+      const keys::Part part = each.key.role().part;
+      const bool is_fitted = load_fitted && std::ranges::count(fitted_keys, each.key.name) > 0;
+      if (part == constant || part == range || (part == load_shape && !is_fitted))
+        throw error_at(place, "reference.scene",
+                       fmt::format("\"{}\" with {} = {}, and {} in the scene of the study", name,
+                                   each.key.name, scene::format_value(each.key, each.recorded),
+                                   scene::format_value(each.key, each.value)),
+                       "rows of the launch that is calibrated, or a scene of theirs in the study");
+    }
+  }
+}
+
 void make_calibration_cases(const StudySource& source, StudyFile& study) {
   read_firings(source.root, study);
   check_firings(study);
@@ -198,6 +227,7 @@ void make_calibration_cases(const StudySource& source, StudyFile& study) {
   add_axis(study, "numerics.cell_size", "meshes", settings_of<CalibrationSettings>(study.study).meshes);
   if (!firings_of(study).empty()) return make_firing_cases(study);
   calibration_targets(study);
+  check_launch_of_rows(study);
   make_factorial(study);
   for (std::size_t i = 0; i < study.cases.size(); ++i)
     study.cases.relabel(i, fmt::format("{:.6g} mm", 1e3 * study.cases[i].cell_size()));
@@ -231,13 +261,6 @@ CalibrationTargets calibration_targets(const StudyFile& study) {
     }
     safe = std::max(safe, row.gap);
     if (!row.calibrated) continue;
-    const double peak = study.scene.scene.load.peak;
-    if (std::abs(row.peak_pressure - peak) > 1e-6 * peak)
-      refuse_rows(study,
-                  fmt::format("a calibrated row of a launch of {}, and a scene of {}",
-                              format_quantity(row.peak_pressure, Dimension::pressure),
-                              format_quantity(peak, Dimension::pressure)),
-                  "rows of the launch that the scene describes");
     const bool is_zero = row.gap == 0.0;
     ++(is_zero ? zero : wide);
     (is_zero ? targets.zero_gap : targets.wide_gap) = row;

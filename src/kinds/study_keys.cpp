@@ -60,9 +60,9 @@ Key<Reference> reference_number(std::string name, Dimension dimension, std::stri
 
 const std::vector<Key<Reference>> published_row_keys{
     reference_number("gap", Dimension::length, "Gap of a published row.", &Reference::gap) | required(),
-    reference_number("peak_pressure", Dimension::pressure,
-                     "Peak pressure of its launch; constants are fitted to no launch of another.",
-                     &Reference::peak_pressure),
+    text_key("scene", Standing::input,
+             "Path of the scene of its launch from its file's folder; constants are fitted to no other.",
+             "table8_fields.toml", &Reference::scene),
     reference_number("maximum_temperature", Dimension::temperature, "Its highest temperature.",
                      &Reference::maximum_temperature),
     text_key("point", Standing::paper, "Observation point of the highest temperature.", "G2",

@@ -128,8 +128,13 @@ bool same_value(const Value& a, const Value& b, double tolerance) {
 
 Implausible implausible(const std::vector<Acceptance>& accepted, const KeyDescription& key, std::string name,
                         const Value& value, std::string range) {
-  Implausible found{
-      std::move(name), format_value(key, value), std::move(range), {}, {}, under_another_prefix(key, value)};
+  Implausible found{std::move(name),
+                    format_value(key, value),
+                    std::move(range),
+                    {},
+                    {},
+                    under_another_prefix(key, value),
+                    {}};
   for (const Acceptance& each : accepted) {
     if (each.key != found.key || found.accepted()) continue;
     found.accepted_value = each.value;

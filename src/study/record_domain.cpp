@@ -214,9 +214,9 @@ bool is_hotter(const Difference& difference) {
          (hotter == Hotter::above);
 }
 
-/// Several numbers of materials are one property, with a digest of their values. When the explosive ignites
-/// is a constant of the calibration, and friction of cracks is part of the model.
-void summarise_materials(std::vector<Difference>& foreign) {
+/// Several numbers of materials are one property, with a digest of their values; the keys of these. When the
+/// explosive ignites is a constant of the calibration, and friction of cracks is part of the model.
+std::vector<std::string> summarise_materials(std::vector<Difference>& foreign) {
   const auto of_material = [](const Difference& each) {
     return each.of_material && each.key.role().part == Part::constant;
   };
@@ -227,13 +227,14 @@ void summarise_materials(std::vector<Difference>& foreign) {
     names.push_back(each.key.name);
     values += fmt::format("{} = {}\n", each.key.name, scene::format_value(each.key, each.value));
   }
-  if (names.size() < 2) return;
+  if (names.size() < 2) return {};
   std::erase_if(foreign, of_material);
   const auto place = std::ranges::find(foreign, scene::foreign_interfaces,
                                        [](const Difference& each) { return each.key.name; });
   foreign.insert(place, {{.name = scene::foreign_material, .kind = scene::KeyKind::text},
                          fmt::format("{}, {}", scene::first_of(names, 3), short_digest(values)),
                          std::string("other numbers")});
+  return names;
 }
 
 std::string name_for_people(const std::string& key) {
@@ -303,11 +304,13 @@ RecordDistance distance_to_record(RecordKind record, const Scene& scene, const S
   }
   if (distance.other_load_shape) distance.carried.emplace_back("load shape");
   if (distance.other_numerics) distance.carried.emplace_back("numerics");
-  summarise_materials(foreign);
-  for (const Difference& each : foreign)
+  const std::vector<std::string> summarised = summarise_materials(foreign);
+  for (const Difference& each : foreign) {
     distance.foreign.push_back(
         scene::implausible(scene.accepted, each.key, each.key.name, each.value,
                            "calibrated with " + scene::format_value(each.key, each.recorded)));
+    if (each.key.name == scene::foreign_material) distance.foreign.back().stands_for = summarised;
+  }
   return distance;
 }
 

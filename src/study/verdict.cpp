@@ -269,10 +269,20 @@ std::optional<FittedCurve> fit_curve(const char* name, const Regressors& regress
   return curve;
 }
 
-/// Whether a key acts on the skin of a given trace, or in proportion to what the trace holds.
-bool is_of_skin(const std::string& key) {
-  constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
-  return std::ranges::find(felt, scene::role_of(key).acts_on) != felt.end();
+/// Each once.
+std::vector<std::string> keys_of(const std::vector<scene::Implausible>& to_be_accepted) {
+  std::vector<std::string> keys;
+  const auto add = [&keys](const std::string& key) {
+    if (std::ranges::count(keys, key) == 0) keys.push_back(key);
+  };
+  for (const scene::Implausible& each : to_be_accepted) {
+    add(each.key);
+    std::ranges::for_each(each.stands_for, add);
+    // Any of the three may be the one that is wrong.
+    if (each.key == "gap.gas_law")
+      for (const char* key : {"gap.air_temperature", "gap.air_pressure", "gap.air_density"}) add(key);
+  }
+  return keys;
 }
 
 }  // namespace
@@ -318,21 +328,20 @@ std::optional<GapFit> fit_gaps(const std::vector<double>& gaps, const std::vecto
 }
 
 std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted) {
-  std::vector<std::string> keys;
-  for (const scene::Implausible& each : to_be_accepted) {
-    if (is_of_skin(each.key)) keys.push_back(each.key);
-    // Any of the three may be the one that is wrong.
-    if (each.key == "gap.gas_law")
-      keys.insert(keys.end(), {"gap.air_temperature", "gap.air_pressure", "gap.air_density"});
-  }
+  std::vector<std::string> keys = keys_of(to_be_accepted);
+  std::erase_if(keys, [](const std::string& key) {
+    // What acts on the skin of a given trace, or in proportion to what the trace holds.
+    constexpr std::array felt{ActsOn::trace, ActsOn::heat, ActsOn::conduction, ActsOn::surface};
+    return std::ranges::count(felt, scene::role_of(key).acts_on) == 0;
+  });
   return keys;
 }
 
 std::vector<std::string> keys_as_calibrated(const std::vector<scene::Implausible>& to_be_accepted) {
   std::vector<std::string> keys = skin_keys(to_be_accepted);
   if (!keys.empty()) keys.insert(keys.begin(), "");
-  for (const scene::Implausible& each : to_be_accepted)
-    if (scene::role_of(each.key).acts_on == ActsOn::chemistry) keys.push_back(each.key);
+  for (const std::string& key : keys_of(to_be_accepted))
+    if (scene::role_of(key).acts_on == ActsOn::chemistry) keys.push_back(key);
   return keys;
 }
 

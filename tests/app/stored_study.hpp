@@ -85,9 +85,9 @@ scene = "shell.toml"
 early_time = "0.03 ms"
 meshes = "1, 5 mm"
 reference = [
-  { gap = "0 cm", maximum_temperature = "350 K", calibrated = true },
-  { gap = "0.01 cm", maximum_temperature = "400 K", calibrated = true },
-  { gap = "0.02 cm", maximum_temperature = "800 K", ignition_time = "0.04 ms" },
+  { scene = "shell.toml", gap = "0 cm", maximum_temperature = "350 K", calibrated = true },
+  { scene = "shell.toml", gap = "0.01 cm", maximum_temperature = "400 K", calibrated = true },
+  { scene = "shell.toml", gap = "0.02 cm", maximum_temperature = "800 K", ignition_time = "0.04 ms" },
 ]
 )";
 

@@ -19,6 +19,8 @@ double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& tra
   return surface::maximum_at_stations(surface::integrate_skin(model, trace, gap), trace).temperature;
 }
 
+const std::string own_launch = "scene = \"scene_155mm.toml\"";
+
 /// Rows as a shell with the given constants would have published them.
 std::string published(const surface::SurfaceConstants& truth, const trace::BottomTrace& trace) {
   surface::SkinModel model = surface::skin_model(study_of(critical_text + synthetic_constants).scene.scene);
@@ -30,10 +32,10 @@ std::string published(const surface::SurfaceConstants& truth, const trace::Botto
   for (const double gap : {0.0, 1e-4, 2e-4, 3e-4, 4e-4}) {
     const auto history = surface::integrate_skin(model, trace, gap);
     rows += fmt::format(
-        "{{ gap = \"{} m\", maximum_temperature = \"{} K\", early_temperature = \"{} K\"{}{} }},", gap,
+        "{{ gap = \"{} m\", maximum_temperature = \"{} K\", early_temperature = \"{} K\"{}{}, {} }},", gap,
         maximum_at(model, trace, gap), surface::maximum_at_time(history, trace, 10e-3).temperature,
         gap == 0.0 || gap == 2e-4 ? ", calibrated = true" : "",
-        gap == 4e-4 ? ", ignition_time = \"17.7 ms\"" : "");
+        gap == 4e-4 ? ", ignition_time = \"17.7 ms\"" : "", own_launch);
   }
   return "reference = [" + rows + "]\n";
 }
@@ -228,11 +230,11 @@ std::string published_rows(const Truth& truth) {
     rows += fmt::format(
         "{{ gap = \"{} m\", maximum_temperature = \"{} K\", early_temperature = \"{} K\", rise_begins = \"{} "
         "s\", "
-        "rise_ends = \"{} s\", calibrated = {} }},",
+        "rise_ends = \"{} s\", calibrated = {}, {} }},",
         gap, maximum_at(model, trace, gap), surface::maximum_at_time(history, trace, 10e-3).temperature,
-        begins, ends, gap != 1e-4);
+        begins, ends, gap != 1e-4, own_launch);
   }
-  return "reference = [" + rows + "{ gap = \"0.3 mm\", ignition_time = \"17.7 ms\" }]\n";
+  return "reference = [" + rows + "{ gap = \"0.3 mm\", ignition_time = \"17.7 ms\", " + own_launch + " }]\n";
 }
 
 const std::string load_text = calibration_text + "load_fitted = true\n";

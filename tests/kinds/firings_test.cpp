@@ -121,6 +121,20 @@ TEST(Firings, RefuseRoundsThatWouldCountTwice) {
   EXPECT_EQ(refusal(rounds + firing("no ignition", 31, "0.3 mm")), "");
 }
 
+// Rounds of 496 MPa and 300 K, read under a [set] of 540 MPa and 340 K, raised the lower bound of the
+// critical gap from 0.0156 to 0.0212 cm.
+TEST(Firings, AreOfNoPressureOrTemperatureThatOnlySetStates) {
+  const std::string both = "pressure = \"540 MPa\"\ntemperature = \"340 K\"\n";
+  for (const auto& [set, fault] :
+       {std::pair{"load.peak = \"540 MPa\"",
+                  "firing.pressure: found nothing, and load.peak is of [set] or a default"},
+        {"initial_temperature = \"340 K\"", "firing.temperature: found nothing"}}) {
+    const std::string table = std::string("[set]\n") + set + "\n";
+    EXPECT_NE(refusal(firing("no ignition", 100, "0.6 mm") + table).find(fault), std::string::npos) << set;
+    EXPECT_EQ(refusal(firing("no ignition", 100, "0.6 mm", both) + table), "") << set;
+  }
+}
+
 /// A study of the made-up shell on the record of its firings.
 class StudyOnFirings : public FolderWithScene {
  protected:
@@ -265,6 +279,21 @@ TEST_F(StudyOnFirings, StartFromNoConstantsThatAreNotPlausible) {
   ASSERT_FALSE(study);
   EXPECT_NE(study.error().message().find("gap.exchange_time = 3 ms is not plausible"), std::string::npos)
       << study.error().message();
+}
+
+TEST_F(StudyOnFirings, AreOfNoPressureThatIsTheDefaultOfAScene) {
+  std::ifstream file(studies_folder / "scene_155mm.toml");
+  std::string scene{std::istreambuf_iterator<char>(file), {}};
+  const std::string peak = "\npeak = \"496 MPa\"";
+  ASSERT_NE(scene.find(peak), std::string::npos);
+  std::ofstream(folder_ / "scene_155mm.toml") << scene.erase(scene.find(peak), peak.size());
+  std::filesystem::copy(studies_folder / "../reports/calibrate_table8/calibration.json", folder_,
+                        std::filesystem::copy_options::overwrite_existing);
+  const auto study = kinds::parse_study(
+      firing_text + "calibration = \"calibration.json\"\n" + firing("no ignition", 59, "0.3 mm"),
+      folder_ / "firings.toml");
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.error().key, "firing.pressure") << study.error().message();
 }
 
 TEST_F(StudyOnFirings, SaysThatInventedFiringsAreADemonstration) {

@@ -59,10 +59,13 @@ TEST_F(RefusedRun, OfAConfirmationIsJournaled) {
 TEST_F(RefusedRun, OfACalibrationIsJournaled) {
   const auto store = open_store();
   const std::string rows =
-      "reference = [ { gap = \"0 cm\", maximum_temperature = \"416 K\", calibrated = true },\n"
-      "{ gap = \"0.02 cm\", maximum_temperature = \"467 K\", calibrated = true },\n"
-      "{ gap = \"0.03 cm\", maximum_temperature = \"493 K\" },\n"
-      "{ gap = \"0.04 cm\", maximum_temperature = \"800 K\", ignition_time = \"17.7 ms\" } ]\n";
+      "reference = [ { scene = \"scene_155mm.toml\", gap = \"0 cm\", maximum_temperature = \"416 K\", "
+      "calibrated = true },\n"
+      "{ scene = \"scene_155mm.toml\", gap = \"0.02 cm\", maximum_temperature = \"467 K\", calibrated = true "
+      "},\n"
+      "{ scene = \"scene_155mm.toml\", gap = \"0.03 cm\", maximum_temperature = \"493 K\" },\n"
+      "{ scene = \"scene_155mm.toml\", gap = \"0.04 cm\", maximum_temperature = \"800 K\", ignition_time = "
+      "\"17.7 ms\" } ]\n";
   const StudyFile study =
       study_of("kind = \"calibration\"\nscene = \"scene_155mm.toml\"\nmeshes = \"5, 10 mm\"\n" + rows +
                synthetic_constants);

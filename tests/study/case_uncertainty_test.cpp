@@ -286,6 +286,8 @@ TEST(CaseUncertainty, ColderConstantsOfTheSurfaceMakeNothingSafeThatTheCalibrate
   };
   const std::vector<GapVerdict> own = rows_with("");
   for (const std::string change : {"friction.localisation = 700", "charge.specific_heat = \"4000 J/(kg K)\"",
+                                   // Two constants of materials are accepted as one property.
+                                   "charge.specific_heat = \"2000 J/(kg K)\"\nsteel.density = \"8 g/cm3\"",
                                    "gap.air_density = \"0.17 kg/m3\""}) {
     const std::vector<GapVerdict> colder = rows_with(change + "\n");
     ASSERT_EQ(own.size(), colder.size());

@@ -136,6 +136,7 @@ struct Implausible {
   std::string because;         ///< why the user accepts it; empty: he does not
   std::string accepted_value;  ///< what he says of the key's value, be it this one or not; empty: nothing
   std::string suggestion;      ///< a plausible value that another prefix of its unit makes; empty: none
+  std::vector<std::string> stands_for = {};  ///< keys of the scene, of one that is told for several
   bool accepted() const { return !because.empty(); }
 };
 

@@ -165,7 +165,7 @@ std::string to_string(Use use);
 /// A row of published results to compare with; what it does not say is NaN or empty.
 struct Reference {
   double gap = not_a_number;                  ///< m, >= 0
-  double peak_pressure = not_a_number;        ///< Pa, of its launch; NaN where that is not stated
+  std::string scene;                          ///< of its launch: a path from the folder of the row's file
   double maximum_temperature = not_a_number;  ///< K, until the exit, or over the whole launch without one
   std::string point;                          ///< where that was
   double early_temperature = not_a_number;    ///< K, highest at Study::early_time

@@ -190,7 +190,7 @@ struct AsCalibrated {
 };
 
 /// Of what has to be accepted, the constants that heat or cool the skin on a given trace: those of gap and
-/// friction, and single ones of the charge. Accepting them makes no gap safe.
+/// friction, and those of the charge. Accepting them makes no gap safe.
 std::vector<std::string> skin_keys(const std::vector<scene::Implausible>& to_be_accepted);
 /// What a skin can be evaluated anew with: all of these together (""), where there are any, then each, then
 /// each constant of the kinetics.
