@@ -119,21 +119,43 @@ double rounded_up(double value) {
   return std::ceil(value / unit - 1e-9) * unit;
 }
 
-/// What of a curve is faster than its average over `window` (s), at equal intervals from its first point to
-/// its last; what is faster than these is averaged out too.
-std::vector<double> fast_part(const Load& measured, double window, std::size_t samples) {
+/// Part of a measured curve at equal intervals: what is simulated of it.
+struct Part {
+  double begin = 0, interval = 0;  ///< s
+  std::size_t samples = 0;
+  double length() const { return interval * static_cast<double>(samples); }
+  /// s; what of the curve is slower than its average over this is its pulse.
+  double window() const { return std::min(1e-3, 0.1 * length()); }
+};
+
+/// Without samples where it has too few points.
+Part simulated_part(const Load& load) {
+  constexpr std::size_t fewest_points = 64, most_samples = 4096;
+  const auto first = std::ranges::lower_bound(load.curve_time, 0.0);
+  const auto behind = std::ranges::upper_bound(load.curve_time, end_time(load));
+  if (behind - first < static_cast<std::ptrdiff_t>(fewest_points)) return {};
+  const std::size_t samples = std::min(most_samples, static_cast<std::size_t>(behind - first) - 1);
+  return {*first, (*std::prev(behind) - *first) / static_cast<double>(samples), samples};
+}
+
+/// What of a part is faster than its window; what is faster than its intervals is averaged out too.
+std::vector<double> fast_in(const Part& part, const Load& measured) {
   Load load = without_exit(measured);
   load.duration.reset();
-  const double begin = load.curve_time.front(),
-               interval = (load.curve_time.back() - begin) / static_cast<double>(samples);
-  if (interval > mean_interval(load)) load.smoothing = std::max(load.smoothing, interval);
-  const PressureHistory all(load), average(averaged(load, window));
+  if (part.interval > 1.01 * mean_interval(load)) load.smoothing = std::max(load.smoothing, part.interval);
+  const PressureHistory all(load), average(averaged(load, part.window()));
   std::vector<double> fast;
-  for (std::size_t i = 0; i < samples; ++i) {
-    const double time = begin + (static_cast<double>(i) + 0.5) * interval;
+  for (std::size_t i = 0; i < part.samples; ++i) {
+    const double time = part.begin + static_cast<double>(i) * part.interval;
     fast.push_back(all.at(time) - average.at(time));
   }
   return fast;
+}
+
+/// What an average over a window (s) leaves of a sine of a frequency (1/s).
+double left_by_average(double frequency, double window) {
+  const double angle = std::numbers::pi * frequency * window;
+  return std::sin(angle) / angle;
 }
 
 /// Mean square at the frequency of so many periods over all values.
@@ -148,41 +170,52 @@ double power_at(const std::vector<double>& values, std::size_t periods) {
   return 2.0 * std::norm(sum) / std::pow(static_cast<double>(values.size()), 2);
 }
 
-/// Whether a bin is in a line among powers by frequency, from `first` on: its five bins, as a ring that comes
-/// and goes with the pressure spreads over, have on average thirty times the median of what lies within a
-/// third of its frequency. None is in noise, nor in the pulse itself.
-bool stands_out(const std::vector<double>& powers, std::size_t first, std::size_t bin, double line) {
-  constexpr std::size_t fewest_around = 8;
-  constexpr double bins = 5.0, least_prominence = 30.0, span = 4.0 / 3.0;
-  const auto begin = std::max(first, static_cast<std::size_t>(static_cast<double>(bin) / span));
-  const auto end = std::min(powers.size(), static_cast<std::size_t>(static_cast<double>(bin) * span) + 1);
-  if (end - begin < fewest_around) return false;
-  std::vector<double> around(powers.begin() + static_cast<std::ptrdiff_t>(begin),
-                             powers.begin() + static_cast<std::ptrdiff_t>(end));
-  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return line >= bins * least_prominence * *middle;
+/// Mean power of white noise among powers by frequency, of which it makes a quarter or more: so many of what
+/// is distributed exponentially are less than this share of its mean.
+double noise_among(std::vector<double> powers) {
+  const double share = -std::log(0.75);
+  const auto quarter = powers.begin() + static_cast<std::ptrdiff_t>(powers.size() / 4);
+  std::nth_element(powers.begin(), quarter, powers.end());
+  return *quarter / share;
 }
 
-/// The lines among powers by frequency, the strongest first, none within a tenth of a stronger one.
-std::vector<std::size_t> lines_of(const std::vector<double>& powers, std::size_t first) {
-  constexpr std::size_t half_width = 2;
-  constexpr double near = 0.1;
-  std::vector<std::pair<double, std::size_t>> bins;  // of what five bins have together
-  for (std::size_t i = first + half_width; i + half_width < powers.size(); ++i) {
-    double line = 0.0;
-    for (std::size_t k = i - half_width; k <= i + half_width; ++k) line += powers[k];
-    if (stands_out(powers, first, i, line)) bins.emplace_back(-line, i);
+/// What a measured curve has within a twentieth of every frequency where that is neither white noise nor the
+/// pulse itself, the largest first.
+///
+/// Five powers of white noise have six times their mean together once in ten million cases. A pulse that
+/// fills the record and has a corner at its peak, as the published one has, swings by up to 1/n^2 of its peak
+/// about n periods.
+std::vector<Ring> swings_of(const Load& load) {
+  constexpr double lowest = 0.8, near = 0.05, fewest_beside = 2.0, over_noise = 6.0, least_share = 5e-4;
+  const Part part = simulated_part(load);
+  if (part.samples == 0 || load.smoothing >= part.window()) return {};
+  const std::vector<double> fast = fast_in(part, load);
+  const auto first = static_cast<std::size_t>(lowest * part.length() / part.window());
+  std::vector<double> powers;
+  for (std::size_t i = first; i < part.samples / 2; ++i) {
+    const double slow = left_by_average(static_cast<double>(i) / part.length(), part.window());
+    powers.push_back(power_at(fast, i) / std::pow(1.0 - slow, 2));
   }
-  std::ranges::sort(bins);
-  std::vector<std::size_t> lines;
-  for (const auto& [power, bin] : bins) {
-    const auto is_near = [bin = static_cast<double>(bin)](std::size_t line) {
-      return std::abs(bin / static_cast<double>(line) - 1.0) <= near;
-    };
-    if (std::ranges::none_of(lines, is_near)) lines.push_back(bin);
+  const double noise = noise_among(powers), peak = PressureHistory(load).stated_peak();
+  std::vector<Ring> swings;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    const auto periods = static_cast<double>(first + i);
+    const double beside = std::max(fewest_beside, near * periods);
+    const auto reach = static_cast<std::size_t>(beside) + 1;
+    double power = 0.0, centre = 0.0, of_noise = 0.0;
+    for (std::size_t k = i - std::min(i, reach); k <= std::min(i + reach, powers.size() - 1); ++k) {
+      const auto at = static_cast<double>(first + k);
+      const double weight = std::min(1.0, beside + 1.0 - std::abs(at - periods));
+      power += weight * powers[k];
+      centre += weight * powers[k] * at;
+      of_noise += weight * noise;
+    }
+    const Ring swing{centre / power / part.length(), std::sqrt(2.0 * std::max(0.0, power - of_noise))};
+    if (power >= over_noise * of_noise && swing.amplitude >= (least_share + 1.0 / (periods * periods)) * peak)
+      swings.push_back(swing);
   }
-  return lines;
+  std::ranges::sort(swings, std::ranges::greater{}, &Ring::amplitude);
+  return swings;
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
@@ -284,6 +317,25 @@ double peak_lost_to_smoothing(const Load& load) {
   return before > 0.0 ? std::max(0.0, 1.0 - history.peak() / before) : 0.0;
 }
 
+double peak_missed_between_points(const Load& load) {
+  const auto& time = load.curve_time;
+  const auto& pressure = load.curve_pressure;
+  if (time.size() < 4 || load.rescale_to_peak) return 0.0;
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
+  const auto slope_from = [&](std::size_t i) {
+    return (pressure[i + 1] - pressure[i]) / (time[i + 1] - time[i]);
+  };
+  double missed = 0.0;
+  // Between the points i and i + 1 meet the chords of the intervals before and after.
+  for (std::size_t i = std::max<std::size_t>(top, 2) - 1; i <= std::min(top, time.size() - 3); ++i) {
+    const double rise = slope_from(i - 1), fall = slope_from(i + 1), length = time[i + 1] - time[i];
+    const double after = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);  // s
+    if (after > 0.0 && after < length)
+      missed = std::max(missed, (pressure[i] + rise * after) / pressure[top] - 1.0);
+  }
+  return missed;
+}
+
 std::optional<double> suggested_smoothing(const Load& load) {
   constexpr std::size_t most_points = 100'000;  // more take longer than a suggestion is worth
   if (load.curve_time.size() > most_points) return std::nullopt;
@@ -301,30 +353,15 @@ std::optional<double> suggested_smoothing(const Load& load) {
 }
 
 std::vector<Ring> rings_of(const Load& load) {
-  constexpr std::size_t most_samples = 4096, fewest_points = 64;
-  constexpr double longest_window = 1e-3, near = 0.1, line_bins = 5.0, least_share = 5e-4;
-  if (load.curve_time.size() < fewest_points) return {};
-  const double length = load.curve_time.back() - load.curve_time.front();
-  const double window = std::min(longest_window, 0.1 * length);
-  if (load.smoothing >= window) return {};
-  const std::size_t samples = std::min(most_samples, load.curve_time.size() - 1);
-  const std::vector<double> fast = fast_part(load, window, samples);
-  const auto first = static_cast<std::size_t>(std::ceil(length / window));
-  std::vector<double> powers(samples / 2, 0.0);
-  for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
-  const double least = least_share * PressureHistory(load).stated_peak();
+  constexpr double near = 0.1;
+  const std::vector<Ring> swings = swings_of(load);
+  const double lowest = 0.9 / simulated_part(load).window();
   std::vector<Ring> rings;
-  for (const std::size_t top : lines_of(powers, first)) {
-    double around = 0.0, line = 0.0, centre = 0.0;
-    for (std::size_t i = first; i < powers.size(); ++i) {
-      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(top));
-      if (apart <= near * static_cast<double>(top)) around += powers[i];
-      if (apart > line_bins) continue;
-      line += powers[i];
-      centre += powers[i] * static_cast<double>(i);
-    }
-    const Ring ring{centre / line / length, std::sqrt(2.0 * around)};
-    if (ring.amplitude >= least) rings.push_back(ring);
+  for (auto swing = swings.begin(); swing != swings.end(); ++swing) {
+    const auto is_near = [&](const Ring& larger) {
+      return std::abs(swing->frequency / larger.frequency - 1.0) <= near;
+    };
+    if (swing->frequency >= lowest && std::none_of(swings.begin(), swing, is_near)) rings.push_back(*swing);
   }
   return rings;
 }
@@ -337,11 +374,8 @@ std::optional<Ring> ring_of(const Load& load) {
 std::optional<Ring> smoothed_ring(const Load& load) {
   constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  for (const Ring& ring : rings_of(averaged(load, 0.0))) {
-    // What an average over a window leaves of a sine.
-    const double angle = std::numbers::pi * ring.frequency * load.smoothing;
-    if (!(std::abs(std::sin(angle)) > least_left * angle)) return ring;
-  }
+  for (const Ring& swing : swings_of(averaged(load, 0.0)))
+    if (std::abs(left_by_average(swing.frequency, load.smoothing)) <= least_left) return swing;
   return std::nullopt;
 }
 

@@ -22,6 +22,30 @@ std::string why_not_counted(const CalibrationRecord& calibration) {
 
 bool is_unknown(double gap) { return std::isnan(gap); }
 
+/// What a comparison of models changes: those of studies/model_form do, and the one that ignites earliest may
+/// be any.
+constexpr std::array<std::string_view, 5> compared_keys{scene::foreign_interfaces, "friction.closure",
+                                                        "gap.air", "charge.crack_friction", "station.width"};
+
+std::string_view table_of_key(std::string_view key) { return key.substr(0, key.find('.')); }
+
+/// Those of the compared keys that no alternative changes without changing the model elsewhere.
+std::vector<std::string_view> not_compared(const std::vector<ModelFormEntry>& entries) {
+  std::vector<std::string_view> missing(compared_keys.begin(), compared_keys.end());
+  for (const ModelFormEntry& each : entries) {
+    std::vector<std::string> changed;
+    for (const Difference& difference : differences(each.scene, entries.front().scene))
+      if (difference.key.role().part == keys::Part::model) changed.push_back(difference.key.name);
+    std::erase_if(missing, [&](std::string_view key) {
+      const auto beside = [key](const std::string& other) {
+        return table_of_key(other) == table_of_key(key);
+      };
+      return std::ranges::count(changed, key) > 0 && std::ranges::all_of(changed, beside);
+    });
+  }
+  return missing;
+}
+
 /// Why a model cannot stand in a record: its scene is not that of its calibration, or it is no alternative to
 /// the default: a copy of it, or a model of another launch, or one that was calibrated on other published
 /// rows, or without a finer mesh to compare with, or it would count and has a critical gap that is not known.
@@ -172,6 +196,8 @@ scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<
       record.alternatives.push_back(
           {each.name, each.title, why_not_counted(*each.calibration), each.critical_gap});
   }
+  if (const auto missing = not_compared(entries); !missing.empty())
+    return fmt::format("no alternative changes {} alone", fmt::join(missing, " alone, nor one "));
   return record;
 }
 

@@ -99,6 +99,9 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   const auto calibrated = [](const std::string& model) {
     return "calibration = \"../reports/model_form/" + model + "/calibration/calibration.json\"\n";
   };
+  const auto accepted = [](const std::string& key, const std::string& value) {
+    return "accept = [{ key = \"" + key + "\", value = \"" + value + "\", because = \"to compare\" }]\n";
+  };
   const std::string start =
       "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\nname = \"own\"\n"
       "gaps = \"0, 0.02 cm\"\n" +
@@ -106,15 +109,23 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
       variants_follow;
   const std::string bonded =
       variant("bonded", "interface.nose.condition = \"bonded\", interface.wall.condition = \"bonded\"");
-  const ComparisonResult result = run_comparison(
-      study_of(start + bonded + "description = \"glued\"\n" + calibrated("bonded")), synthetic_options());
+  const std::string no_crack_friction = variant("no_crack_friction", "charge.crack_friction = false") +
+                                        calibrated("no_crack_friction") +
+                                        accepted("charge.crack_friction", "false");
+  const std::string others =
+      variant("inelastic", "friction.closure = \"inelastic\"") + calibrated("inelastic") +
+      variant("film", "gap.air = \"film\"") + calibrated("film") + accepted("gap.air", "film") +
+      no_crack_friction + variant("station_10mm", "station.width = \"10 mm\"") + calibrated("station_10mm");
+  const ComparisonResult result =
+      run_comparison(study_of(start + bonded + "description = \"glued\"\n" + calibrated("bonded") + others),
+                     synthetic_options());
   const auto files = report_of(result).files;
   ASSERT_EQ(files.size(), 1u);
   ASSERT_EQ(files[0].name, "model_form.json");
   const auto record = parse_model_form(files[0].text, files[0].name);
   ASSERT_TRUE(record) << record.error().message();
   EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
-  ASSERT_EQ(record->alternatives.size(), 1u);
+  ASSERT_EQ(record->alternatives.size(), 5u);
   EXPECT_EQ(record->alternatives[0].critical_gap[1], result.answers[2].critical.value);
   const auto plot_of = [](const ComparisonResult& of) {
     for (const auto& item : report_of(of).items)
