@@ -107,55 +107,37 @@ Work work_of(const Load& load) {
   return {work_along(pressures), noiseless};
 }
 
-/// A number (> 0) with so many digits.
-double in_digits(double value, int digits) {
+/// A number (> 0) with so many digits, rounded to the nearest or as said.
+double in_digits(double value, int digits, double (*rounded)(double) = std::round) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
-  return unit * std::round(value / unit);
+  return unit * rounded(value / unit);
 }
 
-/// A number with two digits, rounded up.
-double rounded_up(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::ceil(value / unit - 1e-9) * unit;
+/// A measured curve as far as it is simulated, as if the gauge had seen no muzzle exit.
+Load simulated_part(const Load& load) {
+  const auto &times = load.curve_time, &pressures = load.curve_pressure;
+  const auto first = std::ranges::lower_bound(times, 0.0) - times.begin();
+  const auto behind = std::ranges::upper_bound(times, end_time(load)) - times.begin();
+  Load part = without_exit(load);
+  part.duration.reset();
+  part.curve_time.assign(times.begin() + first, times.begin() + behind);
+  part.curve_pressure.assign(pressures.begin() + first, pressures.begin() + behind);
+  return part;
 }
 
-/// Part of a measured curve at equal intervals: what is simulated of it.
-struct Part {
-  double begin = 0, interval = 0;  ///< s
-  std::size_t samples = 0;
-  double length() const { return interval * static_cast<double>(samples); }
-  /// s; what of the curve is slower than its average over this is its pulse.
-  double window() const { return std::min(1e-3, 0.1 * length()); }
-};
-
-/// Without samples where it has too few points.
-Part simulated_part(const Load& load) {
-  constexpr std::size_t fewest_points = 64, most_samples = 4096;
-  const auto first = std::ranges::lower_bound(load.curve_time, 0.0);
-  const auto behind = std::ranges::upper_bound(load.curve_time, end_time(load));
-  if (behind - first < static_cast<std::ptrdiff_t>(fewest_points)) return {};
-  const std::size_t samples = std::min(most_samples, static_cast<std::size_t>(behind - first) - 1);
-  return {*first, (*std::prev(behind) - *first) / static_cast<double>(samples), samples};
-}
-
-/// What of a part is faster than its window; what is faster than its intervals is averaged out too.
-std::vector<double> fast_in(const Part& part, const Load& measured) {
-  Load load = without_exit(measured);
-  load.duration.reset();
-  if (part.interval > 1.01 * mean_interval(load)) load.smoothing = std::max(load.smoothing, part.interval);
-  const PressureHistory all(load), average(averaged(load, part.window()));
+/// What of a curve is faster than its average over `window` (s), at equal intervals from its first point on;
+/// what is faster than those of a thinned curve is averaged out too.
+std::vector<double> fast_part(Load load, double window, std::size_t samples) {
+  const double begin = load.curve_time.front(),
+               interval = (load.curve_time.back() - begin) / static_cast<double>(samples);
+  if (samples + 1 < load.curve_time.size()) load.smoothing = std::max(load.smoothing, interval);
+  const PressureHistory all(load), average(averaged(load, window));
   std::vector<double> fast;
-  for (std::size_t i = 0; i < part.samples; ++i) {
-    const double time = part.begin + static_cast<double>(i) * part.interval;
+  for (std::size_t i = 0; i < samples; ++i) {
+    const double time = begin + static_cast<double>(i) * interval;
     fast.push_back(all.at(time) - average.at(time));
   }
   return fast;
-}
-
-/// What an average over a window (s) leaves of a sine of a frequency (1/s).
-double left_by_average(double frequency, double window) {
-  const double angle = std::numbers::pi * frequency * window;
-  return std::sin(angle) / angle;
 }
 
 /// Mean square at the frequency of so many periods over all values.
@@ -173,46 +155,44 @@ double power_at(const std::vector<double>& values, std::size_t periods) {
 /// Mean power of white noise among powers by frequency, of which it makes a quarter or more: so many of what
 /// is distributed exponentially are less than this share of its mean.
 double noise_among(std::vector<double> powers) {
-  const double share = -std::log(0.75);
   const auto quarter = powers.begin() + static_cast<std::ptrdiff_t>(powers.size() / 4);
   std::nth_element(powers.begin(), quarter, powers.end());
-  return *quarter / share;
+  return *quarter / -std::log(0.75);
 }
 
 /// What a measured curve has within a twentieth of every frequency where that is neither white noise nor the
 /// pulse itself, the largest first.
 ///
-/// Five powers of white noise have six times their mean together once in ten million cases. A pulse that
-/// fills the record and has a corner at its peak, as the published one has, swings by up to 1/n^2 of its peak
-/// about n periods.
+/// Five powers of white noise have four times their mean together once in a million cases, and a thinned
+/// curve twice as much noise at low frequencies as at high ones. A pulse that fills the record and has a
+/// corner at its peak, as the published one has, swings by up to 1/n^2 of its peak about n periods.
 std::vector<Ring> swings_of(const Load& load) {
-  constexpr double lowest = 0.8, near = 0.05, fewest_beside = 2.0, over_noise = 6.0, least_share = 5e-4;
-  const Part part = simulated_part(load);
-  if (part.samples == 0 || load.smoothing >= part.window()) return {};
-  const std::vector<double> fast = fast_in(part, load);
-  const auto first = static_cast<std::size_t>(lowest * part.length() / part.window());
+  constexpr std::size_t most_samples = 4096, fewest_points = 64, fewest_beside = 2;
+  constexpr double longest_window = 1.25e-3, lowest = 0.8, near = 0.05, over_noise = 8.0, least_share = 5e-4;
+  const Load part = simulated_part(load);
+  if (part.curve_time.size() < fewest_points) return {};
+  const double length = part.curve_time.back() - part.curve_time.front();
+  const double window = std::min(longest_window, 0.1 * length);
+  if (load.smoothing >= window) return {};
+  const std::size_t samples = std::min(most_samples, part.curve_time.size() - 1);
+  const std::vector<double> fast = fast_part(part, window, samples);
+  const auto first = static_cast<std::size_t>(lowest * length / window);
   std::vector<double> powers;
-  for (std::size_t i = first; i < part.samples / 2; ++i) {
-    const double slow = left_by_average(static_cast<double>(i) / part.length(), part.window());
-    powers.push_back(power_at(fast, i) / std::pow(1.0 - slow, 2));
-  }
+  for (std::size_t i = first; i < samples / 2; ++i) powers.push_back(power_at(fast, i));
   const double noise = noise_among(powers), peak = PressureHistory(load).stated_peak();
   std::vector<Ring> swings;
   for (std::size_t i = 0; i < powers.size(); ++i) {
     const auto periods = static_cast<double>(first + i);
-    const double beside = std::max(fewest_beside, near * periods);
-    const auto reach = static_cast<std::size_t>(beside) + 1;
-    double power = 0.0, centre = 0.0, of_noise = 0.0;
-    for (std::size_t k = i - std::min(i, reach); k <= std::min(i + reach, powers.size() - 1); ++k) {
-      const auto at = static_cast<double>(first + k);
-      const double weight = std::min(1.0, beside + 1.0 - std::abs(at - periods));
-      power += weight * powers[k];
-      centre += weight * powers[k] * at;
-      of_noise += weight * noise;
+    const std::size_t beside = std::max(fewest_beside, static_cast<std::size_t>(near * periods));
+    double power = 0.0, centre = 0.0;
+    for (std::size_t k = i - std::min(i, beside); k <= std::min(i + beside, powers.size() - 1); ++k) {
+      power += powers[k];
+      centre += powers[k] * static_cast<double>(first + k);
     }
-    const Ring swing{centre / power / part.length(), std::sqrt(2.0 * std::max(0.0, power - of_noise))};
-    if (power >= over_noise * of_noise && swing.amplitude >= (least_share + 1.0 / (periods * periods)) * peak)
-      swings.push_back(swing);
+    const Ring swing{centre / power / length, std::sqrt(2.0 * power)};
+    const double of_noise = noise * static_cast<double>(2 * beside + 1);
+    const double least = (least_share + 1.0 / (periods * periods)) * peak;
+    if (power >= over_noise * of_noise && swing.amplitude > least) swings.push_back(swing);
   }
   std::ranges::sort(swings, std::ranges::greater{}, &Ring::amplitude);
   return swings;
@@ -318,20 +298,19 @@ double peak_lost_to_smoothing(const Load& load) {
 }
 
 double peak_missed_between_points(const Load& load) {
-  const auto& time = load.curve_time;
-  const auto& pressure = load.curve_pressure;
+  const auto &time = load.curve_time, &pressure = load.curve_pressure;
   if (time.size() < 4 || load.rescale_to_peak) return 0.0;
-  const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
   const auto slope_from = [&](std::size_t i) {
     return (pressure[i + 1] - pressure[i]) / (time[i + 1] - time[i]);
   };
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
   double missed = 0.0;
-  // Between the points i and i + 1 meet the chords of the intervals before and after.
   for (std::size_t i = std::max<std::size_t>(top, 2) - 1; i <= std::min(top, time.size() - 3); ++i) {
+    // Where the chords of the intervals before and after meet, s after the point i.
     const double rise = slope_from(i - 1), fall = slope_from(i + 1), length = time[i + 1] - time[i];
-    const double after = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);  // s
-    if (after > 0.0 && after < length)
-      missed = std::max(missed, (pressure[i] + rise * after) / pressure[top] - 1.0);
+    const double meet = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);
+    if (meet > 0.0 && meet < length)
+      missed = std::max(missed, (pressure[i] + rise * meet) / pressure[top] - 1.0);
   }
   return missed;
 }
@@ -341,9 +320,10 @@ std::optional<double> suggested_smoothing(const Load& load) {
   if (load.curve_time.size() > most_points) return std::nullopt;
   if (load_roughness(load) < least_roughness) return std::nullopt;
   const double length = load.curve_time.back() - load.curve_time.front();
+  const auto up = [](double number) { return std::ceil(number - 1e-9); };
   Load smoothed = load;
   for (double points = 2.0; points <= 256.0; points *= 2.0) {
-    smoothed.smoothing = rounded_up(points * mean_interval(load));
+    smoothed.smoothing = in_digits(points * mean_interval(load), 2, up);
     if (smoothed.smoothing > 0.1 * length) return std::nullopt;
     const bool allowed = smoothed.smoothing >= least_smoothing_share * length;
     if (allowed && smoothed.smoothing > load.smoothing && load_roughness(smoothed) < least_roughness)
@@ -353,9 +333,8 @@ std::optional<double> suggested_smoothing(const Load& load) {
 }
 
 std::vector<Ring> rings_of(const Load& load) {
-  constexpr double near = 0.1;
+  constexpr double near = 0.2, lowest = 0.9e3;
   const std::vector<Ring> swings = swings_of(load);
-  const double lowest = 0.9 / simulated_part(load).window();
   std::vector<Ring> rings;
   for (auto swing = swings.begin(); swing != swings.end(); ++swing) {
     const auto is_near = [&](const Ring& larger) {
@@ -374,8 +353,11 @@ std::optional<Ring> ring_of(const Load& load) {
 std::optional<Ring> smoothed_ring(const Load& load) {
   constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  for (const Ring& swing : swings_of(averaged(load, 0.0)))
-    if (std::abs(left_by_average(swing.frequency, load.smoothing)) <= least_left) return swing;
+  for (const Ring& swing : swings_of(averaged(load, 0.0))) {
+    // What an average over a window leaves of a sine.
+    const double angle = std::numbers::pi * swing.frequency * load.smoothing;
+    if (!(std::abs(std::sin(angle)) > least_left * angle)) return swing;
+  }
   return std::nullopt;
 }
 
