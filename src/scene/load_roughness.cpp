@@ -115,13 +115,12 @@ double in_digits(double value, int digits, double (*rounded)(double) = std::roun
 
 /// A measured curve as far as it is simulated, as if the gauge had seen no muzzle exit.
 Load simulated_part(const Load& load) {
-  const auto &times = load.curve_time, &pressures = load.curve_pressure;
-  const auto first = std::ranges::lower_bound(times, 0.0) - times.begin();
-  const auto behind = std::ranges::upper_bound(times, end_time(load)) - times.begin();
+  const auto first = std::ranges::lower_bound(load.curve_time, 0.0) - load.curve_time.begin();
+  const auto behind = std::ranges::upper_bound(load.curve_time, end_time(load)) - load.curve_time.begin();
   Load part = without_exit(load);
   part.duration.reset();
-  part.curve_time.assign(times.begin() + first, times.begin() + behind);
-  part.curve_pressure.assign(pressures.begin() + first, pressures.begin() + behind);
+  part.curve_time = {load.curve_time.begin() + first, load.curve_time.begin() + behind};
+  part.curve_pressure = {load.curve_pressure.begin() + first, load.curve_pressure.begin() + behind};
   return part;
 }
 
@@ -138,6 +137,11 @@ std::vector<double> fast_part(Load load, double window, std::size_t samples) {
     fast.push_back(all.at(time) - average.at(time));
   }
   return fast;
+}
+
+/// What an average over so many periods leaves of a sine.
+double left_of_sine(double periods) {
+  return std::sin(std::numbers::pi * periods) / (std::numbers::pi * periods);
 }
 
 /// Mean square at the frequency of so many periods over all values.
@@ -178,7 +182,10 @@ std::vector<Ring> swings_of(const Load& load) {
   const std::vector<double> fast = fast_part(part, window, samples);
   const auto first = static_cast<std::size_t>(lowest * length / window);
   std::vector<double> powers;
-  for (std::size_t i = first; i < samples / 2; ++i) powers.push_back(power_at(fast, i));
+  for (std::size_t i = first; i < samples / 2; ++i) {
+    const double taken = 1.0 - left_of_sine(static_cast<double>(i) * window / length);
+    powers.push_back(power_at(fast, i) / (taken * taken));
+  }
   const double noise = noise_among(powers), peak = PressureHistory(load).stated_peak();
   std::vector<Ring> swings;
   for (std::size_t i = 0; i < powers.size(); ++i) {
@@ -300,14 +307,13 @@ double peak_lost_to_smoothing(const Load& load) {
 double peak_missed_between_points(const Load& load) {
   const auto &time = load.curve_time, &pressure = load.curve_pressure;
   if (time.size() < 4 || load.rescale_to_peak) return 0.0;
-  const auto slope_from = [&](std::size_t i) {
-    return (pressure[i + 1] - pressure[i]) / (time[i + 1] - time[i]);
-  };
   const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
   double missed = 0.0;
   for (std::size_t i = std::max<std::size_t>(top, 2) - 1; i <= std::min(top, time.size() - 3); ++i) {
     // Where the chords of the intervals before and after meet, s after the point i.
-    const double rise = slope_from(i - 1), fall = slope_from(i + 1), length = time[i + 1] - time[i];
+    const double rise = (pressure[i] - pressure[i - 1]) / (time[i] - time[i - 1]);
+    const double fall = (pressure[i + 2] - pressure[i + 1]) / (time[i + 2] - time[i + 1]);
+    const double length = time[i + 1] - time[i];
     const double meet = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);
     if (meet > 0.0 && meet < length)
       missed = std::max(missed, (pressure[i] + rise * meet) / pressure[top] - 1.0);
@@ -353,11 +359,8 @@ std::optional<Ring> ring_of(const Load& load) {
 std::optional<Ring> smoothed_ring(const Load& load) {
   constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  for (const Ring& swing : swings_of(averaged(load, 0.0))) {
-    // What an average over a window leaves of a sine.
-    const double angle = std::numbers::pi * swing.frequency * load.smoothing;
-    if (!(std::abs(std::sin(angle)) > least_left * angle)) return swing;
-  }
+  for (const Ring& swing : swings_of(averaged(load, 0.0)))
+    if (!(std::abs(left_of_sine(swing.frequency * load.smoothing)) > least_left)) return swing;
   return std::nullopt;
 }
 
