@@ -166,13 +166,13 @@ double noise_among(std::vector<double> powers) {
 
 /// What a measured curve has within a twentieth of every frequency where that is neither white noise nor the
 /// pulse itself, the largest first.
-///
-/// Five powers of white noise have four times their mean together once in a million cases, and a thinned
-/// curve twice as much noise at low frequencies as at high ones. A pulse that fills the record and has a
-/// corner at its peak, as the published one has, swings by up to 1/n^2 of its peak about n periods.
+/// Five powers of white noise have six times their mean together once in a hundred million cases, or once in
+/// ten thousand that of a thinned curve, whose noise is less at high frequencies. A pulse that fills the
+/// record and has a corner at its peak, as the published one has, swings by 1/n^2 of its peak about n
+/// periods.
 std::vector<Ring> swings_of(const Load& load) {
   constexpr std::size_t most_samples = 4096, fewest_points = 64, fewest_beside = 2;
-  constexpr double longest_window = 1.25e-3, lowest = 0.8, near = 0.05, over_noise = 8.0, least_share = 5e-4;
+  constexpr double longest_window = 1.25e-3, lowest = 0.8, near = 0.05, over_noise = 6.0, least_share = 5e-4;
   const Load part = simulated_part(load);
   if (part.curve_time.size() < fewest_points) return {};
   const double length = part.curve_time.back() - part.curve_time.front();
