@@ -132,8 +132,7 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
       if (const auto* picture = std::get_if<report::Picture>(&item)) return picture->plot;
     return report::Plot{};
   };
-  ASSERT_EQ(plot_of(result).series.size(), 3u)
-      << "the film is another line, and the rest is on the default's";
+  ASSERT_EQ(plot_of(result).series.size(), 3u) << "all but one of the others are on the default's line";
   EXPECT_EQ(plot_of(result).series[0].label, "own (default)");
   EXPECT_EQ(plot_of(result).series[1].label, "glued: no share in verdicts") << "in plain words";
   ComparisonResult alike = result;
