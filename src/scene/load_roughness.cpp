@@ -107,33 +107,41 @@ Work work_of(const Load& load) {
   return {work_along(pressures), noiseless};
 }
 
-/// A number (> 0) with so many digits.
-double in_digits(double value, int digits) {
+/// A number (> 0) with so many digits, rounded to the nearest or as said.
+double in_digits(double value, int digits, double (*rounded)(double) = std::round) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - digits + 1.0);
-  return unit * std::round(value / unit);
+  return unit * rounded(value / unit);
 }
 
-/// A number with two digits, rounded up.
-double rounded_up(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::ceil(value / unit - 1e-9) * unit;
+/// A measured curve as far as it is simulated, as if the gauge had seen no muzzle exit.
+Load simulated_part(const Load& load) {
+  const auto first = std::ranges::lower_bound(load.curve_time, 0.0) - load.curve_time.begin();
+  const auto behind = std::ranges::upper_bound(load.curve_time, end_time(load)) - load.curve_time.begin();
+  Load part = without_exit(load);
+  part.duration.reset();
+  part.curve_time = {load.curve_time.begin() + first, load.curve_time.begin() + behind};
+  part.curve_pressure = {load.curve_pressure.begin() + first, load.curve_pressure.begin() + behind};
+  return part;
 }
 
-/// What of a curve is faster than its average over `window` (s), at equal intervals from its first point to
-/// its last; what is faster than these is averaged out too.
-std::vector<double> fast_part(const Load& measured, double window, std::size_t samples) {
-  Load load = without_exit(measured);
-  load.duration.reset();
+/// What of a curve is faster than its average over `window` (s), at equal intervals from its first point on;
+/// what is faster than those of a thinned curve is averaged out too.
+std::vector<double> fast_part(Load load, double window, std::size_t samples) {
   const double begin = load.curve_time.front(),
                interval = (load.curve_time.back() - begin) / static_cast<double>(samples);
-  if (interval > mean_interval(load)) load.smoothing = std::max(load.smoothing, interval);
+  if (samples + 1 < load.curve_time.size()) load.smoothing = std::max(load.smoothing, interval);
   const PressureHistory all(load), average(averaged(load, window));
   std::vector<double> fast;
   for (std::size_t i = 0; i < samples; ++i) {
-    const double time = begin + (static_cast<double>(i) + 0.5) * interval;
+    const double time = begin + static_cast<double>(i) * interval;
     fast.push_back(all.at(time) - average.at(time));
   }
   return fast;
+}
+
+/// What an average over so many periods leaves of a sine.
+double left_of_sine(double periods) {
+  return std::sin(std::numbers::pi * periods) / (std::numbers::pi * periods);
 }
 
 /// Mean square at the frequency of so many periods over all values.
@@ -148,41 +156,53 @@ double power_at(const std::vector<double>& values, std::size_t periods) {
   return 2.0 * std::norm(sum) / std::pow(static_cast<double>(values.size()), 2);
 }
 
-/// Whether a bin is in a line among powers by frequency, from `first` on: its five bins, as a ring that comes
-/// and goes with the pressure spreads over, have on average thirty times the median of what lies within a
-/// third of its frequency. None is in noise, nor in the pulse itself.
-bool stands_out(const std::vector<double>& powers, std::size_t first, std::size_t bin, double line) {
-  constexpr std::size_t fewest_around = 8;
-  constexpr double bins = 5.0, least_prominence = 30.0, span = 4.0 / 3.0;
-  const auto begin = std::max(first, static_cast<std::size_t>(static_cast<double>(bin) / span));
-  const auto end = std::min(powers.size(), static_cast<std::size_t>(static_cast<double>(bin) * span) + 1);
-  if (end - begin < fewest_around) return false;
-  std::vector<double> around(powers.begin() + static_cast<std::ptrdiff_t>(begin),
-                             powers.begin() + static_cast<std::ptrdiff_t>(end));
-  const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-  std::nth_element(around.begin(), middle, around.end());
-  return line >= bins * least_prominence * *middle;
+/// Mean power of white noise among powers by frequency, of which it makes a quarter or more: so many of what
+/// is distributed exponentially are less than this share of its mean.
+double noise_among(std::vector<double> powers) {
+  const auto quarter = powers.begin() + static_cast<std::ptrdiff_t>(powers.size() / 4);
+  std::nth_element(powers.begin(), quarter, powers.end());
+  return *quarter / -std::log(0.75);
 }
 
-/// The lines among powers by frequency, the strongest first, none within a tenth of a stronger one.
-std::vector<std::size_t> lines_of(const std::vector<double>& powers, std::size_t first) {
-  constexpr std::size_t half_width = 2;
-  constexpr double near = 0.1;
-  std::vector<std::pair<double, std::size_t>> bins;  // of what five bins have together
-  for (std::size_t i = first + half_width; i + half_width < powers.size(); ++i) {
-    double line = 0.0;
-    for (std::size_t k = i - half_width; k <= i + half_width; ++k) line += powers[k];
-    if (stands_out(powers, first, i, line)) bins.emplace_back(-line, i);
+/// What a measured curve has within a twentieth of every frequency where that is neither white noise nor the
+/// pulse itself, the largest first.
+/// Five powers of white noise have six times their mean together once in a hundred million cases, or once in
+/// ten thousand that of a thinned curve, whose noise is less at high frequencies. A pulse that fills the
+/// record and has a corner at its peak, as the published one has, swings by 1/n^2 of its peak about n
+/// periods.
+std::vector<Ring> swings_of(const Load& load) {
+  constexpr std::size_t most_samples = 4096, fewest_points = 64, fewest_beside = 2;
+  constexpr double longest_window = 1.25e-3, lowest = 0.8, near = 0.05, over_noise = 6.0, least_share = 5e-4;
+  const Load part = simulated_part(load);
+  if (part.curve_time.size() < fewest_points) return {};
+  const double length = part.curve_time.back() - part.curve_time.front();
+  const double window = std::min(longest_window, 0.1 * length);
+  if (load.smoothing >= window) return {};
+  const std::size_t samples = std::min(most_samples, part.curve_time.size() - 1);
+  const std::vector<double> fast = fast_part(part, window, samples);
+  const auto first = static_cast<std::size_t>(lowest * length / window);
+  std::vector<double> powers;
+  for (std::size_t i = first; i < samples / 2; ++i) {
+    const double taken = 1.0 - left_of_sine(static_cast<double>(i) * window / length);
+    powers.push_back(power_at(fast, i) / (taken * taken));
   }
-  std::ranges::sort(bins);
-  std::vector<std::size_t> lines;
-  for (const auto& [power, bin] : bins) {
-    const auto is_near = [bin = static_cast<double>(bin)](std::size_t line) {
-      return std::abs(bin / static_cast<double>(line) - 1.0) <= near;
-    };
-    if (std::ranges::none_of(lines, is_near)) lines.push_back(bin);
+  const double noise = noise_among(powers), peak = PressureHistory(load).stated_peak();
+  std::vector<Ring> swings;
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    const auto periods = static_cast<double>(first + i);
+    const std::size_t beside = std::max(fewest_beside, static_cast<std::size_t>(near * periods));
+    double power = 0.0, centre = 0.0;
+    for (std::size_t k = i - std::min(i, beside); k <= std::min(i + beside, powers.size() - 1); ++k) {
+      power += powers[k];
+      centre += powers[k] * static_cast<double>(first + k);
+    }
+    const Ring swing{centre / power / length, std::sqrt(2.0 * power)};
+    const double of_noise = noise * static_cast<double>(2 * beside + 1);
+    const double least = (least_share + 1.0 / (periods * periods)) * peak;
+    if (power >= over_noise * of_noise && swing.amplitude > least) swings.push_back(swing);
   }
-  return lines;
+  std::ranges::sort(swings, std::ranges::greater{}, &Ring::amplitude);
+  return swings;
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share); }
@@ -284,14 +304,32 @@ double peak_lost_to_smoothing(const Load& load) {
   return before > 0.0 ? std::max(0.0, 1.0 - history.peak() / before) : 0.0;
 }
 
+double peak_missed_between_points(const Load& load) {
+  const auto &time = load.curve_time, &pressure = load.curve_pressure;
+  if (time.size() < 4 || load.rescale_to_peak) return 0.0;
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
+  double missed = 0.0;
+  for (std::size_t i = std::max<std::size_t>(top, 2) - 1; i <= std::min(top, time.size() - 3); ++i) {
+    // Where the chords of the intervals before and after meet, s after the point i.
+    const double rise = (pressure[i] - pressure[i - 1]) / (time[i] - time[i - 1]);
+    const double fall = (pressure[i + 2] - pressure[i + 1]) / (time[i + 2] - time[i + 1]);
+    const double length = time[i + 1] - time[i];
+    const double meet = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);
+    if (meet > 0.0 && meet < length)
+      missed = std::max(missed, (pressure[i] + rise * meet) / pressure[top] - 1.0);
+  }
+  return missed;
+}
+
 std::optional<double> suggested_smoothing(const Load& load) {
   constexpr std::size_t most_points = 100'000;  // more take longer than a suggestion is worth
   if (load.curve_time.size() > most_points) return std::nullopt;
   if (load_roughness(load) < least_roughness) return std::nullopt;
   const double length = load.curve_time.back() - load.curve_time.front();
+  const auto up = [](double number) { return std::ceil(number - 1e-9); };
   Load smoothed = load;
   for (double points = 2.0; points <= 256.0; points *= 2.0) {
-    smoothed.smoothing = rounded_up(points * mean_interval(load));
+    smoothed.smoothing = in_digits(points * mean_interval(load), 2, up);
     if (smoothed.smoothing > 0.1 * length) return std::nullopt;
     const bool allowed = smoothed.smoothing >= least_smoothing_share * length;
     if (allowed && smoothed.smoothing > load.smoothing && load_roughness(smoothed) < least_roughness)
@@ -301,30 +339,14 @@ std::optional<double> suggested_smoothing(const Load& load) {
 }
 
 std::vector<Ring> rings_of(const Load& load) {
-  constexpr std::size_t most_samples = 4096, fewest_points = 64;
-  constexpr double longest_window = 1e-3, near = 0.1, line_bins = 5.0, least_share = 5e-4;
-  if (load.curve_time.size() < fewest_points) return {};
-  const double length = load.curve_time.back() - load.curve_time.front();
-  const double window = std::min(longest_window, 0.1 * length);
-  if (load.smoothing >= window) return {};
-  const std::size_t samples = std::min(most_samples, load.curve_time.size() - 1);
-  const std::vector<double> fast = fast_part(load, window, samples);
-  const auto first = static_cast<std::size_t>(std::ceil(length / window));
-  std::vector<double> powers(samples / 2, 0.0);
-  for (std::size_t i = first; i < powers.size(); ++i) powers[i] = power_at(fast, i);
-  const double least = least_share * PressureHistory(load).stated_peak();
+  constexpr double near = 0.2, lowest = 0.9e3;
+  const std::vector<Ring> swings = swings_of(load);
   std::vector<Ring> rings;
-  for (const std::size_t top : lines_of(powers, first)) {
-    double around = 0.0, line = 0.0, centre = 0.0;
-    for (std::size_t i = first; i < powers.size(); ++i) {
-      const double apart = std::abs(static_cast<double>(i) - static_cast<double>(top));
-      if (apart <= near * static_cast<double>(top)) around += powers[i];
-      if (apart > line_bins) continue;
-      line += powers[i];
-      centre += powers[i] * static_cast<double>(i);
-    }
-    const Ring ring{centre / line / length, std::sqrt(2.0 * around)};
-    if (ring.amplitude >= least) rings.push_back(ring);
+  for (auto swing = swings.begin(); swing != swings.end(); ++swing) {
+    const auto is_near = [&](const Ring& larger) {
+      return std::abs(swing->frequency / larger.frequency - 1.0) <= near;
+    };
+    if (swing->frequency >= lowest && std::none_of(swings.begin(), swing, is_near)) rings.push_back(*swing);
   }
   return rings;
 }
@@ -337,11 +359,8 @@ std::optional<Ring> ring_of(const Load& load) {
 std::optional<Ring> smoothed_ring(const Load& load) {
   constexpr double least_left = 0.9;
   if (!(load.smoothing > 0.0)) return std::nullopt;
-  for (const Ring& ring : rings_of(averaged(load, 0.0))) {
-    // What an average over a window leaves of a sine.
-    const double angle = std::numbers::pi * ring.frequency * load.smoothing;
-    if (!(std::abs(std::sin(angle)) > least_left * angle)) return ring;
-  }
+  for (const Ring& swing : swings_of(averaged(load, 0.0)))
+    if (!(std::abs(left_of_sine(swing.frequency * load.smoothing)) > least_left)) return swing;
   return std::nullopt;
 }
 

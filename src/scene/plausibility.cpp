@@ -264,7 +264,7 @@ const std::vector<DerivedQuantity>& derived_quantities() {
       quantity("gap.gas_law", Dimension::number,
                "Density over that of an ideal gas of air's molar mass, at the air's pressure and "
                "temperature before launch.",
-               between(0.9, 1.1), "air at rest obeys the law within a percent",
+               between(0.99, 1.01), "air at rest obeys the law within a percent",
                of_charge([](const Scene& scene) {
                  const materials::AirParameters& air = scene.surface.air;
                  return air.density * gas_constant_of_air * air.initial_temperature / air.initial_pressure;

@@ -156,7 +156,7 @@ std::vector<Key<materials::AirParameters>> air_keys() {
       number_key("pressure", Dimension::pressure, above_to(0, 10e6), Standing::assumed,
                  "Pressure of the air before launch.", &AirParameters::initial_pressure) |
           then(take_density_from_gas_law) |
-          plausibly(between(5e4, 1.2e5), "it lies between those at 5500 m of altitude and at the ground",
+          plausibly(between(1e5, 1.2e5), "shells are closed near the ground, and thinner air heats less",
                     Role{ActsOn::trace, Part::range}),
       // After what it follows from, so that one that is given stays.
       number_key("density", Dimension::density, between(0.01, 100), Standing::literature,

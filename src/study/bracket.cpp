@@ -69,7 +69,7 @@ const ShareTraits& traits_of(ShareKind kind) {
       {"initial_temperature", "initial temperature", random, "a narrower range of temperatures"},
       {"muzzle_exit", "time of the muzzle exit", random, "a measured time of the exit"},
       {"stated_inputs", "inputs, as stated", random, "a better known launch"},
-      {"load_curve", "noise and smoothing of the measured curve", knowledge, "a gauge with less noise"},
+      {"load_curve", "errors of the measured curve", knowledge, "a gauge with less noise"},
       {"computation", "computation", knowledge, "a finer setting, or a record of its accuracy"},
       {"sliding", "sliding at the base", knowledge, "a base that holds the charge"},
       {"fit", "calibrated constants", knowledge, "more measured temperatures to calibrate on"},

@@ -158,7 +158,7 @@ LoadCurveErrors load_curve_errors(const scene::Load& load) {
   const double roughness = scene::load_roughness(load);
   const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
   return {roughness / (1.0 + roughness) + scene::work_lost_to_smoothing(load),
-          std::pow(kept, -heat_exponent) - 1.0};
+          std::pow((1.0 + scene::peak_missed_between_points(load)) / kept, heat_exponent) - 1.0};
 }
 
 AcceptancesOfStudy acceptances_of(const StudyFile& study) {

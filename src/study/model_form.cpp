@@ -1,6 +1,8 @@
 #include "launchsafe/study/calibration_record.hpp"
 #include "launchsafe/study/record_reader.hpp"
 
+#include <set>
+
 namespace launchsafe::study {
 namespace {
 
@@ -22,6 +24,17 @@ std::string why_not_counted(const CalibrationRecord& calibration) {
 
 bool is_unknown(double gap) { return std::isnan(gap); }
 
+/// The tables of keys in which an entry is another model than the default.
+std::set<std::string> changed_tables(const ModelFormEntry& own, const ModelFormEntry& other) {
+  std::set<std::string> tables;
+  for (const Difference& each : differences(other.scene, own.scene)) {
+    const std::string& key = each.key.name;
+    if (each.key.role().part == keys::Part::model)
+      tables.insert(key == scene::foreign_interfaces ? "interface" : key.substr(0, key.find('.')));
+  }
+  return tables;
+}
+
 /// Why a model cannot stand in a record: its scene is not that of its calibration, or it is no alternative to
 /// the default: a copy of it, or a model of another launch, or one that was calibrated on other published
 /// rows, or without a finer mesh to compare with, or it would count and has a critical gap that is not known.
@@ -32,17 +45,14 @@ std::string why_unfit(const ModelFormEntry& own, const ModelFormEntry& other, st
     return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
   if (other.critical_gap.size() != pressures) return "other peak pressures than " + own.name;
   if (&own == &other) return {};
-  bool other_model = false;
   std::vector<std::string> of_launch;
   for (const Difference& each : differences(other.scene, own.scene)) {
-    const keys::Part part = each.key.role().part;
-    if (part == keys::Part::model) other_model = true;
     // Every model has its own load and constants, and may have its own numerics.
-    else if (part == keys::Part::constant || part == keys::Part::range)
-      of_launch.push_back(each.key.name);
+    const keys::Part part = each.key.role().part;
+    if (part == keys::Part::constant || part == keys::Part::range) of_launch.push_back(each.key.name);
   }
   if (!of_launch.empty()) return fmt::format("it is of another launch ({})", fmt::join(of_launch, ", "));
-  if (!other_model) return "it is the same model as " + own.name;
+  if (changed_tables(own, other).empty()) return "it is the same model as " + own.name;
   if (own.calibration->references_digest != other.calibration->references_digest)
     return "it was calibrated on other published rows than " + own.name;
   if (calibrated && !std::isfinite(other.calibration->stations.finer))
@@ -165,13 +175,20 @@ scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<
     return own.name + " cannot be the default: its calibration has no finer mesh to compare stations with";
   if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
     return fmt::format("{} cannot be the default: {}", own.name, reason);
+  // Those of the shipped models: any of them may ignite earliest.
+  std::set<std::string> not_compared{"charge", "friction", "gap", "interface", "station"};
   for (const ModelFormEntry& each : entries) {
     if (const auto reason = why_unfit(own, each, record.peak_pressures.size()); !reason.empty())
       return fmt::format("{}: {}", each.name, reason);
+    const std::set<std::string> changed = changed_tables(own, each);
+    if (changed.size() == 1) not_compared.erase(*changed.begin());
     if (&each != &own)
       record.alternatives.push_back(
           {each.name, each.title, why_not_counted(*each.calibration), each.critical_gap});
   }
+  if (!not_compared.empty())
+    return fmt::format("no alternative is another model in [{}] alone",
+                       fmt::join(not_compared, "] alone, nor in ["));
   return record;
 }
 

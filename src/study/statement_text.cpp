@@ -123,7 +123,7 @@ std::string limiters_text(const GapVerdict& row) {
 std::string noise_text(const GapVerdict& row) {
   constexpr double least_told = 0.1;  // K
   if (!(row.uncertainty.load_curve >= least_told)) return {};
-  return fmt::format("noise and smoothing of the measured curve count {:.2g} K", row.uncertainty.load_curve);
+  return fmt::format("errors of the measured curve count {:.2g} K", row.uncertainty.load_curve);
 }
 
 std::string models_text(const GapVerdict& row) {

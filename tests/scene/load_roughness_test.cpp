@@ -204,6 +204,61 @@ TEST(LoadRoughness, TellsAWeakRingThatSmoothingTakesAwayBesideAStrongOneThatStay
   EXPECT_NEAR(gone->frequency, 9.8e3, 1.0 / duration);
 }
 
+/// The pulse with a ring of a share of its peak that rises from 1.8 to 3 kHz between 3 and 12 ms.
+Load chirping(double share, const Load& record) {
+  Load load = record;
+  for (std::size_t i = 0; i < load.curve_time.size(); ++i) {
+    const double since = load.curve_time[i] - 3e-3;
+    const double turns = 1.8e3 * since + 0.5 * (1.2e3 / 9e-3) * since * since;
+    if (since > 0.0 && since < 9e-3)
+      load.curve_pressure[i] += share * pulse(load.curve_time[i]) * std::sin(2.0 * std::numbers::pi * turns);
+  }
+  return load;
+}
+
+// Expected are the frequencies of the ring that was added.
+TEST(LoadRoughness, TellsARingOfMovingFrequencyThatSmoothingTakesAway) {
+  for (const Load& record : {measured(901, pulse), noisy(0.005, 50e3)}) {
+    for (const double window : {0.1e-3, 0.42e-3}) {
+      const auto gone = smoothed_ring(averaged(chirping(0.015, record), window));
+      ASSERT_TRUE(gone) << window;
+      EXPECT_GE(gone->frequency, 1.8e3) << window;
+      EXPECT_LE(gone->frequency, 3.0e3) << window;
+      EXPECT_FALSE(smoothed_ring(averaged(record, window))) << window;
+    }
+  }
+}
+
+// A quiet half second behind the launch, which is not simulated, hides no ring.
+TEST(LoadRoughness, SeesTheRingsOfWhatIsSimulatedAlone) {
+  Load load = ringing(3.2e3, 0.003, 1801);
+  for (double time = duration + 1e-5; time < 0.5; time += 1e-5) {
+    load.curve_time.push_back(time);
+    load.curve_pressure.push_back(0.0);
+  }
+  const auto ring = ring_of(load);
+  ASSERT_TRUE(ring);
+  EXPECT_NEAR(ring->frequency, 3.2e3, 1.0 / duration);
+}
+
+// Expected are the peak of the pulse, 496 MPa, and no more than what a fine curve can miss of it.
+TEST(PeakBetweenPoints, IsNoHigherThanWhatIsSaidToBeMissed) {
+  for (const double interval : {2e-3, 1e-3, 0.5e-3, 0.2e-3, 20e-6}) {
+    for (const double shift : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      Load load;
+      for (double time = shift * interval; time < duration; time += interval) {
+        load.curve_time.push_back(time);
+        load.curve_pressure.push_back(pulse(time));
+      }
+      const double most = (1.0 + peak_missed_between_points(load)) * std::ranges::max(load.curve_pressure);
+      EXPECT_GE(most, 496e6 * (1.0 - 1e-9)) << interval << " " << shift;
+      EXPECT_LE(most, 496e6 * (1.0 + 0.12 * interval / 1e-3)) << interval << " " << shift;
+      load.rescale_to_peak = true;
+      EXPECT_EQ(peak_missed_between_points(load), 0.0) << "its peak is stated";
+    }
+  }
+}
+
 // Issue 33: smoothed as told, a record is as hot as the clean one, whose peak is 496 MPa.
 TEST(Ring, AdviceGivesThePulseItsOwnPeakBack) {
   for (const auto& [frequency, share] :

@@ -92,6 +92,7 @@ TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
       {"gap.air_heat_ratio", "1.001"},
       {"gap.air_heat_ratio", "1.2"},
       {"gap.air_pressure", "10 MPa"},
+      {"gap.air_pressure", "90 kPa"},
       {"gap.exchange", "per-step"},
       {"initial_temperature", "200 K"},
       {"friction.closure", "none"},
@@ -151,6 +152,7 @@ TEST(Plausibility, JudgesWhatSeveralKeysMakeTogether) {
   using Edits = std::vector<std::pair<std::string, std::string>>;
   const std::vector<std::pair<std::set<std::string>, Edits>> edits{
       {{"gap.gas_law"}, {{"gap.air_density", "0.7 kg/m3"}}},
+      {{"gap.gas_law"}, {{"gap.air_density", "1.06 kg/m3"}}},  // 1.18 at 0.1 MPa and 300 K
       {{"gap.gas_law"}, {{"initial_temperature", "230 K"}, {"gap.air_density", "1.1766 kg/m3"}}},
       {{"gap.heat_law"}, {{"gap.air_heat_ratio", "1.3"}}},
       {{"load.exit_calibres", "load.launch_speed", "load.travel"}, {{"load.peak", "12 MPa"}}},

@@ -240,6 +240,20 @@ TEST(CaseUncertainty, ARoughCurveIsToldInKelvinAndItsSmoothingByName) {
   EXPECT_NE(reason_text(smooth).find("load smoothed over 0.5 ms"), std::string::npos) << reason_text(smooth);
 }
 
+// A pulse of 496 MPa of which points a millisecond apart show 464 MPa: heat goes with the power 2 of its
+// peak.
+TEST(CaseUncertainty, ACoarseCurveMayHaveMissedItsPeak) {
+  scene::Load analytic, coarse;
+  const scene::PressureHistory pulse(analytic);
+  for (int i = 0; i <= 22; ++i) {
+    coarse.curve_time.push_back(1e-3 * i);
+    coarse.curve_pressure.push_back(pulse.at(1e-3 * i));
+  }
+  const double shown = std::ranges::max(coarse.curve_pressure) / analytic.peak;
+  EXPECT_LT(shown, 0.95);
+  EXPECT_GE(load_curve_errors(coarse).of_both, std::pow(shown, -heat_exponent) - 1.0);
+}
+
 /// The constants of the 155 mm shell say nothing of another one, however small its own errors are.
 TEST(CaseUncertainty, AnotherShellIsIndeterminateUnlessItsSceneSaysWhyNot) {
   for (const std::string change :

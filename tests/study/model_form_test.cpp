@@ -25,8 +25,12 @@ struct MadeModels {
   void add(const std::string& name, std::vector<GapOrBound> gaps, double change,
            const std::string& failure = {}) {
     scene::Scene scene = study_of(critical_text + synthetic_constants).scene.scene;
-    // Models of one launch, each another.
-    if (!entries.empty()) scene.surface.station_width = 1e-3 * static_cast<double>(10 + entries.size());
+    // Models of one launch, each another: one of each kind that a record must have.
+    if (entries.size() == 1) scene.surface.station_width = 11e-3;
+    if (entries.size() == 2) scene.surface.friction = scene::FrictionClosure::inelastic;
+    if (entries.size() == 3) scene.surface.air_model = scene::AirModel::film;
+    if (entries.size() == 4) scene.charge().strength.face_friction = 0.0;
+    if (entries.size() == 5) scene.interfaces.clear();
     CalibrationRecord calibration;
     calibration.title = name;
     calibration.failure = failure;
@@ -38,7 +42,7 @@ struct MadeModels {
 };
 
 /// The default ignites from 0.5, 0.4 and 0.3 mm on. `early` moves towards ignition, `late` away from it,
-/// `rough` has no limit of meshes, `cold` no calibration.
+/// `rough` has no limit of meshes, `cold` no calibration, `bonded` moves nothing.
 MadeModels made_models() {
   MadeModels made;
   made.add("own", {5e-4, 4e-4, 3e-4}, 0.5);
@@ -46,6 +50,7 @@ MadeModels made_models() {
   made.add("late", {6e-4, 5e-4, 4e-4}, 0.5);
   made.add("rough", {1e-4, 1e-4, 1e-4}, 9.0);
   made.add("cold", {no_ignition, no_ignition, no_ignition}, 0.5, "no exchange time gives 467.7 K");
+  made.add("bonded", {5e-4, 4e-4, 3e-4}, 0.5);
   return made;
 }
 
@@ -89,12 +94,35 @@ TEST(ModelForm, IsNotKnownBesideAPressureAtWhichTheDefaultIgnitesWithoutAGap) {
 }
 
 TEST(ModelForm, IsNotKnownWhereNoAlternativeCounts) {
-  MadeModels made;
-  made.add("own", {5e-4, 4e-4, 3e-4}, 0.5);
-  made.add("rough", {1e-4, 1e-4, 1e-4}, 9.0);
+  MadeModels made = made_models();
+  for (CalibrationRecord& each : made.calibrations)
+    if (each.title != "own") each.stations.finer = 9.0;
   const auto form = made.form();
   ASSERT_TRUE(form) << form.error();
   EXPECT_TRUE(std::isnan(model_form_shift(*form, at_pressure(500e6)).gap));
+}
+
+// Any of the shipped models may be the one that ignites earliest of another shell.
+TEST(ModelForm, RefusesAComparisonThatLeavesOutAKindOfModel) {
+  for (const auto& [left_out, table] : {std::pair("early", "station"),
+                                        {"late", "friction"},
+                                        {"rough", "gap"},
+                                        {"cold", "charge"},
+                                        {"bonded", "interface"}}) {
+    MadeModels made = made_models();
+    std::erase_if(made.entries, [&](const ModelFormEntry& each) { return each.name == left_out; });
+    const auto form = made.form();
+    ASSERT_FALSE(form) << left_out;
+    EXPECT_EQ(form.error(), fmt::format("no alternative is another model in [{}] alone", table));
+  }
+  MadeModels all_in_one = made_models();
+  all_in_one.entries[1].scene.surface.friction = scene::FrictionClosure::inelastic;
+  all_in_one.calibrations.front().calibration.scene = all_in_one.entries[0].scene;
+  std::next(all_in_one.calibrations.begin())->calibration.scene = all_in_one.entries[1].scene;
+  std::erase_if(all_in_one.entries, [](const ModelFormEntry& each) { return each.name == "late"; });
+  const auto form = all_in_one.form();
+  ASSERT_FALSE(form);
+  EXPECT_EQ(form.error(), "no alternative is another model in [friction] alone, nor in [station] alone");
 }
 
 TEST(ModelForm, RefusesACopyOfTheDefault) {

@@ -150,8 +150,7 @@ std::string end_text(const Scene& scene);
 /// 796 m/s ..."
 std::string launch_sentence(const Scene& scene);
 
-// --- how much of a load's going up and down is noise of its measurement, and what smoothing does about it
-// ---
+// --- how much of a measured load's swings is noise, and what smoothing does about it ---
 
 /// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be
 /// round-off, and no curve has points so near to each other.
@@ -180,6 +179,10 @@ double load_roughness(const Load& load);
 /// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
 double peak_lost_to_smoothing(const Load& load);
 
+/// Share of the largest point of a measured curve by which the peak beside it may be higher: a pulse that
+/// bends one way there lies below the chords beside. 0 for fewer than four points, of which nothing follows.
+double peak_missed_between_points(const Load& load);
+
 /// What smoothing takes out of the integral of p |dp| besides noise, over what it leaves: swings of a
 /// measured curve that stand above its noise are pressure, and heat. 0 without smoothing.
 double work_lost_to_smoothing(const Load& load);
@@ -189,22 +192,22 @@ double work_lost_to_smoothing(const Load& load);
 /// try.
 std::optional<double> suggested_smoothing(const Load& load);
 
-/// A swing of one frequency on a measured curve: of the gauge, its mount or the gas.
+/// Swings of a measured curve about one frequency: of the gauge, its mount or the gas.
 struct Ring {
   double frequency = 0;  ///< 1/s
-  double amplitude = 0;  ///< Pa
+  double amplitude = 0;  ///< Pa, of a sine with their power within a twentieth of the frequency
 };
-/// What is left of a curve beside its moving average over a millisecond (a tenth of a shorter curve) is
-/// searched, by its discrete Fourier transform, for lines that stand out from the spectrum around them, the
-/// strongest first. None are in noise, and none count with an amplitude below 0.05 % of the peak: on the 155
-/// mm shell a ring of 0.19 % of the pressure ignites the charge without a gap at 9.8 kHz, where the shell
-/// swings along, and at 9.4 kHz it heats by half a kelvin. Sought are frequencies from one over that window
-/// to 100 kHz or half the rate of the points.
+/// What the simulated part of a curve has beside its average over 1.25 ms (a tenth of a shorter part) is
+/// searched, by its discrete Fourier transform, for frequencies that have more than white noise and the pulse
+/// itself, and more than those around them, the strongest first. None count below 0.05 % of the peak: on the
+/// 155 mm shell a ring of 0.19 % of the pressure ignites the charge without a gap at 9.8 kHz, where the shell
+/// swings along, and at 9.4 kHz it heats by half a kelvin. Sought are frequencies from 0.9 kHz to 2048 in
+/// that part, or half the rate of the points.
 std::vector<Ring> rings_of(const Load& load);
 /// The strongest of them.
 std::optional<Ring> ring_of(const Load& load);
-/// The strongest ring of which smoothing takes more than a tenth away. Whether it is the gauge's own or
-/// pressure no curve tells.
+/// The strongest swings of which smoothing takes more than a tenth away and that are no white noise, also
+/// where many frequencies have as much. Whether they are the gauge's own or pressure no curve tells.
 std::optional<Ring> smoothed_ring(const Load& load);
 /// For people: "the record pressure.csv rings at 3.2 kHz with 1.5 % of its peak, which heats as pressure
 /// does"; empty for none.

@@ -70,7 +70,7 @@ double stated_input_share(const Study& study, const StudyCase& input);
 /// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.
 struct LoadCurveErrors {
   double of_friction = 0;  ///< the noise of a gauge heats by friction; swings that smoothing took out did
-  double of_both = 0;      ///< what smoothing took from the peak
+  double of_both = 0;      ///< what smoothing took from the peak, and what its points may have missed
   double in_kelvin(const Rises& rises) const {
     return rises.friction * of_friction + (rises.friction + rises.air) * of_both;
   }

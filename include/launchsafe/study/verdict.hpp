@@ -62,7 +62,7 @@ struct Uncertainty {
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch: its random causes together
-  double load_curve = 0;   ///< of a measured curve: what its noise heats, and what smoothing took from it
+  double load_curve = 0;   ///< of a measured curve: see LoadCurveErrors
   double model_form = 0;   ///< by which other models of the launch move towards ignition
   /// Of a base on which the charge slides: all heat of friction, and the gap that opens there or by cooling.
   double sliding = 0;
