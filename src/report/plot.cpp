@@ -203,7 +203,7 @@ std::string drawing_commands(const Plot& plot, std::size_t width) {
 std::string panel_commands(const Plot& plot) {
   const int title_height = plot.subtitle.empty() ? 40 : 64;
   const auto columns = static_cast<std::size_t>(plot.columns);
-  const int legend_height = 30 * static_cast<int>(legend_of(plot).rows);
+  const int legend_height = 34 * static_cast<int>(legend_of(plot).rows);
   int width = 0, height = title_height + legend_height;
   std::vector<int> row_heights;
   std::size_t longest_name = 0;
@@ -285,7 +285,7 @@ void cut_axis(double line, Plot& plot) {
   double lowest = line;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double row = std::max(0.14 * (line - lowest), 12.0), bottom = lowest - 2.0 * row;
+  const double row = std::max(0.2 * (line - lowest), 12.0), bottom = lowest - row;
   double level = line;
   for (Series& series : plot.series) {
     if (std::ranges::none_of(series.y, [&](double temperature) { return temperature > line; })) continue;

@@ -99,12 +99,12 @@ void spread(std::vector<LineEnd>& ends, double apart) {
   std::vector<double> raised;
   for (const LineEnd& each : ends)
     raised.push_back(raised.empty() ? each.end.y : std::max(each.end.y, raised.back() + apart));
-  double lowered = math::infinity, highest = 1.0;
-  for (std::size_t i = ends.size(); i-- > 0;) {
+  double lowered = math::infinity;
+  for (std::size_t i = ends.size(); i-- > 0; lowered -= apart) {
     lowered = std::min(ends[i].end.y, lowered);
-    ends[i].place = std::min(0.5 * (raised[i] + lowered), highest);
-    lowered -= apart;
-    highest = ends[i].place - apart;
+    const double lowest = apart * static_cast<double>(i),
+                 highest = 1.0 - apart * static_cast<double>(ends.size() - 1 - i);
+    ends[i].place = 0.5 * (std::min(raised[i], highest) + std::max(lowered, lowest));
   }
 }
 
