@@ -257,9 +257,9 @@ std::optional<Plot> closing_plot(const CriticalGapResult& result) {
     ignitions += "; " + ignites;
     add_ignition(ignites, answer.upper);
   }
-  const auto text = [](double temperature) { return in_words(temperature, significant(3, kelvin)); };
   plot.title = fmt::format("Below ignition T max is at most {} where the gap closes, {} by the reservoir{}",
-                           text(closing), text(by_reservoir), ignitions);
+                           in_words(closing, significant(3, kelvin)),
+                           in_words(by_reservoir, significant(3, kelvin)), ignitions);
   report::cut_axis(ignition, plot);
   plot.horizontal_lines = {{ignition, "ignition at " + in_words(ignition, significant(4, kelvin))}};
   return plot;

@@ -95,7 +95,9 @@ struct GapLines {
   const SweptAxis& along;
   const SweptAxis* across;
   std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
-  std::vector<std::vector<double>> values = nothing(), lower_bounds = values;  ///< cm, a line each
+  std::vector<std::vector<double>> values{
+      values_across.size(), std::vector<double>(along.values.size(), not_a_number)};  ///< cm, a line each
+  std::vector<std::vector<double>> lower_bounds = values;                             ///< cm
   std::vector<std::vector<double>> assumed = values;  ///< 1 where a bound rests on an assumption, 0 where not
   study::AssumedShares shares = {};                   ///< of any bound that is drawn
   std::map<CriticalGapKind, Series> marks = all_marks();
@@ -103,10 +105,6 @@ struct GapLines {
   std::int64_t unknown = 0;
   double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
-
-  std::vector<std::vector<double>> nothing() const {
-    return {values_across.size(), std::vector<double>(along.values.size(), not_a_number)};
-  }
 
   void add(const StudyCase& input, const CaseAnswer& answer) {
     const double of = across == nullptr ? 0.0 : across->key.value(input.coordinates[across->index]);
@@ -157,11 +155,10 @@ struct GapLines {
   Plot drawn() {
     Alike all;
     while (all.size() < values.size()) all.push_back(all.size());
-    const std::vector<Alike> groups = alike(all, {&values});
-    plot.title = finding(groups) + plot.title;
+    plot.title = finding() + plot.title;
     std::vector<Series> bounds;
     std::string unsafe;
-    for (const Alike& group : groups) {
+    for (const Alike& group : alike(all, {&values})) {
       const int colour = static_cast<int>(group.front());
       plot.series.push_back(
           {.label = across == nullptr ? "critical gap" : across->key.heading + " " + text_of(group),
@@ -214,9 +211,8 @@ struct GapLines {
       dashes.add(x, bound > 0.0 ? bound : not_a_number);
       if (bound > 0.0) (is_assumed > 0.0 ? open : filled).add(x, bound);
     }
-    std::vector<Series> made;
-    for (Series& each : std::array{dashes, open, filled})
-      if (known_of(each.y) > 0) made.push_back(std::move(each));
+    std::vector<Series> made{dashes, open, filled};
+    std::erase_if(made, [](const Series& each) { return known_of(each.y) == 0; });
     return made;
   }
 
@@ -245,10 +241,11 @@ struct GapLines {
     return numbers_text(across->key, shown);
   }
 
+  /// Of some lines, those that are drawn as one; a bound of 0 is none that is drawn.
   std::vector<Alike> alike(const Alike& lines,
                            const std::vector<const std::vector<std::vector<double>>*>& in) const {
     const auto is_near = [seen = 0.008 * highest](double a, double b) {
-      return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > seen);
+      return (a > 0.0) == (b > 0.0) && std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > seen);
     };
     std::vector<Alike> groups;
     for (const std::size_t line : lines) {
@@ -268,18 +265,15 @@ struct GapLines {
 
   /// "Critical gap by a reservoir of air falls from 0.046 cm at 400 MPa to 0.018 cm at 550 MPa, initial
   /// temperature 336 K": the lowest of the lines that have most values.
-  std::string finding(const std::vector<Alike>& groups) const {
-    const Alike& best = groups[study::places_by(groups.size(), [&](std::size_t i) {
-                                 const std::vector<double>& line = values[groups[i].front()];
-                                 double sum = 0.0;
-                                 for (const double gap : line) sum += std::isfinite(gap) ? gap : 0.0;
-                                 return std::tuple(-static_cast<double>(known_of(line)), sum);
-                               }).front()];
+  std::string finding() const {
+    const std::size_t best = study::places_by(values.size(), [&](std::size_t i) {
+                               double sum = 0.0;
+                               for (const double gap : values[i]) sum += std::isfinite(gap) ? gap : 0.0;
+                               return std::tuple(-static_cast<double>(known_of(values[i])), sum);
+                             }).front();
     std::vector<double> known, at;
-    for (std::size_t i = 0; i < along.values.size(); ++i) {
-      const double gap = values[best.front()][i];
-      if (std::isfinite(gap)) known.push_back(gap), at.push_back(along.values[i]);
-    }
+    for (std::size_t i = 0; i < along.values.size(); ++i)
+      if (std::isfinite(values[best][i])) known.push_back(values[best][i]), at.push_back(along.values[i]);
     const char* how = std::ranges::is_sorted(known, std::greater()) ? "falls"
                       : std::ranges::is_sorted(known)               ? "rises"
                                                                     : "goes";
@@ -289,7 +283,7 @@ struct GapLines {
     // Also where the study looks at gaps that close: they have bounds of their own.
     return fmt::format("Critical gap by a reservoir of air {} from {} to {}{}", how,
                        text(known.front(), at.front()), text(known.back(), at.back()),
-                       across == nullptr ? "" : ", " + across->key.heading + " " + text_of(best));
+                       across == nullptr ? "" : ", " + across->key.heading + " " + text_of(Alike{best}));
   }
 };
 

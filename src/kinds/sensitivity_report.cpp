@@ -393,8 +393,7 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
       plot.subtitle +=
           fmt::format("{}{}: {}", plot.subtitle.empty() ? "" : "; ", report::plain_words(shown[i].name),
                       shown[i].distribution.substr(0, shown[i].distribution.find(':')));
-  plot.x = {.label = interact ? "share of the variance, with interactions [1]" : "share of the variance [1]",
-            .minimum = 0.0};
+  plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
   Series bars{.style = Style::filled_bars, .colour = blue};
   Series intervals{
       .label =
