@@ -224,12 +224,12 @@ struct FreeNames {
     return {at(0.0), at(1.0)};
   }
 
-  /// From above, at each of some values.
+  /// From above, at each of some values, or at the edge of the frame where one is beyond.
   std::vector<Anchor> on_uprights(const std::vector<double>& values) const {
     std::vector<Anchor> anchors;
     for (const double value : values)
-      for (double share = 0.97; share > line_height; share -= line_height)
-        anchors.push_back({x(value), share, fmt::format("first {}, graph {}", exact(value), exact(share))});
+      for (double up = 0.97, at = std::min(x(value), 1.0); up > line_height; up -= line_height)
+        anchors.push_back({at, up, fmt::format("graph {}, graph {}", exact(at), exact(up))});
     return anchors;
   }
 

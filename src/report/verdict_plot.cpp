@@ -85,7 +85,8 @@ void add_critical_gap(const Row& critical, Plot& plot) {
   for (const Series& series : plot.series) largest = std::max(largest, std::ranges::max(series.x));
   if (bounds.to <= 1.3 * largest) return;
   plot.x.maximum = 1.3 * largest;
-  bounds.label += ", to " + significant(bounds.to, 3) + " cm";
+  plot.subtitle += fmt::format("{}the bounds of the critical gap go on to {} cm",
+                               plot.subtitle.empty() ? "" : "; ", significant(bounds.to, 3));
 }
 
 }  // namespace
@@ -129,8 +130,8 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
                             .colour = black,
                             .mark = Mark::open_square})})
     if (!series.x.empty()) plot.series.push_back(std::move(series));
-  add_critical_gap(critical, plot);
   cut_axis(ignition, plot);
+  add_critical_gap(critical, plot);
   plot.horizontal_lines = {{ignition, "ignition at " + significant(ignition, 4) + " K"}};
   return plot;
 }
