@@ -8,6 +8,8 @@ using study::RecordedSetting, study::ReferenceValue;
 
 namespace {
 
+constexpr int first_method = 2;  // colours of methods, from here on
+
 std::string kelvins(double value) { return in_words(value, significant(2, kelvin)); }
 
 Row facts_of(const RecordedSetting& setting) {
@@ -94,18 +96,6 @@ std::string method_of(const RecordedSetting& setting, const study::Setting& own)
   return {};
 }
 
-/// From cheap to costly, each nearer to the limit than all before it, up to one that cannot be told from it.
-std::vector<const AccuracyRow*> steps_to_the_limit(std::vector<const AccuracyRow*> rows, double known_to) {
-  std::ranges::sort(rows, {}, [](const AccuracyRow* row) { return row->setting.processor_time; });
-  std::vector<const AccuracyRow*> steps;
-  for (const AccuracyRow* row : rows) {
-    const double nearest = steps.empty() ? HUGE_VAL : steps.back()->largest_temperature_error;
-    if (nearest <= known_to) break;
-    if (row->largest_temperature_error < nearest) steps.push_back(row);
-  }
-  return steps;
-}
-
 /// K: what is nearer than the limit is known to cannot be told from that.
 double told_distance(const VariantAccuracy& variant, double distance) {
   const double known_to = variant.reference_uncertainty();
@@ -133,52 +123,76 @@ std::string description_of(const VariantAccuracy& variant, const VariantAccuracy
   return has_own ? title.substr(comma + 2) : variant.name;
 }
 
-Plot picture_of(const std::vector<const VariantAccuracy*>& variants) {
-  if (variants.size() == 1) return error_plot(*variants.front());
+/// Whether every setting is as near to the limit as that is known.
+bool tells_nothing(const Plot& panel) {
+  const double known_to = panel.horizontal_bands.empty() ? 0.0 : panel.horizontal_bands.front().to;
+  return std::ranges::all_of(panel.series,
+                             [=](const Series& each) { return std::ranges::max(each.y) <= known_to; });
+}
+
+/// The legend of all panels is that of the plot; a method has one colour in all of them.
+void share_legend(Plot& plot) {
+  int colour = first_method;
+  for (Plot& panel : plot.panels)
+    for (Series& each : panel.series) {
+      auto entry = std::ranges::find(plot.series, each.label, &Series::label);
+      if (entry == plot.series.end()) {
+        entry = plot.series.insert(entry, each);
+        entry->x = entry->y = {-1.0};  // nowhere
+        const bool is_method = entry->mark == Mark::up_triangle || entry->mark == Mark::open_triangle;
+        if (is_method) entry->colour = colour++;
+      }
+      each.colour = entry->colour;
+      each.label.clear();
+    }
+}
+
+/// One panel for each model in which settings differ; nullopt where there is none.
+std::optional<Plot> picture_of(const std::vector<const VariantAccuracy*>& variants) {
   Plot plot;
   double largest = 0;  // K, of all variants as the scene has it
+  std::vector<std::string> alike;
   for (const VariantAccuracy* each : variants) {
-    Plot& panel = plot.panels.emplace_back(error_plot(*each));
-    panel.title = description_of(*each, *variants.front()) + ": " + panel.title;
     if (const AccuracyRow* own = each->baseline())
       largest = std::max(largest, told_distance(*each, own->largest_temperature_error));
+    Plot panel = error_plot(*each);
+    const std::string name = description_of(*each, *variants.front());
+    if (variants.size() > 1 && tells_nothing(panel)) {
+      alike.push_back(name);
+      continue;
+    }
+    if (variants.size() > 1) panel.title = name + ": " + panel.title;
+    plot.panels.push_back(std::move(panel));
   }
+  if (plot.panels.empty()) return std::nullopt;
+  share_axis(&Plot::x, &Series::x, plot.panels);
+  share_axis(&Plot::y, &Series::y, plot.panels);
+  if (variants.size() == 1) return std::move(plot.panels.front());
+  plot.width = plot.columns * plot.panels.front().width;
   plot.title = fmt::format("As in the scene T max is within {} of its limit, in each of {} models",
                            kelvins(largest), variants.size());
   plot.subtitle = "grey: nearer than the limit is known to; what is there stands at its upper edge";
-  share_axis(&Plot::x, &Series::x, plot.panels);
-  share_axis(&Plot::y, &Series::y, plot.panels);
-  // The last panel has the legend of all.
-  for (Plot& panel : plot.panels) {
+  if (!alike.empty())
+    plot.subtitle += fmt::format("; without a panel, as all settings are: {}", fmt::join(alike, ", "));
+  for (Plot& panel : plot.panels)
     for (report::Band& known : panel.horizontal_bands) known = {*panel.y.minimum, known.to};
-    for (Series& each : panel.series)
-      if (&panel != &plot.panels.back() && each.x.size() > 1) each.label.clear();
-  }
+  share_legend(plot);
   return plot;
 }
 
-/// "3 K from its limit; lab frame: up to 390 K": the scene's own setting, and the method that comes out
-/// worst.
-std::string finding_of(const VariantAccuracy& variant, const std::map<std::string, Series>& methods) {
-  double largest = variant.reference_uncertainty();
-  std::string text;
-  if (const AccuracyRow* own = variant.baseline()) {
-    const double distance = own->largest_temperature_error;
-    text = distance < largest ? fmt::format("within {} of its limit", kelvins(largest))
-                              : fmt::format("{} from its limit", kelvins(distance));
-    largest = told_distance(variant, distance);
-  }
-  const Series* worst = nullptr;
-  for (const auto& [word, method] : methods)
-    for (const double distance : method.y)
-      if (!word.empty() && distance > largest) largest = distance, worst = &method;
-  return worst == nullptr ? text : fmt::format("{}; {}: up to {}", text, worst->label, kelvins(largest));
+/// "3 K from its limit": the scene's own setting.
+std::string finding_of(const VariantAccuracy& variant) {
+  const AccuracyRow* own = variant.baseline();
+  if (own == nullptr) return {};
+  const double distance = own->largest_temperature_error, told = told_distance(variant, distance);
+  return (distance < told ? "within " : "") + kelvins(told) +
+         (distance < told ? " of its limit" : " from its limit");
 }
 
 }  // namespace
 
 Plot error_plot(const VariantAccuracy& variant) {
-  constexpr int blue = 0, orange = 1, green = 2, black = 6, grey = 7;
+  constexpr int blue = 0, vermilion = 1, grey = 7;
   const double known_to = variant.reference_uncertainty();
   Plot plot{
       .title = {},
@@ -189,11 +203,6 @@ Plot error_plot(const VariantAccuracy& variant) {
       .height = 440,
       .named_in_place = true};
   const auto points = [](std::string label, int colour, Mark mark) {
-    for (const auto& [key, words] :
-         {std::pair{std::string("cell_size"), "cells"}, {"selective_inertia", "inertia x"}})
-      if (const std::size_t at = label.find(key); at != std::string::npos)
-        label.replace(at, key.size(), words);
-    std::ranges::replace(label, '_', ' ');
     return Series{.label = std::move(label), .style = Style::points, .colour = colour, .mark = mark};
   };
   Series meshes = points("reference meshes", blue, Mark::open_square);
@@ -203,7 +212,6 @@ Plot error_plot(const VariantAccuracy& variant) {
   };
   const study::Setting own_setting = study::setting_of(variant.study.scene.scene);
   const std::vector<double>& times = settings_of<AccuracySettings>(variant.study).times;
-  std::vector<const AccuracyRow*> shown;
   for (const AccuracyRow& row : variant.rows) {
     if (!row.computed() || row.other_model) continue;
     std::string word = method_of(row.setting, own_setting);
@@ -214,25 +222,19 @@ Plot error_plot(const VariantAccuracy& variant) {
       word +=
           fmt::format("{}ignites ({}, no reaction)", word.empty() ? "" : ", ", milliseconds(times.back()));
       distance = std::abs(row.error_at_times.back());
-    } else {
-      shown.push_back(&row);
     }
-    const Series made = points(word, green + static_cast<int>(methods.size()) - 1,
+    const Series made = points(word, first_method + static_cast<int>(methods.size()) - 1,
                                ignites ? Mark::open_triangle : Mark::up_triangle);
     Series& method = methods.try_emplace(word, made).first->second;
     if (row.setting.reference || !row.baseline)
       add_mark(row, distance, row.setting.reference ? meshes : method);
   }
-  plot.title = (variant.name.empty() ? "As in the scene T max is " : "") + finding_of(variant, methods);
+  plot.title = (variant.name.empty() ? "As in the scene T max is " : "") + finding_of(variant);
   for (auto& [word, method] : methods) plot.series.push_back(std::move(method));
   plot.series.push_back(std::move(meshes));
+  Series& scene = plot.series.emplace_back(points("as in the scene", vermilion, Mark::diamond));
+  if (const AccuracyRow* own = variant.baseline()) add_mark(*own, own->largest_temperature_error, scene);
   std::erase_if(plot.series, [](const Series& each) { return each.x.empty(); });
-  const auto named = [&](const AccuracyRow& row, const std::string& label, int colour, Mark mark) {
-    add_mark(row, row.largest_temperature_error, plot.series.emplace_back(points(label, colour, mark)));
-  };
-  for (const AccuracyRow* row : steps_to_the_limit(shown, known_to))
-    if (!row->baseline) named(*row, row->setting.label, black, Mark::circle);
-  if (const AccuracyRow* own = variant.baseline()) named(*own, "as in the scene", orange, Mark::diamond);
   if (std::isfinite(known_to) && known_to > 0) {
     plot.y.minimum = 0.5 * known_to;
     plot.horizontal_bands = {{*plot.y.minimum, known_to, "limit known to " + kelvins(known_to)}};
@@ -267,7 +269,11 @@ Report report_of(const AccuracyResult& result) {
     const std::string name = each.name.empty() ? "accuracy.json" : "accuracy_" + each.name + ".json";
     report.files.push_back({name, study::to_json_text(each.record)});
   }
-  if (!drawn.empty()) report.draw({"error_against_time.svg", picture_of(drawn), "error against run time"});
+  if (auto picture = picture_of(drawn))
+    report.draw({"error_against_time.svg", std::move(*picture), "error against run time"});
+  else if (!drawn.empty())
+    report.remarks.emplace_back(
+        "There is no picture: every setting is as near to the limit as that is known.");
   if (several) report.add({variant_table(result), "variants.csv", "variants"});
   const Shown settings = several ? Shown::file : Shown::page_and_terminal;
   report.add({setting_table(result), "accuracy.csv", "settings", settings});

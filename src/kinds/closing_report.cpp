@@ -226,33 +226,42 @@ std::optional<Plot> closing_plot(const CriticalGapResult& result) {
   Plot plot{.title = {},
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
-            .horizontal_lines = {{ignition, "ignition: " + in_words(ignition, significant(4, kelvin))}},
+            .width = 1000,
             .named_in_place = true};
   // What burns is as hot as its products, which says nothing of the gap: a line has a break there, and a mark
-  // stands on the line of the ignition temperature at the first gap that ignites.
+  // stands beyond the ignition temperature at the first gap that ignites.
   const auto add_ignition = [&](const std::string& label, double gap) {
     const int colour = static_cast<int>(plot.series.size()) - 1;
     if (std::isfinite(gap))
       plot.series.push_back(
-          {label, {shown_gap(gap)}, {ignition}, Style::points, {}, {}, colour, Mark::cross});
+          {label, {shown_gap(gap)}, {math::infinity}, Style::points, {}, {}, colour, Mark::cross});
   };
+  double by_reservoir = 0.0, closing = 0.0;  // K, the hottest below ignition
   Series& reservoir = plot.series.emplace_back(Series{"reservoir, as published"});
-  for (const GapVerdict& row : outcome.verdicts)
+  for (const GapVerdict& row : outcome.verdicts) {
     reservoir.add(shown_gap(row.gap), row.ignition ? not_a_number : row.maximum.temperature);
-  const std::string by_reservoir = report::measured_text(outcome.critical);
-  add_ignition("reservoir, critical gap: " + by_reservoir, gap_or_bound(outcome.critical));
+    by_reservoir = std::max(by_reservoir, reservoir.y.back());
+  }
+  add_ignition("reservoir: critical gap " + report::measured_text(outcome.critical),
+               gap_or_bound(outcome.critical));
+  std::string ignitions;
   for (const ClosingAnswer& answer : outcome.closing) {
     if (!answer.is_nominal() && !answer.is_worst_corner()) continue;
     Series& series = plot.series.emplace_back(Series{bound_name(answer)});
-    for (const ClosingPoint& point : answer.points)
+    for (const ClosingPoint& point : answer.points) {
       series.add(shown_gap(point.gap), point.ignited ? not_a_number : point.maximum_temperature);
+      closing = std::max(closing, series.y.back());
+    }
     if (!std::isfinite(answer.upper)) continue;
-    const std::string ignites = bound_name(answer) + ": ignites at " + centimetres(answer.upper);
-    plot.title += ignites + "; ";
+    const std::string ignites = bound_name(answer) + " ignites from " + centimetres(answer.upper) + " on";
+    ignitions += "; " + ignites;
     add_ignition(ignites, answer.upper);
   }
-  plot.title += "critical gap by the reservoir: " + by_reservoir;
-  plot.title.front() = static_cast<char>(std::toupper(plot.title.front()));
+  plot.title = fmt::format("Below ignition T max is at most {} where the gap closes, {} by the reservoir{}",
+                           in_words(closing, significant(3, kelvin)),
+                           in_words(by_reservoir, significant(3, kelvin)), ignitions);
+  report::cut_axis(ignition, plot);
+  plot.horizontal_lines = {{ignition, "ignition at " + in_words(ignition, significant(4, kelvin))}};
   return plot;
 }
 

@@ -154,6 +154,12 @@ Plot model_form_plot(const ModelForm& form) {
             .height = 620,
             .subtitle = "each calibrated by the same rule",
             .named_in_place = true};
+  const auto peak_of = [](const ModelFormEntry& each) {
+    return each.calibration->calibration.scene.load.peak;
+  };
+  const double peak = peak_of(form.entries.front());
+  if (std::ranges::all_of(form.entries, [&](const auto& each) { return peak_of(each) == peak; }))
+    plot.vertical_lines = {{shown_value(peak, quantity::peak_pressure.form), "all calibrated here"}};
   std::vector<std::string> alike;
   for (const ModelFormEntry& each : form.entries) {
     Series series{each.title, {}, {}, Style::line_and_points};

@@ -29,27 +29,11 @@ std::vector<SweptAxis> swept_axes(const Study& study) {
   return axes;
 }
 
-/// Tics at the values themselves, where these are few and stand far enough apart to be read.
-std::vector<report::Tic> tics_at(const std::vector<double>& values, Scale scale) {
-  constexpr std::size_t most = 12;
-  constexpr double least_share = 0.07;
-  const auto place = [scale](double value) { return scale == Scale::linear ? value : std::log10(value); };
-  if (values.size() > most) return {};
-  const double whole = place(values.back()) - place(values.front());
-  std::vector<report::Tic> tics;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0 && place(values[i]) - place(values[i - 1]) < least_share * whole) return {};
-    tics.push_back({values[i], report::significant(values[i], 6)});
-  }
-  return tics;
-}
-
 report::PlotAxis picture_axis(const SweptAxis& swept) {
   report::PlotAxis axis;
   axis.label = swept.key.label();
   if (swept.values.front() > 0 && swept.values.back() > 10.0 * swept.values.front())
     axis.scale = Scale::logarithmic;
-  axis.tics = tics_at(swept.values, axis.scale);
   return axis;
 }
 
@@ -67,31 +51,15 @@ std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::
 
 // --- marks ---
 
-/// What a bound of one kind says, if all of them say the same.
-std::string bound_label(const std::vector<CaseAnswer>& answers, CriticalGapKind kind,
-                        const std::string& otherwise) {
-  std::string label;
-  for (const CaseAnswer& answer : answers) {
-    if (answer.critical.kind != kind) continue;
-    const std::string text = reads_as(answer.critical);
-    if (!label.empty() && text != label) return otherwise;
-    label = text;
-  }
-  return label;
-}
-
 /// Critical gaps that are no values as marks along an axis, one series for every kind, in a colour that no
-/// line has. `answers`: all that the picture will have, which decide the labels.
-std::map<CriticalGapKind, Series> marks_for(const std::vector<CaseAnswer>& answers) {
+/// line has.
+std::map<CriticalGapKind, Series> all_marks() {
   using enum CriticalGapKind;
-  const auto mark = [](std::string label, Mark look) {
-    return Series{.label = std::move(label), .style = Style::points, .colour = 6, .mark = look};
+  const auto mark = [](const char* label, Mark look) {
+    return Series{.label = label, .style = Style::points, .colour = 6, .mark = look};
   };
-  const auto bound = [&](CriticalGapKind kind, const char* otherwise) {
-    return bound_label(answers, kind, otherwise) + " (bound)";
-  };
-  return {{all_safe, mark(bound(all_safe, "above the searched gaps"), Mark::up_triangle)},
-          {all_ignite, mark(bound(all_ignite, "ignites at every gap"), Mark::down_triangle)},
+  return {{all_safe, mark("no ignition up to here", Mark::up_triangle)},
+          {all_ignite, mark("ignites at every gap", Mark::down_triangle)},
           {several_crossings, mark("the first of several crossings", Mark::diamond)}};
 }
 
@@ -110,6 +78,16 @@ std::vector<double> some_of(const std::vector<double>& values) {
   return some;
 }
 
+/// "30, 120 µm"; in the unit shown.
+std::string numbers_text(const ShownKey& key, const std::vector<double>& shown) {
+  const auto number = [](double value) { return report::significant(value, 6); };
+  return fmt::format("{}{}{}", fmt::join(of_each(shown, number), ", "), key.form.unit.empty() ? "" : " ",
+                     key.form.unit);
+}
+
+/// Lines that lie on each other, by their places among all.
+using Alike = std::vector<std::size_t>;
+
 /// Critical gaps along one axis with their lower bounds; where there is another axis, for some of its values.
 struct GapLines {
   const CriticalGapResult& result;
@@ -117,25 +95,16 @@ struct GapLines {
   const SweptAxis& along;
   const SweptAxis* across;
   std::vector<double> values_across = across == nullptr ? std::vector{0.0} : some_of(across->values);
-  std::vector<Series> values = {}, lower_bounds = {};             ///< a line each
-  std::set<std::pair<std::size_t, std::size_t>> assumed_at = {};  ///< of which line, at which value
-  Series assumed = {.style = Style::points, .colour = 7, .mark = Mark::open_circle};
-  Series recorded = {
-      .label = "nothing assumed", .style = Style::points, .colour = 7, .mark = Mark::open_square};
-  study::AssumedShares shares = {};  ///< of any that is `assumed`
-  std::map<CriticalGapKind, Series> marks = marks_for(result.answers);
-  std::map<CriticalGapKind, std::set<double>> marked = {};  ///< values across, of which each mark is
+  std::vector<std::vector<double>> values{
+      values_across.size(), std::vector<double>(along.values.size(), not_a_number)};  ///< cm, a line each
+  std::vector<std::vector<double>> lower_bounds = values;                             ///< cm
+  std::vector<std::vector<double>> assumed = values;  ///< 1 where a bound rests on an assumption, 0 where not
+  study::AssumedShares shares = {};                   ///< of any bound that is drawn
+  std::map<CriticalGapKind, Series> marks = all_marks();
+  std::map<CriticalGapKind, std::set<std::size_t>> marked = {};  ///< lines, of which each mark is
   std::int64_t unknown = 0;
   double lowest = HUGE_VAL, highest = 0.0;  ///< cm, of all that is drawn but lower bounds
   double least_uncertainty = HUGE_VAL;      ///< cm, of all values
-
-  void begin() {
-    const std::vector<double> nothing(along.values.size(), not_a_number);
-    for (int i = 0; i < static_cast<int>(values_across.size());) {
-      values.push_back({.x = along.values, .y = nothing, .colour = i++});
-      lower_bounds.emplace_back(values.back()).style = Style::dashed_line;
-    }
-  }
 
   void add(const StudyCase& input, const CaseAnswer& answer) {
     const double of = across == nullptr ? 0.0 : across->key.value(input.coordinates[across->index]);
@@ -155,131 +124,166 @@ struct GapLines {
                                                                          : gap.lower);
     lowest = std::min(lowest, drawn);
     highest = std::max(highest, drawn);
-    const double lower = kind == CriticalGapKind::value ? shown_gap(gap.bounds.at_least) : not_a_number;
-    const std::size_t place = place_in(along.values, x);
-    if (const auto own = assumed_shares(result.study.study, input, gap.value); own.any()) {
-      assumed.add(x, std::isfinite(lower) ? lower : drawn);
-      assumed_at.insert({line, place});
-      shares = {shares.computation || own.computation, shares.model_form || own.model_form};
-    } else if (std::isfinite(lower)) {
-      recorded.add(x, lower);
-    }
     if (kind != CriticalGapKind::value) {
-      marks.at(kind).add(x, drawn);
-      marked[kind].insert(of);
+      Series& mark = marks.at(kind);
+      bool is_new = true;
+      for (std::size_t i = 0; i < mark.x.size(); ++i) is_new &= mark.x[i] != x || mark.y[i] != drawn;
+      if (is_new) mark.add(x, drawn);
+      marked[kind].insert(line);
       return;
     }
-    values[line].y[place] = drawn;
+    const std::size_t place = place_in(along.values, x);
+    const double lower = shown_gap(gap.bounds.at_least);
+    values[line][place] = drawn;
     least_uncertainty = std::min(least_uncertainty, std::isfinite(lower) ? drawn - lower : 0.0);
-    if (std::isfinite(lower)) lower_bounds[line].y[place] = lower;
+    if (!std::isfinite(lower)) return;
+    lower_bounds[line][place] = lower;
+    const auto own = assumed_shares(result.study.study, input, gap.value);
+    assumed[line][place] = own.any() ? 1.0 : 0.0;
+    if (lower > 0.0) shares = {shares.computation || own.computation, shares.model_form || own.model_form};
   }
 
   /// Values on lines of two and more; none where all differ by less than the best of them is known to.
   std::size_t joined() const {
     std::size_t joined = 0;
     if (highest - lowest < least_uncertainty) return joined;
-    for (const Series& line : values)
+    for (const std::vector<double>& line : values)
       if (const std::size_t known = known_of(line); known > 1) joined += known;
     return joined;
   }
 
   Plot drawn() {
+    Alike all;
+    while (all.size() < values.size()) all.push_back(all.size());
     plot.title = finding() + plot.title;
-    // No dashes where a share begins or ends to be assumed: that step says nothing of the launches.
-    std::vector<Series> assumed_bounds = lower_bounds;
-    for (std::size_t line = 0; line < lower_bounds.size(); ++line)
-      for (std::size_t place = 0; place < along.values.size(); ++place)
-        (assumed_at.contains({line, place}) ? lower_bounds : assumed_bounds)[line].y[place] = not_a_number;
-    const std::string value = across == nullptr ? "critical gap" : across->key.heading + " ",
-                      bound = across == nullptr ? "" : "at least ";
-    for (const auto& [lines, name] :
-         {std::pair{&values, value}, {&assumed_bounds, bound}, {&lower_bounds, bound}})
-      for (Series& line : joined_alike(*lines, name)) plot.series.push_back(std::move(line));
-    assumed.label =
-        (shares.computation && shares.model_form ? "computation or model form" : shares.text()) + " assumed";
-    for (Series* bounds : {&assumed, &recorded})
-      if (!bounds->x.empty()) plot.series.push_back(std::move(*bounds));
-    plot.subtitle = across == nullptr ? "dashed: its lower bound" : "dashed: the lower bound of each";
-    if (unknown > 0)
+    std::vector<Series> bounds;
+    std::string unsafe;
+    for (const Alike& group : alike(all, {&values})) {
+      const int colour = static_cast<int>(group.front());
+      plot.series.push_back(
+          {.label = across == nullptr ? "critical gap" : across->key.heading + " " + text_of(group),
+           .x = along.values,
+           .y = values[group.front()],
+           .colour = colour,
+           .mark = Mark::circle});
+      for (const Alike& each : alike(group, {&lower_bounds, &assumed})) {
+        std::ranges::move(bounds_of(each, colour), std::back_inserter(bounds));
+        if (const std::string where = nothing_safe(each); !where.empty())
+          unsafe += (unsafe.empty() ? "nothing shown safe" : ",") + where;
+      }
+    }
+    if (!bounds.empty()) plot.subtitle = "squares: lower bounds";
+    const bool both = shares.computation && shares.model_form;
+    if (shares.any())
       plot.subtitle +=
-          fmt::format("; not drawn: {} indeterminate or failed", report::counted(unknown, "case"));
+          fmt::format(", open where {} is assumed", both ? "computation or model form" : shares.text());
+    add_to_subtitle(unsafe);
+    if (unknown > 0)
+      add_to_subtitle(fmt::format("not drawn: {} indeterminate or failed", report::counted(unknown, "case")));
+    std::ranges::move(bounds, std::back_inserter(plot.series));
     for (auto& [kind, series] : marks) {
       if (series.x.empty()) continue;
       if (marked[kind].size() < values_across.size())
         series.label = text_of(marked[kind]) + ": " + series.label;
-      if (marked[kind].size() == 1) series.colour = place_in(values_across, *marked[kind].begin());
+      if (marked[kind].size() == 1) series.colour = *marked[kind].begin();
       plot.series.push_back(std::move(series));
     }
     return std::move(plot);
   }
 
-  /// "30, 120 µm"; empty without another axis.
-  std::string text_of(const std::set<double>& shown) const {
-    if (across == nullptr) return {};
-    const auto number = [](double value) { return report::significant(value, 6); };
-    return fmt::format("{}{}{}", fmt::join(of_each(shown, number), ", "),
-                       across->key.form.unit.empty() ? "" : " ", across->key.form.unit);
+  void add_to_subtitle(const std::string& words) {
+    if (!words.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + words;
   }
 
-  /// Lines that lie on each other are one, with the names of all.
-  std::vector<Series> joined_alike(const std::vector<Series>& lines, const std::string& what) const {
-    const auto is_near = [seen = 0.008 * highest](double a, double b) {
-      return std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > seen);
-    };
-    std::vector<Series> joined;
-    std::vector<std::set<double>> names;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      const auto like = std::ranges::find_if(joined, [&](const Series& each) {
-        return known_of(each) > 0 && std::ranges::equal(each.y, lines[i].y, is_near);
-      });
-      const auto place = static_cast<std::size_t>(like - joined.begin());
-      if (like == joined.end()) joined.push_back(lines[i]), names.emplace_back();
-      names[place].insert(values_across[i]);
-      joined[place].label = what + text_of(names[place]);
+  /// A lower bound as dashes, its points open where something is assumed. What is 0 is not drawn.
+  std::vector<Series> bounds_of(const Alike& group, int colour) const {
+    const std::size_t line = group.front();
+    Series dashes{.label = across == nullptr ? "lower bound" : "lower bound, " + text_of(group),
+                  .style = Style::dashed_line,
+                  .colour = colour};
+    Series open{.style = Style::points, .colour = colour, .mark = Mark::open_square}, filled = open;
+    filled.mark = Mark::square;
+    for (std::size_t place = 0; place < along.values.size(); ++place) {
+      const double x = along.values[place], bound = lower_bounds[line][place],
+                   is_assumed = assumed[line][place];
+      // No dashes where a share begins or ends to be assumed: that step says nothing of the launches.
+      if (place > 0 && is_assumed + assumed[line][place - 1] == 1.0) dashes.add(x, not_a_number);
+      dashes.add(x, bound > 0.0 ? bound : not_a_number);
+      if (bound > 0.0) (is_assumed > 0.0 ? open : filled).add(x, bound);
     }
-    return joined;
+    std::vector<Series> made{dashes, open, filled};
+    std::erase_if(made, [](const Series& each) { return known_of(each.y) == 0; });
+    return made;
   }
 
-  static std::size_t known_of(const Series& line) {
-    return static_cast<std::size_t>(std::ranges::count_if(line.y, [](double y) { return std::isfinite(y); }));
+  /// " at 120, 500 µm from 475 MPa on": where a lower bound is 0; empty where it is nowhere.
+  std::string nothing_safe(const Alike& group) const {
+    std::vector<std::size_t> known, zeros;
+    for (std::size_t place = 0; place < along.values.size(); ++place) {
+      const double bound = lower_bounds[group.front()][place];
+      if (std::isfinite(bound)) known.push_back(place);
+      if (bound == 0.0) zeros.push_back(place);
+    }
+    if (zeros.empty()) return {};
+    const bool all = zeros.size() == known.size(),
+               stays = zeros.front() == known[known.size() - zeros.size()];
+    return fmt::format("{}{}", across == nullptr ? "" : " at " + text_of(group),
+                       all     ? " at all"
+                       : stays ? " from " + numbers_text(along.key, {along.values[zeros.front()]}) + " on"
+                               : fmt::format(" at {} of {} values", zeros.size(), known.size()));
   }
 
-  /// "Critical gap at 30 µm: 0.09 to 0.02 cm, at least 0.03 cm at 250 MPa, 0 cm from 500 MPa
-  /// on": the lowest of the bounds that have most values.
+  /// "30, 120 µm"; empty without another axis.
+  std::string text_of(const auto& lines) const {
+    if (across == nullptr) return {};
+    std::vector<double> shown;
+    for (const std::size_t line : lines) shown.push_back(values_across[line]);
+    return numbers_text(across->key, shown);
+  }
+
+  /// Of some lines, those that are drawn as one; a bound of 0 is none that is drawn.
+  std::vector<Alike> alike(const Alike& lines,
+                           const std::vector<const std::vector<std::vector<double>>*>& in) const {
+    const auto is_near = [seen = 0.008 * highest](double a, double b) {
+      return (a > 0.0) == (b > 0.0) && std::isfinite(a) == std::isfinite(b) && !(std::abs(a - b) > seen);
+    };
+    std::vector<Alike> groups;
+    for (const std::size_t line : lines) {
+      const auto like = std::ranges::find_if(groups, [&](const Alike& group) {
+        return std::ranges::all_of(in, [&](const auto* each) {
+          return std::ranges::equal((*each)[group.front()], (*each)[line], is_near);
+        });
+      });
+      (like == groups.end() ? groups.emplace_back() : *like).push_back(line);
+    }
+    return groups;
+  }
+
+  static std::size_t known_of(const std::vector<double>& line) {
+    return static_cast<std::size_t>(std::ranges::count_if(line, [](double y) { return std::isfinite(y); }));
+  }
+
+  /// "Critical gap by a reservoir of air falls from 0.046 cm at 400 MPa to 0.018 cm at 550 MPa, initial
+  /// temperature 336 K": the lowest of the lines that have most values.
   std::string finding() const {
     const std::size_t best = study::places_by(values.size(), [&](std::size_t i) {
-                               return std::tuple(-static_cast<double>(known_of(lower_bounds[i])),
-                                                 sum_of(lower_bounds[i]), sum_of(values[i]));
+                               double sum = 0.0;
+                               for (const double gap : values[i]) sum += std::isfinite(gap) ? gap : 0.0;
+                               return std::tuple(-static_cast<double>(known_of(values[i])), sum);
                              }).front();
-    const Series& line = lower_bounds[best];
-    std::vector<std::size_t> known;
-    for (std::size_t i = 0; i < line.y.size(); ++i)
-      if (std::isfinite(line.y[i])) known.push_back(i);
+    std::vector<double> known, at;
+    for (std::size_t i = 0; i < along.values.size(); ++i)
+      if (std::isfinite(values[best][i])) known.push_back(values[best][i]), at.push_back(along.values[i]);
+    const char* how = std::ranges::is_sorted(known, std::greater()) ? "falls"
+                      : std::ranges::is_sorted(known)               ? "rises"
+                                                                    : "goes";
+    const auto text = [&](double gap, double x) {
+      return report::significant(gap, 2) + " cm at " + numbers_text(along.key, {x});
+    };
     // Also where the study looks at gaps that close: they have bounds of their own.
-    std::string what = "Critical gap by a reservoir of air";
-    if (across != nullptr) what += " at " + text_of({values_across[best]});
-    if (known.empty()) return what + ": no lower bound is known";
-    what += fmt::format(": {} to {} cm, ", report::significant(values[best].y[known.front()], 2),
-                        report::significant(values[best].y[known.back()], 2));
-    const auto text = [&](std::size_t place) {
-      return report::significant(report::rounded_down(line.y[known[place]], 4), 3) + " cm";
-    };
-    const auto at = [&](std::size_t place) {
-      return report::significant(line.x[known[place]], 6) + " " + along.key.form.unit;
-    };
-    std::size_t last = known.size() - 1;
-    while (last > 0 && text(last - 1) == text(last)) --last;
-    const bool stays = last + 1 < known.size();
-    if (last == 0)
-      return fmt::format("{}at least {} from {} to {}", what, text(0), at(0), at(known.size() - 1));
-    return fmt::format("{}at least {} at {}, {} {} {}{}", what, text(0), at(0), text(last),
-                       stays ? "from" : "at", at(last), stays ? " on" : "");
-  }
-
-  static double sum_of(const Series& line) {
-    double sum = 0.0;
-    for (const double y : line.y) sum += std::isfinite(y) ? y : 0.0;
-    return sum;
+    return fmt::format("Critical gap by a reservoir of air {} from {} to {}{}", how,
+                       text(known.front(), at.front()), text(known.back(), at.back()),
+                       across == nullptr ? "" : ", " + across->key.heading + " " + text_of(Alike{best}));
   }
 };
 
@@ -312,7 +316,6 @@ Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& ax
                         .named_in_place = true},
                        along,
                        across});
-      lines.back().begin();
     }
     lines[place->second].add(input, result.answers[i]);
   }

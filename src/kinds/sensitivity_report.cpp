@@ -313,9 +313,8 @@ Report report_of(const SensitivityResult& result) {
                    "sensitivity of " + shown_output(output.output).column.heading});
   }
   report.add({quantile_table(result), "quantiles.csv", "quantiles"});
-  if (Plot plot = histogram_plot(result); !plot.panels.empty())
-    report.draw(
-        {"histogram.svg", std::move(plot), "the draws, and how their interval settles with their number"});
+  if (Plot plot = histogram_plot(result); !plot.series.empty())
+    report.draw({"histogram.svg", std::move(plot), "how the draws are distributed"});
   report.add({histogram_table(result), "histogram.csv", "histogram", Shown::file});
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));
   report.say(said_below("sensitivity.rests"));
@@ -373,17 +372,21 @@ std::vector<ReportTable> sensitivity_results() {
 
 // Inputs below each other, the one with the largest total order at the top.
 Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& output) {
-  constexpr int blue = 0, orange = 1, black = 6;
+  constexpr int blue = 0, black = 6;
   const auto shown = shown_inputs(result.study.study);
   const Study& study = result.study.study;
   const auto order =
       study::places_by(shown.size(), [&](std::size_t i) { return -output.sobol.inputs[i].total.value; });
   Plot plot;
   const double largest = output.sobol.inputs[order.front()].total.value;
+  const bool interact = std::ranges::any_of(output.sobol.inputs, [](const math::InputIndices& each) {
+    return each.total.lower > each.first.upper;
+  });
   plot.title =
-      fmt::format("{} makes {} of the variance of {}", report::plain_words(shown[order.front()].name),
+      fmt::format("{} makes {} of the variance of {}{}", report::plain_words(shown[order.front()].name),
                   largest > 1.0 ? "all, within sampling error," : report::fixed(100.0 * largest, 0) + " %",
-                  shown_output(output.output).phrase + at_gap(study, output.output));
+                  shown_output(output.output).phrase + at_gap(study, output.output),
+                  interact ? "" : ", without interactions");
   plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
   for (const std::size_t i : order)
     if (output.sobol.inputs[i].total.value >= negligible_share)
@@ -391,30 +394,23 @@ Plot sensitivity_plot(const SensitivityResult& result, const OutputSensitivity& 
           fmt::format("{}{}: {}", plot.subtitle.empty() ? "" : "; ", report::plain_words(shown[i].name),
                       shown[i].distribution.substr(0, shown[i].distribution.find(':')));
   plot.x = {.label = "share of the variance [1]", .minimum = 0.0};
-  Series bars{.label = "total: with interactions", .style = Style::filled_bars, .colour = blue};
-  const std::string interval =
-      in_words(settings_of<SensitivitySettings>(study).confidence, significant(6, percent)) + " interval";
-  Series total{
-      .label = "its " + interval, .style = Style::horizontal_bars, .colour = black, .mark = Mark::square};
-  Series first{.label = "first: by the input alone, " + interval,
-               .style = Style::horizontal_bars,
-               .colour = orange,
-               .mark = Mark::diamond};
+  Series bars{.style = Style::filled_bars, .colour = blue};
+  Series intervals{
+      .label =
+          in_words(settings_of<SensitivitySettings>(study).confidence, significant(6, percent)) + " interval",
+      .style = Style::horizontal_bars,
+      .colour = black,
+      .mark = Mark::none};
   for (std::size_t place = 0; place < order.size(); ++place) {
     const double y = static_cast<double>(order.size() - place);
-    const math::InputIndices& indices = output.sobol.inputs[order[place]];
-    const bool contradictory = total_below_first(indices);
-    if (contradictory)
-      plot.subtitle +=
-          "; * total below first is sampling error: no true total order is below the first order";
-    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name) + (contradictory ? " *" : "")});
-    bars.add(indices.total.value, y, 0.0, indices.total.value);
-    total.add(indices.total.value, y - 0.1, indices.total.lower, indices.total.upper);
-    first.add(indices.first.value, y + 0.1, indices.first.lower, indices.first.upper);
+    const Estimate& total = output.sobol.inputs[order[place]].total;
+    plot.y.tics.push_back({y, report::plain_words(shown[order[place]].name)});
+    bars.add(total.value, y, 0.0, total.value);
+    intervals.add(total.value, y, total.lower, total.upper);
   }
   plot.y.minimum = 0.4;
   plot.y.maximum = static_cast<double>(order.size()) + 0.6;
-  plot.series = {std::move(bars), std::move(total), std::move(first)};
+  plot.series = {std::move(bars), std::move(intervals)};
   plot.height = std::min(180 + 56 * static_cast<int>(order.size()), 1600);
   return plot;
 }

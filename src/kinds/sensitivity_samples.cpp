@@ -115,76 +115,48 @@ Histogram histogram_of(const OutputSample& sample, const ShownOutput& shown) {
   return histogram;
 }
 
-constexpr int panel_width = 620, panel_height = 460;
-
-Plot panel_of(const SensitivityResult& result, const OutputSensitivity& output) {
+Plot plot_of(const SensitivityResult& result, const OutputSensitivity& output) {
   const ShownOutput& shown = shown_output(output.output);
   const OutputSample sample = sample_of(result, output);
   const Histogram histogram = histogram_of(sample, shown);
-  Plot panel{.title = title_of(result, output),
-             .x = {.label = shown.column.label()},
-             .y = {.label = "draws", .minimum = 0.0},
-             .width = panel_width,
-             .height = panel_height,
-             .named_in_place = true};
-  if (histogram.counts.empty()) return panel;
+  Plot plot{.title = title_of(result, output),
+            .x = {.label = shown.column.label()},
+            .y = {.label = "draws", .minimum = 0.0},
+            .named_in_place = true};
+  if (histogram.counts.empty()) return plot;
   const double low = shown.value(sample.quantile(quantile_shares.front())),
                high = shown.value(sample.quantile(quantile_shares.back()));
   const std::string unit = " " + shown.column.form.unit;
   if (std::isfinite(low) && std::isfinite(high)) {
-    panel.title +=
+    plot.title +=
         fmt::format(": {} to {}{} in 95 %", report::significant(low, 3), report::significant(high, 3), unit);
-    panel.vertical_bands = {{low, high, "95 % of the draws"}};
+    plot.vertical_bands = {{low, high, "95 % of the draws"}};
   }
-  panel.subtitle = fmt::format("{} draws", sample.values.size());
+  plot.subtitle = fmt::format("{} draws", sample.values.size());
   if (const std::size_t count = sample.ignites_at_zero())
-    panel.subtitle += fmt::format("; {} ignite without a gap", count);
+    plot.subtitle += fmt::format("; {} ignite without a gap", count);
   if (const std::size_t count = sample.none_ignites())
-    panel.subtitle += fmt::format("; {} ignite at no gap", count);
+    plot.subtitle += fmt::format("; {} ignite at no gap", count);
   Series steps{.style = Style::steps, .colour = 0};
   steps.add(histogram.edge(0), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i)
     steps.add(histogram.edge(i), static_cast<double>(histogram.counts[i]));
   steps.add(histogram.edge(histogram.counts.size()), 0.0);
-  panel.series = {std::move(steps)};
-  if (const double half = shown.value(sample.quantile(0.5)); std::isfinite(half))
-    panel.vertical_lines.push_back({half, "median: " + report::significant(half, 3) + unit});
-  if (output.output == SensitivityOutput::critical_gap)
-    panel.vertical_lines.push_back({shown_gap(result.study.study.gaps.front()),
-                                    "the gap asked for: " + centimetres(result.study.study.gaps.front())});
-  return panel;
-}
-
-/// Median and interval of the critical gap over more and more draws: whether more of them would change it.
-Plot growth_panel(const SensitivityResult& result, const OutputSensitivity& output) {
-  constexpr std::size_t fewest = 4, steps = 40;
-  const ShownOutput& shown = shown_output(output.output);
-  const std::size_t all = sample_of(result, output).values.size();
-  Plot panel{.title = {},
-             .x = {.label = "draws"},
-             .y = {.label = shown.column.label()},
-             .width = panel_width,
-             .height = panel_height,
-             .named_in_place = true};
-  if (all < 2 * fewest) return panel;
-  const auto at = [&](std::size_t draws, double share) {
-    return shown.value(sample_of(result, output, draws).quantile(share));
-  };
-  const double before = at(all / 2, 0.5), now = at(all, 0.5);
-  if (std::isfinite(before) && std::isfinite(now))
-    panel.title =
-        fmt::format("the median moved by {} {} over the last {} draws",
-                    report::significant(std::abs(now - before), 2), shown.column.form.unit, all - all / 2);
-  for (const auto& [label, share] :
-       {std::pair{"2.5 %", quantile_shares.front()}, {"median", 0.5}, {"97.5 %", quantile_shares.back()}}) {
-    Series& line = panel.series.emplace_back(
-        Series{.label = label, .style = Style::line, .colour = share == 0.5 ? 0 : 7});
-    for (std::size_t step = 0; step <= steps; ++step) {
-      const std::size_t draws = fewest + (all - fewest) * step / steps;
-      line.add(static_cast<double>(draws), at(draws, share));
-    }
+  plot.series = {std::move(steps)};
+  const double half = shown.value(sample.quantile(0.5));
+  if (std::isfinite(half)) {
+    plot.vertical_lines.push_back({half, "median: " + report::significant(half, 3) + unit});
+    // Whether more draws would change it.
+    const std::size_t all = sample.values.size();
+    if (const double before = shown.value(sample_of(result, output, all / 2).quantile(0.5));
+        std::isfinite(before))
+      plot.subtitle += fmt::format("; the last {} moved the median by {}{}", all - all / 2,
+                                   report::significant(std::abs(half - before), 2), unit);
   }
-  return panel;
+  if (output.output == SensitivityOutput::critical_gap)
+    plot.vertical_lines.push_back({shown_gap(result.study.study.gaps.front()),
+                                   "the gap asked for: " + centimetres(result.study.study.gaps.front())});
+  return plot;
 }
 
 /// What a share of the draws is at or below.
@@ -300,21 +272,17 @@ Table histogram_table(const SensitivityResult& result) {
 }
 
 Plot histogram_plot(const SensitivityResult& result) {
-  Plot plot;
   const Row ignition = ignition_json(result);
-  plot.title = fmt::format("At {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
-                           ignition["igniting"].get<std::size_t>(), ignition["sound"].get<std::size_t>());
-  const auto add = [&plot](Plot panel) {
-    if (!panel.series.empty()) plot.panels.push_back(std::move(panel));
-  };
   // That of T max is in histogram.csv; it is drawn where the critical gap has none.
   for (const OutputSensitivity* output : told_outputs(result)) {
-    if (!plot.panels.empty()) break;
-    add(panel_of(result, *output));
-    if (output->output == SensitivityOutput::critical_gap && !plot.panels.empty())
-      add(growth_panel(result, *output));
+    Plot plot = plot_of(result, *output);
+    if (plot.series.empty()) continue;
+    plot.title += fmt::format("; at {} {} of {} draws ignite", centimetres(result.study.study.gaps.front()),
+                              ignition["igniting"].get<std::size_t>(), ignition["sound"].get<std::size_t>());
+    plot.title.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title.front())));
+    return plot;
   }
-  return plot;
+  return {};
 }
 
 }  // namespace launchsafe::kinds

@@ -293,6 +293,8 @@ constexpr Outcome all_outcomes[] = {Outcome::held, Outcome::degraded, Outcome::c
 Plot outcome_plot(const StabilityResult& result) {
   constexpr int green = 2, orange = 4, blue = 0, black = 6;
   constexpr int colours[] = {green, orange, blue, black};
+  constexpr const char* meanings[] = {"", ": in doubt, and the result says so", ": stopped or refused",
+                                      ": a false verdict"};
   Plot plot;
   plot.x = {.label = "cases", .minimum = 0.0};
   std::map<std::string, double> sizes, places, ends;
@@ -310,8 +312,9 @@ Plot outcome_plot(const StabilityResult& result) {
   for (const Outcome outcome : all_outcomes) {
     const std::string label = fmt::format("{} {}", result.count(outcome), to_string(outcome));
     plot.title += (plot.title.empty() ? "" : ", ") + label;
-    Series& series = plot.series.emplace_back(Series{
-        .label = label, .style = Style::filled_bars, .colour = colours[static_cast<std::size_t>(outcome)]});
+    const std::size_t index = static_cast<std::size_t>(outcome);
+    Series& series = plot.series.emplace_back(
+        Series{.label = label + meanings[index], .style = Style::filled_bars, .colour = colours[index]});
     for (const auto& [group, place] : places) {
       const double count = cases[{group, outcome}], end = ends[group] + count;
       if (count > 0) series.add(end, place, std::exchange(ends[group], end), end);

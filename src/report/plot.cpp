@@ -38,8 +38,8 @@ std::string title_of(const std::string& label) {
 }
 
 std::string points_of(Mark mark) {
-  // In the order of Mark: gnuplot's filled signs, open signs, and the cross.
-  constexpr std::array<int, 9> types{7, 5, 9, 13, 11, 6, 4, 8, 2};
+  // In the order of Mark: gnuplot's filled signs, open signs, the cross, and nothing.
+  constexpr std::array<int, 10> types{7, 5, 9, 13, 11, 6, 4, 8, 2, -1};
   // Open signs are larger, so that they show around filled ones at the same place.
   const double size = mark < Mark::open_circle ? 0.7 : 1.1;
   return fmt::format("pointtype {} pointsize {}", types[static_cast<std::size_t>(mark)], size);
@@ -53,7 +53,7 @@ std::string style_of(const Series& series, std::size_t index) {
                                               "with linespoints linewidth 2 {0} {1}",
                                               "with yerrorbars linewidth 1.5 {0} {1}",
                                               "with xerrorbars linewidth 1.5 {0} {1}",
-                                              "with boxxyerror fillstyle solid 0.8 noborder {1}",
+                                              "with boxxyerror fillstyle solid 1.0 noborder {1}",
                                               "with steps linewidth 2 {1}"};
   const auto sign = series.mark.value_or(static_cast<Mark>(look_of(series, index) % 8));
   return fmt::format(fmt::runtime(styles.at(static_cast<std::size_t>(series.style))), points_of(sign),
@@ -85,8 +85,7 @@ void add_bands(const Plot& plot, Commands& commands) {
       commands.add(fmt::format("{}{}", name, i),
                    fmt::format(fmt::runtime(outline), coordinate(bands[i].from, scale),
                                coordinate(bands[i].to, scale)),
-                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' {}", axes,
-                               title_of(plot.named_in_place ? "" : bands[i].label)));
+                   fmt::format("1:2 axes {} with filledcurves closed fillcolor rgb '#e4e4e4' notitle", axes));
   };
   add("band", plot.vertical_bands, plot.x.scale, "{0} 0\n{0} 1\n{1} 1\n{1} 0\n", "x1y2");
   add("level", plot.horizontal_bands, plot.y.scale, "0 {0}\n0 {1}\n1 {1}\n1 {0}\n", "x2y1");
@@ -97,10 +96,10 @@ void add_lines(const Plot& plot, Commands& commands) {
   const auto add = [&](const char* name, const std::vector<Line>& lines, Scale scale, const char* ends,
                        const char* axes, int dashes) {
     for (std::size_t i = 0; i < lines.size(); ++i)
-      commands.add(fmt::format("{}{}", name, i),
-                   fmt::format(fmt::runtime(ends), coordinate(lines[i].at, scale)),
-                   fmt::format("1:2 axes {} with lines linewidth 1.3 linecolor rgb '#444444' dashtype {} {}",
-                               axes, dashes, title_of(plot.named_in_place ? "" : lines[i].label)));
+      commands.add(
+          fmt::format("{}{}", name, i), fmt::format(fmt::runtime(ends), coordinate(lines[i].at, scale)),
+          fmt::format("1:2 axes {} with lines linewidth 1.3 linecolor rgb '#444444' dashtype {} notitle",
+                      axes, dashes));
   };
   add("vertical", plot.vertical_lines, plot.x.scale, "{0} 0\n{0} 1\n", "x1y2", 2);
   add("horizontal", plot.horizontal_lines, plot.y.scale, "0 {0}\n1 {0}\n", "x2y1", 4);
@@ -114,22 +113,16 @@ struct Legend {
 };
 
 Legend legend_of(const Plot& plot) {
-  constexpr double sample = 60, letter = 8.4;  // pixels, as gnuplot reckons
+  constexpr double sample = 60;  // pixels
   std::size_t longest = 0, entries = 0;
-  const auto add = [&](const std::string& label) {
-    longest = std::max(longest, display_width(label));
-    entries += label.empty() ? 0 : 1;
-  };
   const std::vector<bool> named = names_in_place(plot).series;
-  for (std::size_t i = 0; i < plot.series.size(); ++i)
-    if (!named[i] && !plot.series[i].x.empty()) add(plot.series[i].label);
-  if (!plot.named_in_place) {
-    for (const Band& band : plot.vertical_bands) add(band.label);
-    for (const Band& band : plot.horizontal_bands) add(band.label);
-    for (const Line& line : plot.vertical_lines) add(line.label);
-    for (const Line& line : plot.horizontal_lines) add(line.label);
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const Series& series = plot.series[i];
+    if (named[i] || series.x.empty() || series.label.empty()) continue;
+    longest = std::max(longest, display_width(series.label));
+    ++entries;
   }
-  const double room = 0.95 * plot.width / (sample + letter * static_cast<double>(longest));
+  const double room = 0.95 * plot.width / (sample + letter_width * static_cast<double>(longest));
   const auto columns =
       std::clamp<std::size_t>(static_cast<std::size_t>(room), 1, std::max<std::size_t>(entries, 1));
   return {columns, (entries + columns - 1) / columns};
@@ -141,11 +134,20 @@ int whole_height(const Plot& plot) {
   return plot.height + row * std::max(0, static_cast<int>(legend_of(plot).rows) - 1);
 }
 
+/// The legend, if there is anything to say.
+std::string key_commands(const Plot& plot, const char* where) {
+  const Legend legend = legend_of(plot);
+  if (legend.rows == 0) return "unset key\n";
+  return fmt::format("set key {} horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing 1.25\n",
+                     where, legend.columns);
+}
+
 /// `width`: letters of the names at the right.
 std::string frame_commands(const Plot& plot, std::size_t width) {
   // So large that it is on the page, in whose middle it stands.
-  const double size =
-      std::clamp(1.7 * plot.width / static_cast<double>(display_width(plot.title) + 1), 9.0, 16.0);
+  const auto size = [&](const std::string& text, double most) {
+    return std::clamp(1.7 * plot.width / static_cast<double>(display_width(text) + 1), 9.0, most);
+  };
   std::size_t longest_tic = 0;
   for (const Tic& tic : plot.y.tics) longest_tic = std::max(longest_tic, display_width(tic.label));
   const double left = std::max<double>(10.0, 4.0 + 0.85 * static_cast<double>(longest_tic));
@@ -157,20 +159,13 @@ std::string frame_commands(const Plot& plot, std::size_t width) {
       "set autoscale fix\nset offsets graph 0.05, graph 0.05, graph 0.05, graph 0.05\n"
       "set x2range [0:1]\nset y2range [0:1]\n"
       "set title {} font ',{:.0f}' offset {:.1f}, {}\n",
-      quoted(plot.title), size, aside, plot.subtitle.empty() ? 0.0 : 0.4);
+      quoted(plot.title), size(plot.title, 16.0), aside, plot.subtitle.empty() ? 0.0 : 0.4);
   if (!plot.subtitle.empty())
     text += fmt::format(
-        "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',12' "
-        "textcolor "
-        "rgb '#444444'\n",
-        quoted(plot.subtitle), aside);
-  const Legend legend = legend_of(plot);
-  if (legend.rows == 0) return text + "unset key\n";
-  return text +
-         fmt::format(
-             "set key outside bottom center horizontal height 1.5 maxcols {} Left reverse samplen 2 spacing "
-             "1.25\n",
-             legend.columns);
+        "set tmargin 4.6\nset label 1 {} at graph 0.5, graph 1 center offset {:.1f}, 0.9 font ',{:.0f}' "
+        "textcolor rgb '#444444'\n",
+        quoted(plot.subtitle), aside, size(plot.subtitle, 12.0));
+  return text + key_commands(plot, "outside bottom center");
 }
 
 /// Label, limits, scale and tics of the axis "x" or "y".
@@ -179,6 +174,13 @@ std::string axis_commands(const std::string& name, const PlotAxis& axis) {
   if (axis.minimum) text += fmt::format("set {}range [{}:]\n", name, exact(*axis.minimum));
   if (axis.maximum) text += fmt::format("set {}range [:{}]\n", name, exact(*axis.maximum));
   if (axis.scale == Scale::logarithmic) text += fmt::format("set logscale {0}\nset format {0} '%g'\n", name);
+  // One or two powers of ten do not tell how long a step is.
+  if (axis.scale == Scale::logarithmic && axis.minimum && axis.maximum &&
+      *axis.maximum < 100.0 * *axis.minimum)
+    text += fmt::format(
+        "set for [k=-12:12] {}tics add (sprintf('%g', 2*10.**k) 2*10.**k, sprintf('%g', 5*10.**k) "
+        "5*10.**k)\n",
+        name);
   std::vector<std::string> tics;
   for (const Tic& tic : axis.tics)
     if (drawable(tic.at, axis.scale)) tics.push_back(quoted(tic.label) + " " + exact(tic.at));
@@ -201,7 +203,8 @@ std::string drawing_commands(const Plot& plot, std::size_t width) {
 std::string panel_commands(const Plot& plot) {
   const int title_height = plot.subtitle.empty() ? 40 : 64;
   const auto columns = static_cast<std::size_t>(plot.columns);
-  int width = 0, height = title_height;
+  const int legend_height = 34 * static_cast<int>(legend_of(plot).rows);
+  int width = 0, height = title_height + legend_height;
   std::vector<int> row_heights;
   std::size_t longest_name = 0;
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
@@ -212,6 +215,9 @@ std::string panel_commands(const Plot& plot) {
   }
   for (const int each : row_heights) height += each;
   const double page_width = plot.columns * width, page_height = height;
+  Commands legend;
+  legend.plots.emplace_back("NaN notitle");
+  add_series(plot, legend);
   std::string text = page_commands(page_width, page_height) + "set multiplot\n" +
                      fmt::format("set label 1 {} at screen 0.5, screen {} center font ',18'\n",
                                  quoted(plot.title), exact(1 - 24 / page_height)) +
@@ -219,14 +225,16 @@ std::string panel_commands(const Plot& plot) {
                          "set label 2 {} at screen 0.5, screen {} center font ',13' textcolor rgb "
                          "'#444444'\n",
                          quoted(plot.subtitle), exact(1 - 50 / page_height)) +
-                     "unset border\nunset tics\nunset key\nplot [0:1] [0:1] NaN notitle\n";
+                     "unset border\nunset tics\nset xrange [0:1]\nset yrange [0:1]\n" +
+                     key_commands(plot, "at screen 0.5, screen 0 center bottom") + legend.text();
   int top = title_height;
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
     const int row_height = row_heights[i / columns];
-    text += fmt::format(
-        "reset\n{}set size {}, {}\nset origin {}, {}\n", plot.columns == 1 ? "set lmargin 10\n" : "",
-        exact(1.0 / plot.columns), exact(row_height / page_height),
-        exact(static_cast<double>(i % columns) / plot.columns), exact(1 - (top + row_height) / page_height));
+    text +=
+        fmt::format("reset\n{}set tmargin 4.6\nset size {}, {}\nset origin {}, {}\n",
+                    plot.columns == 1 ? "set lmargin 10\n" : "", exact(1.0 / plot.columns),
+                    exact(row_height / page_height), exact(static_cast<double>(i % columns) / plot.columns),
+                    exact(1 - (top + row_height) / page_height));
     text +=
         drawing_commands(plot.panels[i], plot.columns == 1 ? longest_name : longest_end_name(plot.panels[i]));
     if (i % columns + 1 == columns) top += row_height;
@@ -277,12 +285,14 @@ void cut_axis(double line, Plot& plot) {
   double lowest = line;
   for (const Series& series : plot.series)
     for (const double temperature : series.y) lowest = std::min(lowest, temperature);
-  const double row = std::max(0.14 * (line - lowest), 12.0);
-  const auto rows = std::ranges::count_if(plot.series, [&](const Series& series) {
-    return std::ranges::any_of(series.y, [&](double temperature) { return temperature > line; });
-  });
-  const double top = line + row * static_cast<double>(std::max<std::ptrdiff_t>(rows, 1)),
-               bottom = lowest - 2.0 * row;
+  const double row = std::max(0.2 * (line - lowest), 12.0), bottom = lowest - row;
+  double level = line;
+  for (Series& series : plot.series) {
+    if (std::ranges::none_of(series.y, [&](double temperature) { return temperature > line; })) continue;
+    level += row;
+    for (double& temperature : series.y) temperature = temperature > line ? level : temperature;
+  }
+  const double top = std::max(level, line + row) + 0.5 * row;
   std::vector<Series> arrows;
   const auto cut = [&](const Series& series, std::vector<double>& ends, double at, Mark mark) {
     Series heads{.style = Style::points, .colour = series.colour, .mark = mark};
@@ -294,13 +304,9 @@ void cut_axis(double line, Plot& plot) {
     plot.subtitle = "arrows: the bar goes on beyond";
     arrows.push_back(std::move(heads));
   };
-  double level = line;
   for (Series& series : plot.series) {
     cut(series, series.upper, top, Mark::up_triangle);
     cut(series, series.lower, bottom, Mark::down_triangle);
-    if (std::ranges::all_of(series.y, [&](double temperature) { return temperature <= line; })) continue;
-    level += row;
-    for (double& temperature : series.y) temperature = temperature > line ? level : temperature;
   }
   std::ranges::move(arrows, std::back_inserter(plot.series));
   plot.y.maximum = top;

@@ -19,6 +19,9 @@ PlotNames names_in_place(const Plot& plot);
 std::size_t look_of(const Series& series, std::size_t index);
 std::string_view colour_of(const Series& series, std::size_t index);
 
+/// Pixels of a letter, as gnuplot reckons.
+constexpr double letter_width = 8.4;
+
 /// Characters beside the plot, where lines are named at their ends.
 std::size_t right_margin(std::size_t longest_name);
 /// Letters of the longest name of a line.

@@ -5,7 +5,7 @@
 namespace launchsafe::report {
 namespace {
 
-constexpr int vermilion = 1, green = 2, purple = 3, orange = 4, black = 6, grey = 7;
+constexpr int blue = 0, vermilion = 1, green = 2, purple = 3, orange = 4, black = 6;
 
 bool ignites(const Row& verdict) { return !text_of(verdict, "ignition_cause").empty(); }
 
@@ -69,14 +69,24 @@ std::string published_words(const Row& comparison, const scene::Load& load) {
                      is_elsewhere ? ", at another place" : "");
 }
 
+/// With its bounds; where these go far beyond all other gaps the axis ends before, and words say where they
+/// do.
 void add_critical_gap(const Row& critical, Plot& plot) {
   const double value = number_of(critical, "critical_gap_cm"),
                at_least = number_of(critical, "critical_gap_at_least_cm"),
                at_most = number_of(critical, "critical_gap_at_most_cm");
   if (text_of(critical, "critical_gap_kind") != "value") return;
   plot.vertical_lines = {{value, "critical gap"}};
-  if (const auto known = measured_gap(value, at_least, at_most))
-    plot.vertical_bands = {{std::max(0.0, known->lower()), known->upper(), "its bounds"}};
+  const auto known = measured_gap(value, at_least, at_most);
+  if (!known) return;
+  Band& bounds = plot.vertical_bands.emplace_back(
+      Band{std::max(0.0, known->lower()), known->upper(), "bounds of the critical gap"});
+  double largest = value;
+  for (const Series& series : plot.series) largest = std::max(largest, std::ranges::max(series.x));
+  if (bounds.to <= 1.3 * largest) return;
+  plot.x.maximum = 1.3 * largest;
+  plot.subtitle += fmt::format("{}the bounds of the critical gap go on to {} cm",
+                               plot.subtitle.empty() ? "" : "; ", significant(bounds.to, 3));
 }
 
 }  // namespace
@@ -110,7 +120,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });
   for (Series& series :
-       std::array{judged_series(verdicts, "SAFE", safe, is_green ? green : grey, initial),
+       std::array{judged_series(verdicts, "SAFE", safe, is_green ? green : blue, initial),
                   judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
                   points_of(ignited, "temperature_max_K",
                             {.label = "UNSAFE: ignites", .colour = vermilion, .mark = Mark::cross}),
@@ -120,8 +130,8 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
                             .colour = black,
                             .mark = Mark::open_square})})
     if (!series.x.empty()) plot.series.push_back(std::move(series));
-  add_critical_gap(critical, plot);
   cut_axis(ignition, plot);
+  add_critical_gap(critical, plot);
   plot.horizontal_lines = {{ignition, "ignition at " + significant(ignition, 4) + " K"}};
   return plot;
 }

@@ -135,6 +135,8 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   ASSERT_EQ(plot_of(result).series.size(), 3u) << "all but one of the others are on the default's line";
   EXPECT_EQ(plot_of(result).series[0].label, "own (default)");
   EXPECT_EQ(plot_of(result).series[1].label, "glued: no share in verdicts") << "in plain words";
+  ASSERT_EQ(plot_of(result).vertical_lines.size(), 1u) << "where both records were calibrated";
+  EXPECT_NEAR(plot_of(result).vertical_lines[0].at, 496.0, 1e-9);
   ComparisonResult alike = result;
   for (const std::size_t i : {0u, 1u}) alike.answers[2 + i].critical = alike.answers[i].critical;
   EXPECT_EQ(plot_of(alike).series.size(), 2u) << "a line on another is named";

@@ -106,7 +106,7 @@ TEST(StabilityReport, ThePictureHasABarOfOutcomesForEveryGroupTheLargestOnTop) {
   EXPECT_EQ(plot.y.tics[0].label, "load");
   EXPECT_GT(plot.y.tics[0].at, plot.y.tics[1].at) << "the group with most cases is on top";
   ASSERT_EQ(plot.series.size(), 4u);
-  EXPECT_EQ(plot.series[3].label, "1 WRONG");
+  EXPECT_EQ(plot.series[3].label, "1 WRONG: a false verdict");
   EXPECT_TRUE(plot.title.ends_with("1 WRONG")) << plot.title;
   for (const Series& series : plot.series) {
     EXPECT_EQ(series.style, Style::filled_bars);

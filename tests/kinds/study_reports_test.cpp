@@ -195,13 +195,14 @@ TEST(CriticalGapReport, ThePictureOfGapsThatCloseHasNoLineToWhatIgnites) {
     if (const auto* picture = std::get_if<report::Picture>(&item); picture && picture->file == "closing.svg")
       plot = &picture->plot;
   ASSERT_NE(plot, nullptr);
-  EXPECT_EQ(plot->title, "Closing, worst corner: ignites at 0 cm; critical gap by the reservoir: " +
-                             report::measured_text(outcome.critical));
+  EXPECT_TRUE(plot->title.starts_with("Below ignition T max is at most 400 K where the gap closes, "))
+      << plot->title;
+  EXPECT_TRUE(plot->title.ends_with("; closing, worst corner ignites from 0 cm on")) << plot->title;
   const double ignition = plot->horizontal_lines.at(0).at;
   std::vector<double> first_gaps;
   for (const report::Series& series : plot->series) {
     if (series.style == report::Style::points) {
-      EXPECT_EQ(series.y, std::vector<double>{ignition}) << series.label;
+      EXPECT_GT(series.y.at(0), ignition) << series.label;
       first_gaps.push_back(series.x.at(0));
       continue;
     }

@@ -233,7 +233,8 @@ TEST(SweepPictures, TwoAxesMakeALineForEachValueOfTheShorterOne) {
   EXPECT_EQ(plot.x.label, "peak pressure [MPa]");
   EXPECT_EQ(plot.y.label, "critical gap [cm]");
   EXPECT_EQ(plot.x.scale, Scale::linear);
-  const Series &value = plot.series[2], &lower = plot.series[6 + 2];
+  const Series &value = plot.series[2],
+               &lower = *std::ranges::find(plot.series, "lower bound, 30 µm", &Series::label);
   EXPECT_EQ(value.label, "crack radius 30 µm");
   EXPECT_NEAR(value.y[3], 0.0395, 1e-12);
   EXPECT_NEAR(lower.y[3], 0.0395 - 0.0004, 1e-12);
@@ -250,44 +251,66 @@ TEST(SweepPictures, WhatIsNoValueIsAMarkByItsReasonAndBreaksItsLine) {
   const auto named = [&](const std::string& label) -> const Series& {
     return *std::ranges::find(plot.series, label, &Series::label);
   };
-  EXPECT_EQ(named("10, 20 µm: > 0.1 cm (bound)").x.size(), 3u);
-  EXPECT_EQ(plot.subtitle, "dashed: the lower bound of each; not drawn: 1 case indeterminate or failed");
+  EXPECT_EQ(named("10, 20 µm: no ignition up to here").x.size(), 2u) << "of three, two at one place";
+  EXPECT_TRUE(plot.subtitle.ends_with("; not drawn: 1 case indeterminate or failed")) << plot.subtitle;
   EXPECT_TRUE(std::isnan(plot.series[4].y[2]));
 }
 
 // By hand: case 15 alone has numerics of which no record speaks.
-TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundHasACircleAndTheRowSaysWhich) {
+TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsOpenAndTheRowSaysWhich) {
   CriticalGapResult result = made_sweep();
-  const auto circles = [&] {
-    const Plot plot = gap_pictures(result).pictures.front().plot;
-    EXPECT_TRUE(plot.vertical_bands.empty()) << "one mark for one meaning";
-    const auto found = std::ranges::find(plot.series, Mark::open_circle, &Series::mark);
-    return found == plot.series.end() ? Series{} : *found;
+  const auto drawn = [&] { return gap_pictures(result).pictures.front().plot; };
+  const auto marks = [&](Mark mark) {
+    std::vector<double> at;
+    for (const Series& each : drawn().series)
+      if (each.mark == mark) at.insert(at.end(), each.x.begin(), each.x.end());
+    return at;
   };
-  EXPECT_EQ(circles().label, "model form assumed");
-  EXPECT_EQ(circles().x.size(), 35u) << "of bounds too, but not of the case that is indeterminate";
+  EXPECT_EQ(drawn().subtitle.find("squares: lower bounds, open where model form is assumed; "), 0u)
+      << drawn().subtitle;
+  EXPECT_EQ(marks(Mark::open_square).size(), 31u) << "of values";
   result.study.study.model_form_uncertainty = 1.0;
-  EXPECT_TRUE(circles().x.empty());
+  EXPECT_TRUE(marks(Mark::open_square).empty());
+  EXPECT_EQ(drawn().subtitle.find("assumed"), std::string::npos);
   result.study.cases.complete_with([](study::StudyCase& made) {
     if (made.label == "case 16") made.numerical_uncertainty_assumed = true;
   });
-  EXPECT_EQ(circles().label, "computation assumed");
-  EXPECT_EQ(circles().x, std::vector<double>{450}) << "the third of six";
-  const Plot plot = gap_pictures(result).pictures.front().plot;
-  const Series &assumed = plot.series[6 + 3], &recorded = plot.series[6 + 6 + 3];  // 50 um, the fourth of six
-  EXPECT_EQ(circles().y, std::vector<double>{assumed.y[2]});
-  for (std::size_t i = 0; i < assumed.y.size(); ++i)
-    EXPECT_NE(std::isnan(assumed.y[i]), std::isnan(recorded.y[i]))
-        << "no dashes from one to the other: " << i;
-  const auto squares = std::ranges::find(plot.series, "nothing assumed", &Series::label);
-  ASSERT_NE(squares, plot.series.end()) << "a mark also for one that stands alone";
-  EXPECT_EQ(squares->x.size(), 30u) << "of 31 values";
+  EXPECT_NE(drawn().subtitle.find("open where computation is assumed"), std::string::npos);
+  EXPECT_EQ(marks(Mark::open_square), std::vector<double>{450}) << "the third of six";
+  EXPECT_EQ(marks(Mark::square).size(), 30u) << "of 31 values";
+  const Plot plot = drawn();
+  const auto dashes = std::ranges::find(plot.series, "lower bound, 50 µm", &Series::label);
+  ASSERT_NE(dashes, plot.series.end());
+  std::size_t breaks = 0;
+  for (const double y : dashes->y) breaks += std::isnan(y) ? 1 : 0;
+  EXPECT_EQ(breaks, 2u) << "no dashes from a bound where a share is assumed to one where none is";
   const Table table = critical_gap_table(result);
   EXPECT_EQ(shown_text(cell(table, 15, "assumed_shares")), "computation");
   EXPECT_EQ(shown_text(cell(table, 14, "assumed_shares")), "");
   result.study.study.model_form_uncertainty = study::not_a_number;
   EXPECT_EQ(shown_text(cell(critical_gap_table(result), 15, "assumed_shares")), "computation, model form");
-  EXPECT_EQ(circles().label, "computation or model form assumed");
+  EXPECT_NE(drawn().subtitle.find("computation or model form is assumed"), std::string::npos);
+}
+
+// By hand: at 10 um the bound is 0 from 450 MPa on, at 30 um everywhere.
+TEST(SweepPictures, LowerBoundsOfZeroAreSaidAndNotDrawn) {
+  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
+  file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6}),
+                     axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
+  const Plot plot = gap_pictures(swept(std::move(file),
+                                       [](const study::Study& study, const std::vector<double>& at) {
+                                         study::CaseAnswer answer =
+                                             value_answer(study, 4e-4 - 1e-12 * (at[0] - 400e6) - at[1]);
+                                         if (at[0] > 401e6 || at[1] > 2e-5)
+                                           answer.critical.bounds.at_least = 0.0;
+                                         return answer;
+                                       }))
+                        .pictures.at(0)
+                        .plot;
+  EXPECT_TRUE(plot.subtitle.ends_with("; nothing shown safe at 10 µm from 450 MPa on, at 30 µm at all"))
+      << plot.subtitle;
+  for (const Series& each : plot.series)
+    for (const double gap : each.y) EXPECT_FALSE(gap <= 0.0) << each.label;
 }
 
 TEST(SweepPictures, WhatDiffersByLessThanItIsKnownToIsNotDrawn) {
@@ -307,23 +330,20 @@ TEST(SweepPictures, WhatDiffersByLessThanItIsKnownToIsNotDrawn) {
 TEST(SweepPictures, AThirdAxisMakesAPictureForEachOfItsValues) {
   const auto made = gap_pictures(made_sweep({0.5e-3, 1e-3, 2e-3}, "charge.flaw_size"));
   ASSERT_EQ(made.pictures.size(), 3u);
-  // Of six lines and their lower bounds, the lowest of those with most values.
+  // Of six lines the lowest of those with most values.
   const auto& drawn = made.pictures[0].plot.series;
   const Series* lowest = nullptr;
-  for (std::size_t i = 6; i < 12; ++i)
+  for (std::size_t i = 0; i < 6; ++i)
     if (std::ranges::all_of(drawn[i].y, [](double y) { return std::isfinite(y); }) &&
         (lowest == nullptr || drawn[i].y[0] < lowest->y[0]))
       lowest = &drawn[i];
   ASSERT_NE(lowest, nullptr);
-  const Series& value = drawn[static_cast<std::size_t>(*lowest->colour)];
-  const auto at_least = [](double gap) { return report::significant(report::rounded_down(gap, 4), 3); };
   EXPECT_EQ(
       made.pictures[0].plot.title,
-      fmt::format("Critical gap by a reservoir of air at {}: {} to {} cm, at least {} cm at 350 MPa, {} cm "
-                  "at 600 MPa, flaw size 0.5 mm",
-                  value.label.substr(std::string("crack radius ").size()),
-                  report::significant(value.y.front(), 2), report::significant(value.y.back(), 2),
-                  at_least(lowest->y.front()), at_least(lowest->y.back())));
+      fmt::format("Critical gap by a reservoir of air falls from {} cm at 350 MPa to {} cm at 600 MPa, {}, "
+                  "flaw size 0.5 mm",
+                  report::significant(lowest->y.front(), 2), report::significant(lowest->y.back(), 2),
+                  lowest->label));
   EXPECT_TRUE(made.pictures[2].plot.title.ends_with(", flaw size 2 mm"));
   EXPECT_EQ(made.pictures[2].file, "critical_gap_3.svg");
   EXPECT_TRUE(made.remarks.empty());
@@ -354,7 +374,8 @@ TEST(SweepPictures, LinesOnEachOtherAreOneWithTheNamesOfAll) {
     if (each.style <= Style::line_and_points && each.style != Style::points &&
         std::ranges::any_of(each.y, [](double y) { return std::isfinite(y); }))
       names.push_back(each.label);
-  EXPECT_EQ(names, (std::vector<std::string>{"crack radius 10, 30 µm", "at least 10 µm", "at least 30 µm"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"crack radius 10, 30 µm", "lower bound, 10 µm", "lower bound, 30 µm"}));
 }
 
 TEST(SweepPictures, OneAxisMakesOneLineWithItsLowerBoundAndMarks) {
@@ -366,7 +387,7 @@ TEST(SweepPictures, OneAxisMakesOneLineWithItsLowerBoundAndMarks) {
   EXPECT_EQ(curve.x.scale, Scale::logarithmic);
   EXPECT_TRUE(std::isnan(curve.series[0].y[2])) << "the line breaks at the failure";
   EXPECT_NEAR(curve.series[0].y[1] - curve.series[1].y[1], 4e-4, 1e-12);
-  const auto bound = std::ranges::find(curve.series, "> 0.1 cm (bound)", &Series::label);
+  const auto bound = std::ranges::find(curve.series, "no ignition up to here", &Series::label);
   ASSERT_NE(bound, curve.series.end());
   EXPECT_EQ(bound->mark, Mark::up_triangle);
   EXPECT_EQ(bound->y, std::vector<double>{0.1});

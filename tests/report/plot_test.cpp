@@ -75,7 +75,7 @@ TEST_F(DrawnPlot, HasEveryStyle) {
   ASSERT_TRUE(svg) << svg.error().message;
 }
 
-TEST_F(DrawnPlot, LinesAcrossItAreInTheLegend) {
+TEST_F(DrawnPlot, LinesAcrossItAreNamed) {
   Plot plot = sample();
   plot.vertical_lines = {{0.5, "critical gap"}};
   plot.horizontal_lines = {{9000, "ignition temperature"}};
@@ -145,7 +145,8 @@ TEST(Plot, ALegendOfLongEntriesTakesNoRoomFromThePlot) {
   EXPECT_NE(to_gnuplot(plot).find("size 800,600 "), std::string::npos) << "two further lines of 20 pixels";
 }
 
-// By hand: from 416 to 493 the frame is 360 pixels high, and names are 24 apart.
+// By hand: the frame is 360 pixels high, and names are 24 apart. Pushed up, the upper one would stand at the
+// frame's edge; pushed down, at its end: it stands half-way.
 TEST(Plot, LinesAreNamedAtTheirEndsNoNameOnAnother) {
   Plot plot = sample();
   plot.named_in_place = true;
@@ -158,12 +159,16 @@ TEST(Plot, LinesAreNamedAtTheirEndsNoNameOnAnother) {
   EXPECT_NE(text.find("pointtype 9 pointsize 0.7 linecolor rgb '#009e73' notitle"), std::string::npos)
       << "few points are not in the legend";
   const auto height_of = [&](const char* name) {
-    const std::string words = std::string("set label \"") + name + "\" at graph 1, first ";
+    const std::string words = std::string("set label \"") + name + "\" at graph 1, graph ";
     const std::size_t at = text.find(words);
     return at == std::string::npos ? 0.0 : std::stod(text.substr(at + words.size()));
   };
-  EXPECT_NEAR(height_of("near") - height_of("computed"), 77.1 * 24 / 360, 0.01);
-  EXPECT_NEAR(height_of("computed"), 493, 5.0);
+  EXPECT_NEAR(height_of("near") - height_of("computed"), 24.0 / 360, 1e-6);
+  const double end = (1 + 0.05) / 1.1;  // 0.05 beyond the data on either side
+  EXPECT_NEAR(height_of("near"), 0.5 * (1.0 + end), 1e-6);
+  for (const char* leader :
+       {"set arrow from first 0.03, first 493 to ", "set arrow from first 0.03, first 493.1 to "})
+    EXPECT_NE(text.find(leader), std::string::npos) << leader;
 }
 
 TEST(Plot, PanelsBelowEachOtherHaveTheSameMargins) {
@@ -185,7 +190,7 @@ TEST(Plot, BandsLieBehindTheSeriesFromEdgeToEdge) {
   EXPECT_NE(text.find("$band0 << END_OF_DATA\n0.01 0\n0.01 1\n0.02 1\n0.02 0\n"), std::string::npos) << text;
   EXPECT_NE(text.find("$level0 << END_OF_DATA\n0 420\n0 430\n1 430\n1 420\n"), std::string::npos) << text;
   EXPECT_LT(text.find("$band0 using"), text.find("$series0 using")) << "what is drawn first is behind";
-  EXPECT_NE(text.find("title \"where it may be\""), std::string::npos);
+  EXPECT_NE(text.find("set label \"where it may be\""), std::string::npos);
 }
 
 // By hand: the series runs below the name of the first line and through that of the second, at the left.
@@ -203,8 +208,44 @@ TEST(Plot, NamesOfLinesAcrossStandWhereNothingIsDrawn) {
   EXPECT_NE(how("free").find("graph 0, first 5 left offset 1, 0.8"), std::string::npos) << how("free");
   EXPECT_NE(how("in the way").find("graph 0, first 9.5 left offset 1, -0.8"), std::string::npos)
       << how("in the way") << ": below its line, above which the series runs";
-  EXPECT_NE(how("from here").find("graph 0.97 left offset 1, 0.4"), std::string::npos)
-      << how("from here") << ": above the series";
+  EXPECT_NE(how("from here").find("graph 0.9144"), std::string::npos)
+      << how("from here") << ": a line of 20 in 360 pixels below 0.97, where the series runs";
+}
+
+// By hand: the frame is 672 pixels wide, the name 80 pixels; the band begins 31 pixels to the right.
+TEST(Plot, NoNameStandsOnTheEdgeOfABandOrOnAMark) {
+  Plot plot;
+  plot.named_in_place = true;
+  plot.x = {.label = "x", .minimum = 0.0, .maximum = 1.0};
+  plot.series = {{"", {0, 1}, {0, 0}, Style::line}, {"", {0, 1}, {10, 10}, Style::line}};
+  plot.vertical_lines = {{0.5, "from here"}};
+  const auto side = [&] { return to_gnuplot(plot).find(" right offset -1, ") != std::string::npos; };
+  EXPECT_FALSE(side());
+  plot.vertical_bands = {{0.546, 0.9, ""}};
+  EXPECT_TRUE(side());
+  plot.vertical_bands.clear();
+  Series marks{.style = Style::points, .colour = 0};
+  for (double y = 0.0; y <= 10.0; y += 0.25) marks.add(0.546, y);
+  plot.series.push_back(marks);
+  EXPECT_TRUE(side());
+}
+
+TEST(Plot, PanelsHaveOneLegendOfThePlotsSeries) {
+  Plot plot;
+  plot.panels = {sample(), sample()};
+  for (Plot& panel : plot.panels) panel.series[0].label.clear();
+  plot.series = {{"computed", {-1}, {-1}, Style::points}};
+  const std::string text = to_gnuplot(plot);
+  EXPECT_EQ(count_of(text, "title \"computed\""), 1U);
+  EXPECT_NE(text.find("size 1600,634 "), std::string::npos) << "40 for the title and 34 for the legend";
+}
+
+TEST(Plot, ALogarithmicAxisOfFewDecadesHasTicsBetweenPowersOfTen) {
+  Plot plot = sample();
+  plot.y = {.label = "y", .scale = Scale::logarithmic, .minimum = 3.0, .maximum = 40.0};
+  EXPECT_NE(to_gnuplot(plot).find("ytics add"), std::string::npos);
+  plot.y.maximum = 400.0;
+  EXPECT_EQ(to_gnuplot(plot).find("ytics add"), std::string::npos);
 }
 
 TEST(Plot, BarsNeedTheirEnds) {

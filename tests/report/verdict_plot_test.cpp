@@ -49,7 +49,8 @@ TEST(VerdictPlot, HasAColourForEachVerdictAndBarsThatEndWhereTheLaunchBegan) {
   const Series* ignited = named(plot, "UNSAFE: ignites");
   ASSERT_TRUE(ignited);
   EXPECT_EQ(ignited->x, std::vector{0.04});
-  EXPECT_EQ(ignited->y, std::vector{*plot.y.maximum}) << "how hot a burning skin is says nothing of the gap";
+  EXPECT_LT(ignited->y.at(0), *plot.y.maximum) << "how hot a burning skin is says nothing of the gap";
+  EXPECT_GT(ignited->y.at(0), plot.horizontal_lines.at(0).at);
   ASSERT_FALSE(plot.y.tics.empty());
   EXPECT_LT(plot.y.tics.back().at, plot.horizontal_lines.at(0).at) << "no scale where it stands";
   EXPECT_TRUE(std::ranges::any_of(plot.series, [](const Series& each) {
@@ -58,8 +59,18 @@ TEST(VerdictPlot, HasAColourForEachVerdictAndBarsThatEndWhereTheLaunchBegan) {
   ASSERT_EQ(plot.vertical_bands.size(), 1u);
   EXPECT_LE(plot.vertical_bands[0].from, 0.02);
   EXPECT_GE(plot.vertical_bands[0].to, 0.04);
+  EXPECT_EQ(plot.vertical_bands[0].label, "bounds of the critical gap");
+  EXPECT_FALSE(plot.x.maximum);
   EXPECT_TRUE(std::ranges::none_of(
       plot.series, [](const Series& each) { return each.label.starts_with("worst corner"); }));
+}
+
+TEST(VerdictPlot, EndsALittleBeyondTheGapsHoweverWideTheBoundsAre) {
+  Row rows = tables();
+  rows["cases"][0]["critical_gap_at_most_cm"] = 0.37;
+  const Plot plot = verdict_plot(rows, scene_of_300K());
+  EXPECT_DOUBLE_EQ(plot.x.maximum.value_or(0.0), 1.3 * 0.04);
+  EXPECT_EQ(plot.subtitle, "the bounds of the critical gap go on to 0.37 cm");
 }
 
 TEST(VerdictPlot, IsOfTheVerdictsThatWereHeldAgainstAGapThatCloses) {

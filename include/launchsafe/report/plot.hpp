@@ -43,7 +43,8 @@ enum class Mark {
   open_circle,
   open_square,
   open_triangle,
-  cross
+  cross,
+  none  ///< a bar alone
 };
 
 struct Series {
@@ -66,7 +67,7 @@ struct Series {
   }
 };
 
-/// A dashed line across the whole picture; `label` is its entry in the legend, or stands beside it.
+/// A dashed line across the whole picture; `label` stands beside it.
 struct Line {
   double at = 0;
   std::string label = {};
@@ -89,14 +90,14 @@ struct Plot {
   /// Whether labels stand by what they name, in its colour: lines have them at their right ends, or beside
   /// themselves where dashed ones end together, and few points where there is room.
   bool named_in_place = false;
-  /// Pictures side by side, row by row; of the plot itself only title and subtitle are drawn.
+  /// Pictures side by side, row by row; of the plot itself only title, subtitle and a legend of its series.
   std::vector<Plot> panels = {};
   int columns = 2;  ///< of panels; those of one column have their axes below each other
 };
 
 /// Ends the y axis beyond a line across: how hot a burning skin is says nothing of a gap, and how far a bar
-/// goes nothing of the points. What is hotter stands in a row of its series above the line, where the axis has
-/// no numbers, and a bar that goes on beyond has an arrow at its end.
+/// goes nothing of the points. What is hotter stands in a row of its series above the line, where the axis
+/// has no numbers, and a bar that goes on beyond has an arrow at its end.
 void cut_axis(double line, Plot& plot);
 
 /// A rectangle with a value; one without a value (NaN) is drawn in plain grey.
