@@ -59,22 +59,13 @@ std::vector<study::Peak> published_of(const DrawnCase& drawn, const run::GapResu
   return all;
 }
 
-/// Published temperatures as hollow points, a series for each observation point with the place of it.
-void add_published(const trace::BottomTrace& trace, double at, const study::Peak& peak,
-                   std::vector<Series>& published) {
-  constexpr std::array<Mark, 3> looks{Mark::open_square, Mark::open_circle, Mark::open_triangle};
-  const auto point = std::ranges::find(trace.stations, peak.point, &trace::Station::name);
-  const std::string label =
-      peak.point.empty()
-          ? "published"
-          : "published at " + (point == trace.stations.end() ? peak.point : station_name(*point));
-  auto series = std::ranges::find(published, label, &Series::label);
-  if (series == published.end())
-    series = published.insert(series, {.label = label,
-                                       .style = Style::points,
-                                       .colour = 6,
-                                       .mark = looks[published.size() % looks.size()]});
-  series->add(at, peak.temperature);
+/// The ring of the bottom in which a station or an observation point lies; none of another name.
+std::optional<std::size_t> ring_of(const trace::BottomTrace& trace, const std::string& name) {
+  const auto point = std::ranges::find(trace.stations, name, &trace::Station::name);
+  if (point == trace.stations.end()) return {};
+  const std::vector<std::size_t> rings = rings_of(trace);
+  return *std::ranges::min_element(
+      rings, {}, [&](std::size_t ring) { return std::abs(trace.stations[ring].r - point->r); });
 }
 
 /// The gaps of a case that hold what a kind of pictures needs.
@@ -108,40 +99,53 @@ CasePicture picture_of_gap(const char* name, const run::GapResult& gap, Plot plo
 const Column distance_from_axis{"r", "distance from the axis, r", keys::significant(4, millimetre),
                                 "Distance from the axis."};
 
-/// The bottom of every gap at one instant, or as it is last without ignition.
+/// The bottom of every gap at one instant, or as it is last without ignition; bars go from the curves to what
+/// was published.
 Plot profile_plot(const DrawnCase& drawn, std::optional<double> time) {
   const trace::BottomTrace& trace = trace_of(drawn);
   Plot plot = titled_plot(drawn, {});
   plot.x = {.label = distance_from_axis.label(), .minimum = 0.0};
   plot.y.label = quantity::skin_temperature.label();
   plot.named_in_place = true;
-  std::vector<Series> published;
+  Series published{
+      .label = "published", .style = Style::vertical_bars, .colour = 6, .mark = Mark::open_square};
+  double spread = 0.0, least = HUGE_VAL, most = -HUGE_VAL;
   for (const run::GapResult* gap : gaps_with(has_skin, drawn)) {
     const surface::SkinHistory& skin = gap->skin;
     const std::size_t samples = samples_before_ignition(skin);
     if (samples == 0) continue;
-    const double last = skin.time[samples - 1];
-    Series& series = plot.series.emplace_back(Series{.label = centimetres(gap->gap)});
-    if (skin.ignition && time.value_or(last) >= last)
-      series.label += ", igniting at " + in_words(skin.ignition->time, quantity::time_in_titles);
+    const double last = skin.time[samples - 1], instant = time.value_or(last);
+    Series& series = plot.series.emplace_back(Series{.label = "gap " + centimetres(gap->gap)});
+    if (skin.ignition && instant >= last) series.label += " at ignition";
+    const auto place_of = [&](std::size_t ring) {
+      return shown_value(trace.stations[ring].r, distance_from_axis.form);
+    };
     for (const std::size_t ring : rings_of(trace))
-      series.add(shown_value(trace.stations[ring].r, distance_from_axis.form),
-                 surface::temperature_at_time(skin, trace, ring, std::min(time.value_or(last), last)));
+      series.add(place_of(ring), surface::temperature_at_time(skin, trace, ring, std::min(instant, last)));
+    const auto [lowest, highest] = std::ranges::minmax_element(series.y);
+    spread = std::max(spread, *highest - *lowest);
     for (const study::Peak& each : published_of(drawn, *gap)) {
-      const auto point = std::ranges::find(trace.stations, each.point, &trace::Station::name);
-      if (point != trace.stations.end() && std::abs(each.time - time.value_or(last)) < 1e-6)
-        add_published(trace, shown_value(point->r, distance_from_axis.form), each, published);
+      const auto ring = ring_of(trace, each.point);
+      if (!ring || std::abs(each.time - instant) >= 1e-6) continue;
+      const double computed = surface::temperature_at_time(skin, trace, *ring, each.time);
+      const auto [low, high] = std::minmax({computed, each.temperature});
+      published.add(place_of(*ring), each.temperature, low, high);
+      least = std::min(least, each.temperature - computed);
+      most = std::max(most, each.temperature - computed);
+      plot.subtitle =
+          fmt::format("{}; hottest: published r {}, computed r {} mm", shortened(drawn.scene.title, 50),
+                      significant(place_of(*ring), 4),
+                      significant(series.x[static_cast<std::size_t>(highest - series.y.begin())], 4));
     }
   }
-  double spread = 0.0;
-  for (const Series& series : plot.series) {
-    const auto [lowest, highest] = std::ranges::minmax(series.y);
-    spread = std::max(spread, highest - lowest);
-  }
-  plot.title =
-      fmt::format("The bottom's skin differs by up to {} K from axis to wall, {}", significant(spread, 2),
-                  time ? "at " + in_words(*time, quantity::time_in_titles) : "at the end");
-  std::ranges::move(published, std::back_inserter(plot.series));
+  const std::string from = fixed(least, 1), to = fixed(most, 1);
+  plot.title = time ? "At " + in_words(*time, quantity::time_in_titles) : "In the end";
+  plot.title += published.x.empty()
+                    ? fmt::format(" the skin differs by {}{} K from axis to wall",
+                                  plot.series.size() > 1 ? "up to " : "", significant(spread, 2))
+                    : fmt::format(" published minus computed temperatures are {} K",
+                                  from == to ? to : from + " to " + to);
+  if (!published.x.empty()) plot.series.push_back(std::move(published));
   return plot;
 }
 
@@ -165,7 +169,7 @@ Plot air_plot(const DrawnCase& drawn) {
   double highest = 0.0;
   for (const run::GapResult* gap : gaps_with(has_air, drawn)) {
     Series line = time_series("", gap->skin.time, gap->skin.air_temperature, quantity::skin_temperature);
-    line.label = centimetres(gap->gap);
+    line.label = "gap " + centimetres(gap->gap);
     line.x.resize(samples_before_ignition(gap->skin));
     line.y.resize(line.x.size());
     highest = std::max(highest, std::ranges::max(line.y));
@@ -211,9 +215,10 @@ std::string reaction_title(const DrawnCase& drawn, const run::GapResult& gap) {
 void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vector<CasePicture>& pictures) {
   const run::CombustionHistory& history = *gap.combustion;
   const auto add = [&](const char* name, std::string title, const std::string& axis,
-                       std::vector<Series> series) {
+                       std::vector<Series> series, const char* remark = "") {
     Plot plot = gap_plot(drawn, gap, "", axis);
     plot.title = std::move(title);
+    plot.subtitle += remark;
     plot.series = std::move(series);
     plot.named_in_place = true;
     pictures.push_back(picture_of_gap(name, gap, std::move(plot)));
@@ -224,11 +229,13 @@ void add_combustion(const DrawnCase& drawn, const run::GapResult& gap, std::vect
       fmt::format("Gap {}: {} burn within {} of ignition", centimetres(gap.gap),
                   in_words(history.burnt_mass.back(), keys::significant(2, gram)),
                   in_words(history.time.back() - history.time.front(), keys::significant(2, millisecond))),
-      burnt.label(), {time_series("", history.time, history.burnt_mass, burnt)});
+      burnt.label(), {time_series("", history.time, history.burnt_mass, burnt)},
+      "; a step: the skin of one more station burns");
   add("combustion_pressure",
-      fmt::format("Gap {}: burning presses with up to {}", centimetres(gap.gap),
+      fmt::format("Gap {}: the bottom's mean pressure reaches {} after ignition", centimetres(gap.gap),
                   in_words(std::ranges::max(history.pressure), keys::significant(2, megapascal))),
-      quantity::pressure.label(), {time_series("", history.time, history.pressure, quantity::pressure)});
+      headed("mean pressure of the charge's bottom", quantity::pressure).label(),
+      {time_series("", history.time, history.pressure, quantity::pressure)});
   add("combustion_reaction", reaction_title(drawn, gap), "reaction degree of the skin [1]",
       station_series(trace_of(drawn), shown_values(history.time, drawn_time()), history.reaction_degree,
                      gap.skin.ignition ? gap.skin.ignition->station : trace_of(drawn).stations.size()));
@@ -257,13 +264,25 @@ std::vector<CasePicture> history_pictures(const DrawnCase& drawn) {
     // What burns is far hotter than all before: it would set the axis.
     std::vector<double> times = shown_values(skin.time, drawn_time());
     times.resize(samples_before_ignition(skin));
-    Plot skins = gap_plot(drawn, *gap, "", quantity::skin_temperature.label());
-    for (Line& line : skins.vertical_lines) line.label.clear();  // the title says it
+    Plot skins = time_plot(drawn, "", quantity::skin_temperature.label());
     skins.series = station_series(trace_of(drawn), times, skin.temperature, gap->at_stations.station);
-    std::vector<Series> published;
-    for (const study::Peak& each : published_of(drawn, *gap))
-      add_published(trace_of(drawn), shown_value(each.time, drawn_time().form), each, published);
-    std::ranges::move(published, std::back_inserter(skins.series));
+    constexpr std::array<Mark, 2> marks{Mark::open_square, Mark::open_circle};
+    const std::vector<study::Peak> peaks = published_of(drawn, *gap);
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const auto& [temperature, time, point] = peaks[i];
+      Series published{.label = point.empty() ? "published" : "published at " + point,
+                       .x = {shown_value(time, drawn_time().form)},
+                       .y = {temperature},
+                       .style = Style::points,
+                       .colour = 6,
+                       .mark = marks[i % marks.size()]};
+      if (const auto ring = ring_of(trace_of(drawn), point)) {
+        const double above = temperature - surface::temperature_at_time(skin, trace_of(drawn), *ring, time);
+        published.label += fmt::format(": {} {} {} K", trace_of(drawn).name_of(*ring),
+                                       above < 0.0 ? "-" : "+", fixed(std::abs(above), 1));
+      }
+      skins.series.push_back(std::move(published));
+    }
     const double ignition = drawn.scene.charge().kinetics.ignition_temperature;
     skins.horizontal_lines = {{ignition, "ignites at " + in_words(ignition, keys::significant(4, kelvin))}};
     Plot plot = titled_plot(drawn, history_title(drawn, *gap));

@@ -2,6 +2,8 @@
 #include "case_pictures_parts.hpp"
 #include "launchsafe/scene/plan.hpp"
 
+#include <span>
+
 namespace launchsafe::report::detail {
 namespace {
 
@@ -16,11 +18,15 @@ bool is_charge(const DrawnCase& drawn, int body) {
 /// Six digits of a field, in the unit in which people read it.
 keys::Form form_of(const Field& field) { return keys::significant(6, field.shown); }
 
+bool is_burnt_share(const Field& field) { return field.values == &run::Snapshot::burnt_share; }
+
+/// Nothing where the body has not got the field, and where nothing has burnt.
 double value_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot, std::size_t i) {
-  if (!has_field(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])], field))
-    return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double>& values = values_of(shot, field);
-  return values.empty() ? 0.0 : shown_value(values[i], form_of(field));
+  const bool has_it =
+      !values.empty() && !(is_burnt_share(field) && values[i] == 0.0) &&
+      has_field(drawn.scene, drawn.scene.bodies[static_cast<std::size_t>(shot.body[i])], field);
+  return has_it ? shown_value(values[i], form_of(field)) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The bodies whose values share colours: stresses of a shell are many times those of its charge.
@@ -42,23 +48,26 @@ std::vector<ScaleGroup> scale_groups(const DrawnCase& drawn, const Field& field)
 /// Values with the lengths of their cells.
 using Lengths = std::vector<std::pair<double, double>>;
 
-/// Where 98 % of the length is that has not 0, as most has of what burns. By number, small cells at a corner
-/// would leave one colour for all others; by area, the bottom would be beyond.
+constexpr double little = 0.1;  // of a range, by which more belongs to it
+
+/// Where 98 % of the length is, and what is little beyond. By number, small cells at a corner would leave one
+/// colour for all others; by area, the bottom would be beyond.
 std::pair<double, double> common_range(Lengths lengths) {
   if (lengths.empty()) return {0.0, 0.0};
   std::ranges::sort(lengths);
   double whole = 0.0;
-  for (const auto& [value, length] : lengths) whole += value == 0.0 ? 0.0 : length;
+  for (const auto& [value, length] : lengths) whole += length;
   const auto first_within = [cut = 0.01 * whole](auto begin, auto end) {
     double sum = 0.0;
     return std::find_if(begin, end, [&](const auto& each) { return (sum += each.second) > cut; })->first;
   };
   const double low = first_within(lengths.begin(), lengths.end()),
-               high = first_within(lengths.rbegin(), lengths.rend());
-  return low < high ? std::pair(low, high) : std::pair(lengths.front().first, lengths.back().first);
+               high = first_within(lengths.rbegin(), lengths.rend()), more = little * (high - low);
+  const auto value = &Lengths::value_type::first;
+  return {std::ranges::lower_bound(lengths, low - more, {}, value)->first,
+          std::prev(std::ranges::upper_bound(lengths, high + more, {}, value))->first};
 }
 
-/// Of one snapshot: what others have, before or while it burns, would leave one colour for it.
 std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
   std::vector<ColourScale> scales;
   for (const ScaleGroup& group : scale_groups(drawn, field)) {
@@ -71,9 +80,25 @@ std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, c
     const auto [minimum, maximum] = common_range(std::move(lengths));
     scales.push_back({fmt::format("{}: {} [{}]", group.name, field.meaning,
                                   field.shown.name.empty() ? "1" : field.shown.name),
-                      minimum, maximum});
+                      is_burnt_share(field) ? 0.0 : minimum, maximum});
   }
   return scales;
+}
+
+/// Of all snapshots of one instant, so that what burns is compared with what does not: what others have,
+/// before or later, would leave one colour for it.
+std::vector<ColourScale> shared_scales(const DrawnCase& drawn, const Field& field,
+                                       const ShownSnapshot& shown) {
+  std::vector<ColourScale> shared = scales_of(drawn, field, *shown.snapshot);
+  for (const ShownSnapshot& each : shown_snapshots(drawn)) {
+    if (!is_of_time(each, shown.time())) continue;
+    const std::vector<ColourScale> scales = scales_of(drawn, field, *each.snapshot);
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+      shared[i].minimum = std::min(shared[i].minimum, scales[i].minimum);
+      shared[i].maximum = std::max(shared[i].maximum, scales[i].maximum);
+    }
+  }
+  return shared;
 }
 
 // --- outlines ---
@@ -117,28 +142,38 @@ std::vector<Place> edge_of(const run::Snapshot& shot, const BodyCells& cells, bo
 
 // --- pictures ---
 
-/// Around the charge's bottom, of a shell so slender that its cells there are hard to see; of a field that is
-/// 0 nearly everywhere, as far from the axis as it is not.
-std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const Field& field,
-                                          const run::Snapshot& shot) {
-  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62, margin = 1.2;
-  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL, reach = 0;
+/// Around the charge's bottom, of a shell so slender that its cells there are hard to see.
+std::optional<Enlargement> enlargement_of(const DrawnCase& drawn, const run::Snapshot& shot) {
+  constexpr double slender = 1.5, length_over_radius = 2.4, share_before_bottom = 0.62;
+  double begin = HUGE_VAL, end = -HUGE_VAL, radius = 0, bottom = -HUGE_VAL;
   for (std::size_t i = 0; i < shot.x.size(); ++i) {
     const double right = shot.x[i] + shot.half_length_x[i];
     begin = std::min(begin, shot.x[i] - shot.half_length_x[i]);
     end = std::max(end, right);
     radius = std::max(radius, shot.r[i] + shot.half_length_r[i]);
     if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, right);
-    const double value = value_of(drawn, field, shot, i);
-    if (std::isfinite(value) && value != 0.0)
-      reach = std::max(reach, margin * (shot.r[i] + shot.half_length_r[i]));
   }
-  radius = std::min(radius, reach);
   const double length = length_over_radius * radius;
-  if (!std::isfinite(bottom) || !(length > 0.0) || end - begin < slender * length) return {};
+  if (!std::isfinite(bottom) || end - begin < slender * length) return {};
   const double from = std::clamp(bottom - share_before_bottom * length, begin, end - length);
-  return Enlargement{"At the bottom of the charge", millimetres * from, millimetres * (from + length),
-                     millimetres * radius};
+  return Enlargement{millimetres * from, millimetres * (from + length), millimetres * radius};
+}
+
+constexpr double beside = 1.2;  // of what is to be seen, so far a window reaches
+
+/// Around the cells with a value, where few have one.
+Enlargement window_of(const std::vector<FieldCell>& cells) {
+  Enlargement window{HUGE_VAL, -HUGE_VAL, 0.0, true};
+  for (const FieldCell& cell : cells) {
+    if (std::isnan(cell.value)) continue;
+    window.x_begin = std::min(window.x_begin, cell.x - cell.half_x);
+    window.x_end = std::max(window.x_end, cell.x + cell.half_x);
+    window.r_end = std::max(window.r_end, beside * (cell.r + cell.half_r));
+  }
+  const double depth = window.x_end - window.x_begin;
+  window.x_begin -= depth;
+  window.x_end += depth;
+  return window;
 }
 
 std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, const run::Snapshot& shot) {
@@ -185,89 +220,123 @@ std::string name_of(const ShownSnapshot& shown) {
 /// In a picture of temperatures before anything burns, the largest gap whose skin is known then and does not
 /// burn yet.
 const run::GapResult* skin_in(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
-  const double time = shown.snapshot->time;
+  const run::Snapshot& shot = *shown.snapshot;
   const run::GapResult* largest = nullptr;
-  if (field.values != &run::Snapshot::temperature || shown.gap) return largest;
+  const bool has_bottom = shot.bottom_x.size() == 2 * rings_of(drawn.result.mechanics.trace).size();
+  if (field.values != &run::Snapshot::temperature || shown.gap || !has_bottom) return largest;
   for (const run::GapResult& gap : drawn.result.gaps)
-    if (has_skin(drawn, gap) && !(gap.skin.ignition && gap.skin.ignition->time <= time) &&
+    if (has_skin(drawn, gap) && !(gap.skin.ignition && gap.skin.ignition->time <= shot.time) &&
         (largest == nullptr || gap.gap > largest->gap))
       largest = &gap;
   return largest;
 }
 
-/// Adds the skin under a gap, drawn deeper than it is, in colours from the coldest cell to the hottest
-/// station: the bulk hardly warms.
-void add_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapResult& gap, CellPlot& plot) {
-  constexpr double share_of_radius = 0.06;
+/// Draws the skin under a gap alone, in colours from its coldest station to its hottest: the bulk hardly
+/// warms.
+void draw_skin(const DrawnCase& drawn, const run::Snapshot& shot, const run::GapResult& gap, CellPlot& plot) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
-  const double width = drawn.scene.surface.station_width, thickness = drawn.scene.surface.skin_thickness;
-  double bottom = -HUGE_VAL, radius = 0;
-  ColourScale scale{"temperature [K]", HUGE_VAL, -HUGE_VAL};
-  for (std::size_t i = 0; i < shot.x.size(); ++i) {
-    if (is_charge(drawn, shot.body[i])) bottom = std::max(bottom, shot.x[i] + shot.half_length_x[i]);
-    radius = std::max(radius, shot.r[i]);
-    plot.cells[i].scale = 0;
-    scale.minimum = std::min(scale.minimum, plot.cells[i].value);
-    scale.maximum = std::max(scale.maximum, plot.cells[i].value);
+  const double half_depth = 0.5 * drawn.scene.surface.skin_thickness;
+  double bulk = -HUGE_VAL;
+  for (FieldCell& cell : plot.cells) {
+    bulk = std::max(bulk, cell.value);
+    cell.value = std::numeric_limits<double>::quiet_NaN();
   }
-  const double bulk = scale.maximum, half_depth = 0.5 * share_of_radius * radius;
-  double hottest_r = 0.0;
-  for (const std::size_t ring : rings_of(trace)) {
-    const double temperature = surface::temperature_at_time(gap.skin, trace, ring, shot.time);
-    plot.cells.push_back({millimetres * (bottom - half_depth), millimetres * trace.stations[ring].r,
-                          millimetres * half_depth, millimetres * 0.5 * width, temperature});
-    if (temperature > scale.maximum) hottest_r = trace.stations[ring].r;
-    scale.maximum = std::max(scale.maximum, temperature);
+  std::vector<FieldCell> skin;
+  for (std::size_t station = 0; station < trace.stations.size(); ++station) {
+    if (trace.stations[station].observation) continue;
+    const std::size_t begin = 2 * skin.size(), end = begin + 1;
+    skin.push_back({millimetres * (0.5 * (shot.bottom_x[begin] + shot.bottom_x[end]) - half_depth),
+                    millimetres * 0.5 * (shot.bottom_r[begin] + shot.bottom_r[end]), millimetres * half_depth,
+                    millimetres * 0.5 * std::abs(shot.bottom_r[end] - shot.bottom_r[begin]),
+                    surface::temperature_at_time(gap.skin, trace, station, shot.time)});
   }
-  plot.scales = {scale};
-  plot.title = fmt::format(
-      "Gap {} at {}: the skin has up to {}, at r {}, all behind it at most {}", centimetres(gap.gap),
-      in_words(shot.time, quantity::time_in_titles), in_words(scale.maximum, keys::fixed(0, kelvin)),
-      in_words(hottest_r, keys::significant(3, millimetre)), in_words(bulk, keys::fixed(0, kelvin)));
-  plot.subtitle += fmt::format("; the skin, {} deep, is drawn {} times as deep",
-                               in_words(thickness, keys::significant(2, millimetre)),
-                               significant(2.0 * half_depth / thickness, 2));
+  const auto [coldest, hottest] = std::ranges::minmax(skin, {}, &FieldCell::value);
+  std::ranges::move(skin, std::back_inserter(plot.cells));
+  const auto in_kelvin = [](double value) { return in_words(value, keys::fixed(0, kelvin)); };
+  plot.scales = {{"temperature of the skin [K]", coldest.value, hottest.value}};
+  plot.without_value = "at most " + in_kelvin(bulk);
+  plot.title = fmt::format("Gap {} at {}: the skin has {} to {}, all behind it at most {}",
+                           centimetres(gap.gap), in_words(shot.time, quantity::time_in_titles),
+                           fixed(coldest.value, 0), in_kelvin(hottest.value), in_kelvin(bulk));
 }
 
-/// Where it is highest, in the charge or in the bodies that have the field.
-std::string finding_of(const CellPlot& plot, const Field& field, const char* bodies) {
-  const auto value = [](const FieldCell& cell) {
-    return cell.scale == 0 && std::isfinite(cell.value) ? cell.value : -HUGE_VAL;
-  };
-  const FieldCell& highest = *std::ranges::max_element(plot.cells, {}, value);
-  return fmt::format("highest in the {} at x {}, r {} mm, {}{}{}", bodies, significant(highest.x, 3),
-                     significant(highest.r, 3),
-                     significant(highest.value, std::abs(highest.value) < 100.0 ? 2 : 4),
+/// The cells next to the axis of the only charge, from the nose to the bottom.
+std::span<const FieldCell> along_axis(const DrawnCase& drawn, const std::vector<FieldCell>& cells) {
+  std::span<const FieldCell> row;
+  for (const BodyCells& body : bodies_of(drawn.scene)) {
+    if (!scene::is_charge(drawn.scene, *body.body)) continue;
+    if (!row.empty()) return {};
+    row = std::span(cells).subspan(body.first, body.columns);
+  }
+  return row;
+}
+
+std::string words_of(const Field& field, double value) {
+  return fmt::format("{}{}{}", significant(value, std::abs(value) < 100.0 ? 2 : 3),
                      field.shown.name.empty() ? "" : " ", field.shown.name);
 }
 
+/// "Pressure at 18.5 ms, gap 0.04 cm burning"
+std::string subject_of(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown) {
+  const auto burns = [](const run::GapResult& gap) { return gap.combustion.has_value(); };
+  std::string subject = fmt::format("{} at {}", field.title.empty() ? field.meaning : field.title,
+                                    in_words(shown.snapshot->time, quantity::time_in_titles));
+  subject[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(subject[0])));
+  if (!shown.snapshot->events.empty()) subject += ", " + events_of(*shown.snapshot, ", ");
+  if (shown.gap) return subject + fmt::format(", gap {} burning", centimetres(*shown.gap));
+  return subject + (std::ranges::any_of(drawn.result.gaps, burns) ? ", without burning" : "");
+}
+
+/// What the colours show; `own` are those of the picture without its neighbours.
+std::string finding_of(const DrawnCase& drawn, const Field& field, const CellPlot& plot,
+                       const ColourScale& own) {
+  const auto words = [&](double value) { return words_of(field, value); };
+  if (is_burnt_share(field))
+    return fmt::format(": up to {}, nothing beyond r {} mm", plot.ring_label,
+                       significant(plot.enlargement->r_end / beside, 3));
+  const std::span<const FieldCell> row = along_axis(drawn, plot.cells);
+  const double range = plot.scales[0].maximum - plot.scales[0].minimum;
+  const auto falls = [&](const FieldCell& a, const FieldCell& b) { return b.value < a.value - 0.03 * range; };
+  if (row.empty() || row.back().value < row.front().value + 0.5 * range ||
+      row.back().value > plot.scales[0].maximum || std::ranges::adjacent_find(row, falls) != row.end())
+    return fmt::format(": mostly {} to {}, up to {}", words(own.minimum), words(own.maximum),
+                       plot.ring_label);
+  return fmt::format(" rises along the axis from {} at the nose to {} at the bottom",
+                     words(row.front().value), words(row.back().value));
+}
+
 CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnapshot& shown,
-                    const std::vector<ColourScale>& scales) {
+                    const ColourScale& own) {
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
-  plot.title = fmt::format("{} at {}", field.title.empty() ? field.meaning : field.title,
-                           in_words(shot.time, quantity::time_in_titles));
-  if (!shot.events.empty()) plot.title += ", " + events_of(shot, ", ");
-  const bool closes = drawn.scene.surface.model == scene::GapModel::closing;
-  plot.title += shown.gap                   ? fmt::format(", gap of {} burning", centimetres(*shown.gap))
-                : drawn.result.gaps.empty() ? ""
-                : closes                    ? ", without a gap"
-                                            : ", without burning";
-  plot.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(plot.title[0])));
-  plot.subtitle = shortened(drawn.scene.title, 150);
-  plot.scales = scales;
+  plot.subtitle = shortened(drawn.scene.title, 100);
+  plot.scales = shared_scales(drawn, field, shown);
   plot.cells = cells_of(drawn, field, shot);
-  plot.title += ": " + finding_of(plot, field, scale_groups(drawn, field).front().name);
   for (const BodyCells& cells : bodies_of(drawn.scene)) {
     const bool open_at_axis = cells.body->r_begin <= scene::length_tolerance(drawn.scene);
     plot.outlines.push_back({edge_of(shot, cells, open_at_axis), open_at_axis});
   }
-  plot.enlargement = enlargement_of(drawn, field, shot);
-  const bool grey =
-      std::ranges::any_of(plot.cells, [](const FieldCell& cell) { return std::isnan(cell.value); });
-  const auto groups = scale_groups(drawn, field);
-  if (const run::GapResult* skin = skin_in(drawn, field, shown)) add_skin(drawn, shot, *skin, plot);
-  if (grey) plot.without_value = groups.size() == 1 && groups[0].charges ? "not a charge" : "without it";
+  if (std::ranges::any_of(plot.cells, [](const FieldCell& cell) { return std::isnan(cell.value); }))
+    plot.without_value = is_burnt_share(field) ? "nothing burns" : "without it";
+  const run::GapResult* skin = skin_in(drawn, field, shown);
+  if (skin != nullptr) draw_skin(drawn, shot, *skin, plot);
+  plot.enlargement =
+      skin != nullptr || is_burnt_share(field) ? window_of(plot.cells) : enlargement_of(drawn, shot);
+  const auto value = [](const FieldCell& cell) {
+    return cell.scale == 0 && std::isfinite(cell.value) ? cell.value : -HUGE_VAL;
+  };
+  const auto highest = std::ranges::max_element(plot.cells, {}, value);
+  plot.ringed = static_cast<std::size_t>(highest - plot.cells.begin());
+  plot.ring_label = words_of(field, highest->value);
+  if (skin == nullptr) {
+    plot.title = subject_of(drawn, field, shown) + finding_of(drawn, field, plot, own);
+    if (!shown.gap && !drawn.result.gaps.empty())
+      plot.subtitle += drawn.scene.surface.model == scene::GapModel::closing ? "; without a gap"
+                                                                             : "; the same for every gap";
+  }
+  plot.subtitle +=
+      fmt::format("; ring: highest in the {}, x {}, r {} mm", scale_groups(drawn, field).front().name,
+                  significant(highest->x, 4), significant(highest->r, 3));
   return plot;
 }
 
@@ -317,10 +386,10 @@ std::vector<CasePicture> field_pictures(const DrawnCase& drawn) {
   for (const Field& field : run::snapshot_fields()) {
     if (!field.drawn || scale_groups(drawn, field).empty()) continue;
     for (const ShownSnapshot& each : chosen_snapshots(drawn)) {
-      const std::vector<ColourScale> scales = scales_of(drawn, field, *each.snapshot);
-      if (varies(scales) || skin_in(drawn, field, each) != nullptr)
+      const std::vector<ColourScale> own = scales_of(drawn, field, *each.snapshot);
+      if (varies(own) || skin_in(drawn, field, each) != nullptr)
         pictures.push_back({fmt::format("field_{}{}.svg", field.name, name_of(each)),
-                            field_plot(drawn, field, each, scales), each.snapshot->time, each.gap});
+                            field_plot(drawn, field, each, own.front()), each.snapshot->time, each.gap});
     }
   }
   return pictures;

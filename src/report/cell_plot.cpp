@@ -77,11 +77,11 @@ constexpr double below_axis = 66, above_enlarged = 58;
 /// A window of the section and where it is on the page.
 struct CellPanel {
   double x_begin = 0, x_end = 0, r_begin = 0, r_end = 0;  ///< mm
-  double scale = 0;                                       ///< pixels per mm
+  double scale_x = 0, scale_r = 0;                        ///< pixels per mm
   double top = 0;                                         ///< pixels
 
-  double width() const { return scale * (x_end - x_begin); }
-  double height() const { return scale * (r_end - r_begin); }
+  double width() const { return scale_x * (x_end - x_begin); }
+  double height() const { return scale_r * (r_end - r_begin); }
   double bottom() const { return top + height(); }
 };
 
@@ -91,7 +91,7 @@ double drawing_width(const CellPlot& plot) {
 }
 
 CellPanel whole_section(const CellPlot& plot) {
-  CellPanel panel{HUGE_VAL, -HUGE_VAL, 0, 0, 0, page_top};
+  CellPanel panel{HUGE_VAL, -HUGE_VAL, 0, 0, 0, 0, page_top};
   for (const FieldCell& cell : plot.cells) {
     panel.x_begin = std::min(panel.x_begin, cell.x - cell.half_x);
     panel.x_end = std::max(panel.x_end, cell.x + cell.half_x);
@@ -103,31 +103,27 @@ CellPanel whole_section(const CellPlot& plot) {
   panel.x_end += margin;
   panel.r_end += margin;
   panel.r_begin = -panel.r_end;
-  panel.scale =
+  panel.scale_x = panel.scale_r =
       std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), most_whole_height / (2.0 * panel.r_end));
   return panel;
 }
 
-CellPanel enlarged_section(const CellPlot& plot, const CellPanel& whole) {
+CellPanel enlarged_section(const CellPlot& plot, double top) {
   const Enlargement& part = *plot.enlargement;
   const double margin = edge_margin * (part.x_end - part.x_begin);
-  CellPanel panel{part.x_begin,
-                  part.x_end + margin,
-                  0,
-                  part.r_end + margin,
-                  0,
-                  whole.bottom() + below_axis + above_enlarged};
-  panel.scale = std::min(drawing_width(plot) / (panel.x_end - panel.x_begin), enlarged_height / panel.r_end);
+  CellPanel panel{part.x_begin, part.x_end + margin, 0, part.r_end + margin, 0, 0, top};
+  panel.scale_x = drawing_width(plot) / (panel.x_end - panel.x_begin);
+  panel.scale_r = enlarged_height / panel.r_end;
+  if (!part.alone) panel.scale_x = panel.scale_r = std::min(panel.scale_x, panel.scale_r);
   return panel;
 }
 
 // --- data ---
 
-/// Whether the last colour would mislead.
-bool is_beyond(const CellPlot& plot, const FieldCell& cell) {
+/// 1 for a value above the colours of its scale, -1 for one below, else 0, also without a value.
+int beyond(const CellPlot& plot, const FieldCell& cell) {
   const ColourScale& scale = plot.scales[cell.scale];
-  const double slack = 0.1 * (scale.maximum - scale.minimum);
-  return cell.value < scale.minimum - slack || cell.value > scale.maximum + slack;
+  return cell.value > scale.maximum ? 1 : cell.value < scale.minimum ? -1 : 0;
 }
 
 /// Bounds of a cell in a panel and its value; empty where it lies outside.
@@ -156,32 +152,22 @@ void add_cells(const CellPlot& plot, const CellPanel& panel, const std::string& 
   if (!lines.empty()) commands.add(name, lines, how);
 }
 
-std::string path_lines(const std::vector<Place>& path, double side) {
+/// Closed where it does not lie on the axis.
+std::string path_lines(const Outline& outline) {
   std::string lines;
-  for (const Place& place : path) lines += fmt::format("{} {}\n", exact(place.x), exact(side * place.r));
+  const auto add = [&](const Place& place) {
+    lines += fmt::format("{} {}\n", exact(place.x), exact(place.r));
+  };
+  std::ranges::for_each(outline.path, add);
+  if (!outline.path.empty() && !outline.open_at_axis) add(outline.path.front());
   return lines;
-}
-
-/// One line around a body that lies on the axis, else one on each side of it.
-std::string outline_lines(const Outline& outline, bool mirrored) {
-  if (outline.path.empty()) return {};
-  std::string lines = path_lines(outline.path, 1.0);
-  const std::string start = path_lines({outline.path.front()}, 1.0);
-  if (!outline.open_at_axis) {
-    lines += start;
-    return mirrored ? lines + "\n" + path_lines(outline.path, -1.0) + path_lines({outline.path.front()}, -1.0)
-                    : lines;
-  }
-  if (!mirrored) return lines;
-  std::vector<Place> back(outline.path.rbegin(), outline.path.rend());
-  return lines + path_lines(back, -1.0) + start;
 }
 
 // --- commands ---
 
 /// Distances from the axis, on both sides of it.
 std::string radius_marks(const CellPanel& panel) {
-  const double distance = round_distance(34 / panel.scale);
+  const double distance = round_distance(34 / panel.scale_r);
   std::string marks = "\"0\" 0";
   for (double r = distance; r <= panel.r_end * (1.0 + 1e-9); r += distance)
     for (const double place : {r, -r})
@@ -206,24 +192,28 @@ constexpr std::string_view filled_boxes = "with boxxyerror fillstyle solid 1.0 n
 constexpr const char* coloured =
     "set palette defined (0 '#485c9e', 1 '#317ea1', 2 '#2aa094', 3 '#5cc06e', 4 '#a8db44', 5 '#f6e63c')\n";
 
-/// Range and look of a scale; its bar stands beside the whole section.
-std::string scale_commands(const ColourScale& scale, std::size_t index, const CellPanel& whole,
+/// Range and look of a scale; its bar stands beside the first panel.
+std::string scale_commands(const ColourScale& scale, std::size_t index, const CellPanel& first,
                            double page_height) {
   const double widened = scale.minimum < scale.maximum ? 0.0 : std::max(1.0, 1e-3 * std::abs(scale.maximum));
-  const double left = page_left + whole.width() + before_bars + bar_distance * static_cast<double>(index);
+  const double left = page_left + first.width() + before_bars + bar_distance * static_cast<double>(index);
   return fmt::format(
       "{}set cbrange [{}:{}]\nset cblabel {} offset 1.5, 0\n"
       "set colorbox vertical user origin screen {}, screen {} size screen {}, screen {}\n",
       index == 0 ? coloured : "set palette defined (0 '#f4f4f4', 1 '#4a4a4a')\n",
       exact(scale.minimum - widened), exact(scale.maximum + widened), quoted(scale.label),
-      exact(left / cell_page_width), exact(1.0 - whole.bottom() / page_height),
-      exact(bar_width / cell_page_width), exact(whole.height() / page_height));
+      exact(left / cell_page_width), exact(1.0 - first.bottom() / page_height),
+      exact(bar_width / cell_page_width), exact(first.height() / page_height));
 }
 
-/// The cells of one scale, without axes.
+/// The cells of one scale, without axes; those without a value below the first.
 std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel& panel,
                         const std::string& name) {
   Commands commands;
+  if (scale == 0)
+    add_cells(
+        plot, panel, name + "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
+        fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes), commands);
   add_cells(
       plot, panel, fmt::format("{}_cells{}", name, scale),
       [scale](const FieldCell& cell) { return cell.scale == scale && std::isfinite(cell.value); },
@@ -231,40 +221,54 @@ std::string scale_cells(const CellPlot& plot, std::size_t scale, const CellPanel
   return commands.text();
 }
 
-/// Cells without a value, and the edges of bodies over all cells.
+/// Cells beyond the colours, in two that the colour-blind too tell from them; over all cells the edges of
+/// bodies, on both sides of the axis.
 std::string outline_commands(const CellPlot& plot, const CellPanel& panel, const std::string& name) {
   Commands commands;
-  add_cells(
-      plot, panel, name + "_grey", [](const FieldCell& cell) { return !std::isfinite(cell.value); },
-      fmt::format("1:2:3:4:5:6 {} rgb '#d0d0d0' notitle", filled_boxes), commands);
-  add_cells(
-      plot, panel, name + "_beyond", [&plot](const FieldCell& cell) { return is_beyond(plot, cell); },
-      fmt::format("1:2 with points pointtype 2 pointsize {0} linewidth 3.5 linecolor rgb '#ffffff' notitle, "
-                  "${1}_beyond using 1:2 with points pointtype 2 pointsize {0} linewidth 1.5 linecolor rgb "
-                  "'#c0003c' notitle",
-                  name == "part" ? 0.9 : 0.5, name),
-      commands);
-  for (std::size_t i = 0; i < plot.outlines.size(); ++i)
-    commands.add(fmt::format("{}_outline{}", name, i), outline_lines(plot.outlines[i], panel.r_begin < 0.0),
-                 "1:2 with lines linewidth 1.2 linecolor rgb '#111111' notitle");
+  for (const int side : {1, -1})
+    add_cells(
+        plot, panel, name + (side > 0 ? "_above" : "_below"),
+        [&](const FieldCell& cell) { return beyond(plot, cell) == side; },
+        fmt::format("1:2:3:4:5:6 {} rgb '{}' notitle", filled_boxes, side > 0 ? "#d55e00" : "#cc79a7"),
+        commands);
+  constexpr std::string_view look = "with lines linewidth 1.2 linecolor rgb '#111111' notitle";
+  for (std::size_t i = 0; i < plot.outlines.size(); ++i) {
+    const std::string data = fmt::format("{}_outline{}", name, i);
+    commands.add(data, path_lines(plot.outlines[i]),
+                 fmt::format("1:2 {}, ${} using 1:(-$2) {}", look, data, look));
+  }
   return commands.text();
 }
 
-/// The axis of symmetry, to beyond the base, where its name stands; on white, so that every colour shows it.
-std::string axis_line(const CellPanel& panel) {
+/// A ring around a cell and its value beside it, away from the axis or from the wall, on white.
+std::string ring_commands(const CellPlot& plot, const CellPanel& panel) {
+  const FieldCell& cell = plot.cells[plot.ringed];
+  if (plot.ring_label.empty()) return {};
   return fmt::format(
-      "set arrow 1 from first {0}, first 0 to first {1}, first 0 nohead front linewidth 3.5 linecolor rgb "
-      "'#ffffff'\nset arrow 2 from first {0}, first 0 to first {1}, first 0 nohead front linewidth 1.6 "
-      "dashtype (16, 4, 3, 4) linecolor rgb '#b23a48'\n"
-      "set label 3 'axis' at first {1}, first 0 left offset 0.3, 0 font ',12' textcolor rgb '#b23a48'\n",
-      exact(panel.x_begin), exact(panel.x_end + 14.0 / panel.scale));
+      "set style textbox opaque fillcolor rgb '#ffffff' noborder\n"
+      "set label {} at first {}, first {} left offset 1.8, {} boxed front point pointtype 6 pointsize 1.6 "
+      "linewidth 2 linecolor rgb '#111111'\n",
+      quoted(plot.ring_label), exact(cell.x), exact(cell.r), cell.r < 0.5 * panel.r_end ? 0.9 : -0.9);
 }
 
-std::string page_text(const CellPlot& plot) {
+/// The axis of symmetry, beyond the base alone, where it hides no cell.
+std::string axis_line(const CellPanel& panel) {
+  return fmt::format(
+      "set arrow 1 from first {0}, first 0 to first {1}, first 0 nohead front linewidth 1.2 linecolor rgb "
+      "'#b23a48'\n"
+      "set label 3 'axis' at first {1}, first 0 left offset 0.3, 0 font ',12' textcolor rgb '#b23a48'\n",
+      exact(panel.x_end), exact(panel.x_end + 14.0 / panel.scale_x));
+}
+
+std::string page_text(const CellPlot& plot, const CellPanel& first) {
   std::string small = plot.subtitle;
   if (!plot.without_value.empty()) small += "; grey: " + plot.without_value;
-  if (std::ranges::any_of(plot.cells, [&](const FieldCell& cell) { return is_beyond(plot, cell); }))
-    small += "; crosses: beyond the colours";
+  for (const int side : {1, -1})
+    if (std::ranges::any_of(plot.cells, [&](const auto& cell) { return beyond(plot, cell) == side; }))
+      small += side > 0 ? "; orange: above the colours" : "; pink: below the colours";
+  if (plot.enlargement && plot.enlargement->alone)
+    small += fmt::format("; x, towards the base, is stretched {} times",
+                         significant(first.scale_x / first.scale_r, 2));
   return fmt::format(
       "set label 1 {} at screen {}, graph 1 offset 0, character 3.2 font ',17'\n"
       "set label 2 {} at screen {}, graph 1 offset 0, character 1.4 font ',13' textcolor rgb '#444444'\n",
@@ -294,32 +298,34 @@ std::string unfit(const CellPlot& plot) {
 }
 
 std::string to_gnuplot(const CellPlot& plot) {
-  const CellPanel whole = whole_section(plot);
+  const bool alone = plot.enlargement && plot.enlargement->alone;
+  const CellPanel first = alone ? enlarged_section(plot, page_top) : whole_section(plot);
   std::optional<CellPanel> enlarged;
-  if (plot.enlargement) enlarged = enlarged_section(plot, whole);
-  const double height = std::ceil((enlarged ? enlarged->bottom() : whole.bottom()) + below_axis);
+  if (plot.enlargement && !alone)
+    enlarged = enlarged_section(plot, first.bottom() + below_axis + above_enlarged);
+  const double height = std::ceil((enlarged ? enlarged->bottom() : first.bottom()) + below_axis);
   const auto cells_in = [&](const CellPanel& panel, const std::string& name) {
     std::string text = panel_range(panel, height) + std::string(without_axes);
     for (std::size_t i = 0; i < plot.scales.size(); ++i) {
-      text += scale_commands(plot.scales[i], i, whole, height);
-      if (name != "whole") text += "unset colorbox\n";
+      text += scale_commands(plot.scales[i], i, first, height);
+      if (name == "part") text += "unset colorbox\n";
       text += scale_cells(plot, i, panel, name);
     }
     return text + "unset colorbox\n" + std::string(with_axes) +
            fmt::format("set xtics nomirror out scale 0.6 {}\nset ytics nomirror out scale 0.6 ({})\n",
-                       exact(round_distance(70 / panel.scale)), radius_marks(panel));
+                       exact(round_distance(70 / panel.scale_x)), radius_marks(panel));
   };
   std::string text =
       page_commands(cell_page_width, height) +
       "set tics nomirror out scale 0.6 textcolor rgb '#222222'\nset format '%g'\nunset key\nset multiplot\n";
-  text +=
-      cells_in(whole, "whole") + page_text(plot) + axis_line(whole) + outline_commands(plot, whole, "whole");
+  text += cells_in(first, "whole") + page_text(plot, first) + axis_line(first) + ring_commands(plot, first) +
+          outline_commands(plot, first, "whole");
   if (enlarged) {
-    text += "unset label\nunset arrow\n" + cells_in(*enlarged, "part");
+    text += "unset arrow\nunset label\n" + cells_in(*enlarged, "part");
     text += fmt::format("set label 1 {} at graph 0, graph 1 offset 0, character 1.2 font ',15'\n",
-                        quoted(fmt::format("{}, enlarged {} times", plot.enlargement->label,
-                                           significant(enlarged->scale / whole.scale, 2))));
-    text += outline_commands(plot, *enlarged, "part");
+                        quoted(fmt::format("At the bottom of the charge, enlarged {} times",
+                                           significant(enlarged->scale_x / first.scale_x, 2))));
+    text += ring_commands(plot, *enlarged) + outline_commands(plot, *enlarged, "part");
   }
   return text + "unset multiplot\n";
 }

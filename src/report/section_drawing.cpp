@@ -180,7 +180,7 @@ std::string gap_elements(const Section& section, const Panel& panel) {
     if (is_charge)
       text += svg_line(panel.x(body->x_end), panel.y(body->r_begin), panel.x(body->x_end),
                        panel.y(body->r_end), gap_look) +
-              svg_text(panel.x(body->x_end), panel.top - 9, 14, "middle", gap_colour, "gap");
+              svg_text(panel.x(body->x_end) + 8, panel.top - 13, 14, "end", gap_colour, "gap, not to scale");
   return text;
 }
 
@@ -197,7 +197,7 @@ std::string load_elements(const Section& section, const Panel& panel) {
     text += svg_line(tip, y, tip + length, y, load_look);
     for (const double side : {-head, head}) text += svg_line(tip, y, tip + head, y + side, load_look);
   }
-  return text + svg_text(tip + length, panel.top - 26, 14, "end", load_colour, "chamber pressure");
+  return text + svg_text(tip + length, panel.top - 30, 14, "end", load_colour, "chamber pressure");
 }
 
 /// On white, so that the edges of bodies do not fill its gaps.
@@ -377,9 +377,10 @@ std::string section_svg(const scene::Scene& scene) {
   const scene::CellRange cells = scene::cells_of(scene);
   double bottom = 88;
   std::string text = svg_text(margin, 44, 21, "start", ink, scene.title.empty() ? "grid" : scene.title);
-  text += svg_text(margin, 68, 14, "start", soft_ink,
-                   fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr,
-                               plan.particles(), scene::time_text(plan.time_step)));
+  text += svg_text(
+      margin, 68, 14, "start", soft_ink,
+      fmt::format("{} x {} cells, {} particles; time step {} at rest", cells.nx, cells.nr, plan.particles(),
+                  in_words(plan.time_step, keys::significant(3, {keys::Dimension::time, "µs"}))));
   text += legend_elements(section, bottom);
   bottom += 46;
   text += panels(section, bottom);

@@ -80,9 +80,10 @@ TEST(SectionDrawing, IsToScale) {
 TEST(SectionDrawing, NamesBodiesPointsAxesAndTheAxisOfSymmetry) {
   scene::Scene scene = stout_scene();
   const std::string svg = section_svg(scene);
-  for (const char* part : {">a small shell<", ">nose (steel)<", ">charge<", ">wall (steel)<",
-                           ">base (steel)<", ">S1<", ">G1<", ">G2<", ">G3<", ">gap<", ">chamber pressure<",
-                           ">x [mm]<", ">r [mm]<", ">axis of symmetry<", ">40<", ">20<"})
+  for (const char* part :
+       {">a small shell<", ">nose (steel)<", ">charge<", ">wall (steel)<", ">base (steel)<", ">S1<", ">G1<",
+        ">G2<", ">G3<", ">gap, not to scale<", ">chamber pressure<", ">x [mm]<", ">r [mm]<",
+        ">axis of symmetry<", ">40<", ">20<"})
     EXPECT_EQ(count_of(svg, part) > 0, true) << part;
   EXPECT_EQ(count_of(svg, "class=\"symmetry\""), 1u);
   scene.symmetry = scene::Symmetry::plane_strain;

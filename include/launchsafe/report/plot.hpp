@@ -111,8 +111,7 @@ struct FieldCell {
 /// What colours mean.
 struct ColourScale {
   std::string label;  ///< of the colour bar, with its unit
-  /// Equal ones are drawn as a range around the value. Cells beyond have the last
-  /// colour, those by more than a tenth of the range a cross too.
+  /// Equal ones are drawn as a range around the value. Cells above are orange, cells below pink.
   double minimum = 0, maximum = 0;
 };
 
@@ -126,11 +125,13 @@ struct Outline {
   bool open_at_axis = false;
 };
 
-/// A part of the section on one side of the axis, drawn again below the whole at a larger scale.
+/// A part of the section on one side of the axis, at the bottom of the charge, drawn again below the whole at
+/// a larger scale.
 struct Enlargement {
-  std::string label;              ///< what it shows: "at the bottom of the charge"
   double x_begin = 0, x_end = 0;  ///< mm
   double r_end = 0;               ///< mm, from the axis
+  /// Whether it is all that there is to see: then it is drawn in the place of the whole, stretched along x.
+  bool alone = false;
 };
 
 /// The section is mirrored about the axis and drawn to scale, equally along x and r; so is its enlargement.
@@ -142,6 +143,8 @@ struct CellPlot {
   std::vector<FieldCell> cells;
   std::vector<Outline> outlines;
   std::optional<Enlargement> enlargement = {};
+  std::size_t ringed = 0;          ///< index of a cell in a ring
+  std::string ring_label = {};     ///< beside it, its value; without one there is no ring
   std::string without_value = {};  ///< what grey cells are, for the subtitle
 };
 
