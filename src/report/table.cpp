@@ -203,7 +203,7 @@ void share_sentences(const std::string& label, std::vector<std::string>& cells,
     for (std::string& cell : cells)
       cell.erase(cell.size() - shared.size() - (cell.size() > shared.size() ? 2 : 0));
   }
-  constexpr std::ptrdiff_t often = 3;
+  constexpr std::ptrdiff_t often = 4;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string sentence = cells[i];
     if (sentence.size() < shortest_shared_sentence || std::ranges::count(cells, sentence) < often) continue;

@@ -105,8 +105,10 @@ Tables tables_of(const toml::table& root, const std::string& name, const StudyFi
 
 std::string read_named_file(const StudyFile& study, const std::filesystem::path& folder,
                             const std::string& key, const std::string& name, const std::string& wanted) {
-  return scene::read_text_file(scene::named_file(folder, name, place_of_key(study, key), key, wanted))
-      .or_throw();
+  auto text = scene::read_text_file(scene::named_file(folder, name, place_of_key(study, key), key, wanted));
+  if (text) return std::move(*text);
+  refuse_at(study, key, fmt::format("\"{}\", {}", name, text.error().found),
+            wanted + ", by its path from this file's folder");
 }
 
 std::vector<Leaf> leaves_as_written(const toml::table& table) {

@@ -45,8 +45,9 @@ model_form_uncertainty = { value = "1 K", because = "for a test" }
 
 /// A pulse as a gun makes it, in ms and MPa.
 const std::string sound_curve =
-    "time_ms,pressure_MPa\n0,0\n3,5\n5,40\n7,200\n9,400\n11,496\n13,410\n15,250\n16,170\n17,105\n18,60\n20,"
-    "16\n23,2\n";
+    // Points beside the peak show that nothing was missed between coarse ones.
+    "time_ms,pressure_MPa\n0,0\n3,5\n5,40\n7,200\n9,400\n10.9,491.2\n11,496\n11.1,491.7\n13,410\n15,250\n16,"
+    "170\n17,105\n18,60\n20,16\n23,2\n";
 
 struct Edit {
   std::string file, from, to;

@@ -116,16 +116,16 @@ TEST(Table, ASentenceThatAllRowsShareStandsOnceBelowIt) {
 TEST(Table, ASentenceOfSeveralRowsIsANoteBelowIt) {
   const std::string sentence =
       "extrapolated: the constants were calibrated on another launch, and it is long";
-  Table table{"", {{"gap", "gap", keys::fixed(1, centimetre)}, {"reason", "reason"}}, {}, {}};
-  for (const double gap : {0.1, 0.2}) table.rows.push_back({gap, sentence});
+  Table table{"", {{"gap", "gap", keys::significant(3, centimetre)}, {"reason", "reason"}}, {}, {}};
+  for (const double gap : {0.1, 0.2, 0.25}) table.rows.push_back({gap, sentence});
   table.rows.push_back({0.3, std::string("ignition")});
-  EXPECT_EQ(to_text(table).find("note 1"), std::string::npos) << "two rows are read in place";
+  EXPECT_EQ(to_text(table).find("note 1"), std::string::npos) << "three rows are read in place";
   table.rows.push_back({0.4, sentence});
-  EXPECT_EQ(to_text(table),
-            "gap [cm]  reason\n--------  --------\n     0.1  note 1\n     0.2  note 1\n     0.3  ignition\n  "
-            "   0.4  note 1\n\n"
-            "note 1: " +
-                sentence + "\n");
+  EXPECT_EQ(
+      to_text(table),
+      "gap [cm]  reason\n--------  --------\n     0.1  note 1\n     0.2  note 1\n    0.25  note 1\n     0.3  "
+      "ignition\n     0.4  note 1\n\nnote 1: " +
+          sentence + "\n");
 }
 
 TEST(Table, MarkdownHasItsRuleAndAlignment) {
