@@ -155,7 +155,7 @@ struct GapLines {
   Plot drawn() {
     Alike all;
     while (all.size() < values.size()) all.push_back(all.size());
-    plot.title = finding() + plot.title;
+    plot.title = finding(all) + plot.title;
     std::vector<Series> bounds;
     std::string unsafe;
     for (const Alike& group : alike(all, {&values})) {
@@ -265,15 +265,19 @@ struct GapLines {
 
   /// "Critical gap by a reservoir of air falls from 0.046 cm at 400 MPa to 0.018 cm at 550 MPa, initial
   /// temperature 336 K": the lowest of the lines that have most values.
-  std::string finding() const {
+  std::string finding(const Alike& all) const {
     const std::size_t best = study::places_by(values.size(), [&](std::size_t i) {
                                double sum = 0.0;
                                for (const double gap : values[i]) sum += std::isfinite(gap) ? gap : 0.0;
                                return std::tuple(-static_cast<double>(known_of(values[i])), sum);
                              }).front();
+    const auto has_best = [best](const Alike& group) { return std::ranges::count(group, best) > 0; };
+    const std::vector<Alike> groups = alike(all, {&values});
+    const Alike& drawn_with = *std::ranges::find_if(groups, has_best);
+    const std::vector<double>& line = values[drawn_with.front()];
     std::vector<double> known, at;
     for (std::size_t i = 0; i < along.values.size(); ++i)
-      if (std::isfinite(values[best][i])) known.push_back(values[best][i]), at.push_back(along.values[i]);
+      if (std::isfinite(line[i])) known.push_back(line[i]), at.push_back(along.values[i]);
     const char* how = std::ranges::is_sorted(known, std::greater()) ? "falls"
                       : std::ranges::is_sorted(known)               ? "rises"
                                                                     : "goes";
@@ -283,7 +287,7 @@ struct GapLines {
     // Also where the study looks at gaps that close: they have bounds of their own.
     return fmt::format("Critical gap by a reservoir of air {} from {} to {}{}", how,
                        text(known.front(), at.front()), text(known.back(), at.back()),
-                       across == nullptr ? "" : ", " + across->key.heading + " " + text_of(Alike{best}));
+                       across == nullptr ? "" : ", " + across->key.heading + " " + text_of(drawn_with));
   }
 };
 

@@ -179,6 +179,7 @@ Plot temperature_plot(const CriticalGapResult& result) {
     if (input.own_conditions) tables["comparison"] = json_rows(comparison_table(result));
     if (result.study.study.demonstration) tables["demonstration"] = true;
     Plot panel = report::verdict_plot(tables, input.scene.scene);
+    panel.height = 500;  // there is more room than on page one of a safety report
     if (result.details.size() == 1) return panel;
     panel.title = input.label + ": " + panel.title;
     if (!panel.series.empty()) plot.panels.push_back(std::move(panel));

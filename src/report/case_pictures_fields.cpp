@@ -85,22 +85,6 @@ std::vector<ColourScale> scales_of(const DrawnCase& drawn, const Field& field, c
   return scales;
 }
 
-/// Of all snapshots of one instant, so that what burns is compared with what does not: what others have,
-/// before or later, would leave one colour for it.
-std::vector<ColourScale> shared_scales(const DrawnCase& drawn, const Field& field,
-                                       const ShownSnapshot& shown) {
-  std::vector<ColourScale> shared = scales_of(drawn, field, *shown.snapshot);
-  for (const ShownSnapshot& each : shown_snapshots(drawn)) {
-    if (!is_of_time(each, shown.time())) continue;
-    const std::vector<ColourScale> scales = scales_of(drawn, field, *each.snapshot);
-    for (std::size_t i = 0; i < shared.size(); ++i) {
-      shared[i].minimum = std::min(shared[i].minimum, scales[i].minimum);
-      shared[i].maximum = std::max(shared[i].maximum, scales[i].maximum);
-    }
-  }
-  return shared;
-}
-
 // --- outlines ---
 
 /// The particles of one body in a snapshot: rows along x, from the axis outward.
@@ -310,7 +294,7 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   const run::Snapshot& shot = *shown.snapshot;
   CellPlot plot;
   plot.subtitle = shortened(drawn.scene.title, 100);
-  plot.scales = shared_scales(drawn, field, shown);
+  plot.scales = scales_of(drawn, field, shot);
   plot.cells = cells_of(drawn, field, shot);
   for (const BodyCells& cells : bodies_of(drawn.scene)) {
     const bool open_at_axis = cells.body->r_begin <= scene::length_tolerance(drawn.scene);

@@ -59,16 +59,6 @@ std::string safe_words(const Row& tables, const std::string& by_whose_air, bool 
   return fmt::format("SAFE{}, {}", by_whose_air, invented ? "in a demonstration" : "as somebody accepts");
 }
 
-/// "published after 18 ms, at another place"
-std::string published_words(const Row& comparison, const scene::Load& load) {
-  const bool is_elsewhere = std::ranges::any_of(comparison, [](const Row& row) {
-    const std::string place = text_of(row, "temperature_max_published_place");
-    return !place.empty() && place != text_of(row, "temperature_max_place");
-  });
-  return fmt::format("published after {}{}", scene::time_text(scene::read_time(load)),
-                     is_elsewhere ? ", at another place" : "");
-}
-
 /// With its bounds; where these go far beyond all other gaps the axis ends before, and words say where they
 /// do.
 void add_critical_gap(const Row& critical, Plot& plot) {
@@ -126,7 +116,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
                             {.label = "UNSAFE: ignites", .colour = vermilion, .mark = Mark::cross}),
                   corner_ignitions, corner,
                   points_of(found_in(tables, "comparison"), "temperature_max_published_K",
-                            {.label = published_words(found_in(tables, "comparison"), scene.load),
+                            {.label = "published, " + scene::time_text(scene::read_time(scene.load)),
                             .colour = black,
                             .mark = Mark::open_square})})
     if (!series.x.empty()) plot.series.push_back(std::move(series));

@@ -163,7 +163,7 @@ TEST(CasePictures, OfFieldsNameTheAxisOfSymmetryOnce) {
   EXPECT_EQ(count_of(commands, "set arrow 1 "), 1U);
 }
 
-TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndShareColoursAtOneInstant) {
+TEST(CasePictures, OfEventsAndOfWhatBurnsSayItInColoursOfTheirOwn) {
   RunScene run(cased_charge());
   auto& snapshots = run.result.mechanics.snapshots;
   ASSERT_EQ(snapshots.size(), 3U);
@@ -191,7 +191,7 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndShareColoursAtOneInstant) {
   for (const CasePicture& picture : drawn) {
     const auto& plot = std::get<CellPlot>(picture.plot);
     if (!picture.file.starts_with("field_pressure_")) continue;
-    EXPECT_EQ(plot.scales[0].maximum == 2000.0, picture.time == burning.time) << picture.file;
+    EXPECT_EQ(plot.scales[0].maximum == 2000.0, picture.gap.has_value()) << picture.file;
     if (!picture.gap) {
       EXPECT_NE(plot.title.find(", without burning"), std::string::npos) << plot.title;
       EXPECT_NE(plot.subtitle.find("; the same for every gap; ring: highest in the charge, x "),
@@ -201,7 +201,8 @@ TEST(CasePictures, OfEventsAndOfWhatBurnsSayItAndShareColoursAtOneInstant) {
     }
     EXPECT_EQ(
         plot.title,
-        "Pressure at 0.04 ms, ignition, gap 0.04 cm burning: mostly 1900 MPa to 2000 MPa, up to 2000 MPa");
+        "Pressure at 0.04 ms, ignition, gap 0.04 cm burning rises along the axis from 1900 MPa at the nose "
+        "to 2000 MPa at the bottom");
   }
 }
 

@@ -27,7 +27,7 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   EXPECT_TRUE(has(
       page,
       "Only this launch is covered, with an assumed spread of 4 % of the peak pressure, 5 % of its length "
-      "and 12 K: cracks of"))
+      "and 12 K of temperature: cracks of"))
       << "one of the two";
   EXPECT_TRUE(has(page, "The smallest critical gap found in 2 cases is 0.038"));
   EXPECT_TRUE(has(page, "In 1 of them no gap is safe"));

@@ -58,11 +58,11 @@ TEST_F(SafetyReport, PageOneTellsLoadConfidenceCoverageCalibrationProgramAndWhat
         "496 MPa peak pressure. Ignition at 526.8 K at the charge's bottom is an input, not a result.",
         "with random causes at two standard deviations, which is no rate per round, and all others at their "
         "worst",
-        "air that stays hot (reservoir, A) and by a charge that lets go and strikes the base (closing, C)",
+        "air that stays hot (reservoir, A) and by a charge that lets go of the shell and strikes its base "
+        "(closing, C)",
         "Refuse every gap, even none (0 cm)",
         // At 0.0625 cm, of its closing_shares: 408.0 K, and 2.3, -0.3 and 6.8 K.
-        "the worst instant of letting go; it ignites by that instant: else T max is at most 417 K, where "
-        "known",
+        "it ignites. Without the last of these T max is at most 417 K, where that is known",
         "Section 3 has the critical gap by the reservoir, which permits nothing either, over peak pressure "
         "250 to 700 MPa and crack radius 30 to 2000 µm; nothing else is covered.",
         "to no firing (published rows not fitted, before ignition, are missed by at most",
@@ -70,7 +70,7 @@ TEST_F(SafetyReport, PageOneTellsLoadConfidenceCoverageCalibrationProgramAndWhat
         "the largest part, 0.0052 cm, is that of: initial temperature. Next: a measurement of how the charge "
         "is "
         "held and let go, without which no gap here can become SAFE; a narrower range of temperatures",
-        "At 0.039 cm the published launch does not ignite (523 K); here it does, at 18.3 ms.",
+        "At 0.039 cm the published launch does not ignite (523 K at its end); here it does, at 18.3 ms.",
         "INDETERMINATE | 416 | 110 | 22 | ignites | not SAFE where the gap closes: C |",
         "UNSAFE | ignites |  |  | not run | ignition |"})
     EXPECT_TRUE(has(one, part)) << part << one;
@@ -317,7 +317,7 @@ TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOth
   EXPECT_TRUE(
       has(page.substr(0, page.find("## 2.")),
           "By the second it may ignite at 0 cm (closing, worst corner); this is not to say that shells do "
-          "ignite: how likely that is is not known, and no firing is in it."));
+          "ignite: how likely it would be nobody knows, and no firing is in it."));
   EXPECT_TRUE(has(page, "the base takes heat): no ignition up to 0.075 cm."));
   EXPECT_TRUE(has(page, "by both models of the gap, with the interfaces of B (nose: sliding, "));
   EXPECT_TRUE(
