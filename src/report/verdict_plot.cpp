@@ -105,7 +105,7 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
-            .height = 350,
+            .height = 335,
             .named_in_place = true};
   Row ignited = verdicts;
   std::erase_if(ignited.get_ref<Row::array_t&>(), [](const Row& row) { return !ignites(row); });

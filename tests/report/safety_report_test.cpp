@@ -62,7 +62,7 @@ TEST_F(SafetyReport, PageOneTellsLoadConfidenceCoverageCalibrationProgramAndWhat
         "(closing, C)",
         "Refuse every gap, even none (0 cm)",
         // At 0.0625 cm, of its closing_shares: 408.0 K, and 2.3, -0.3 and 6.8 K.
-        "it ignites. Without the last of these T max is at most 417 K, where that is known",
+        "it ignites. Without the last of these T max is at most 417 K, where known",
         "Section 3 has the critical gap by the reservoir, which permits nothing either, over peak pressure "
         "250 to 700 MPa and crack radius 30 to 2000 µm; nothing else is covered.",
         "to no firing (published rows not fitted, before ignition, are missed by at most",
@@ -314,10 +314,10 @@ TEST_F(SafetyReport, AProbabilityIsShownByDrawnLaunchesOfStatedSpreadsUpToTheirG
 TEST_F(SafetyReport, AGapThatClosesStandsBesideTheReservoirAndIsTheReportsOwnOtherwise) {
   const path closing = shipped("closing_gap_155mm");
   const std::string page = file_of({shipped("critical_gap_155mm"), closing}, "report.md");
-  EXPECT_TRUE(
-      has(page.substr(0, page.find("## 2.")),
-          "By the second it may ignite at 0 cm (closing, worst corner); this is not to say that shells do "
-          "ignite: how likely it would be nobody knows, and no firing is in it."));
+  EXPECT_TRUE(has(
+      page.substr(0, page.find("## 2.")),
+      "By the second it may ignite at 0 cm (closing, worst corner); this does not say that shells ignite: "
+      "how likely that is nobody knows, and no firing is in it."));
   EXPECT_TRUE(has(page, "the base takes heat): no ignition up to 0.075 cm."));
   EXPECT_TRUE(has(page, "by both models of the gap, with the interfaces of B (nose: sliding, "));
   EXPECT_TRUE(
@@ -379,7 +379,7 @@ TEST_F(SafetyReport, NoGapIsSafeBesideASweepOfGapsThatCloseAlone) {
   const std::string page = file_of({reservoir, sweep}, "report.md");
   EXPECT_TRUE(has(page, "not SAFE where the gap closes: B"));
   EXPECT_TRUE(has(page, "No computed gap has the verdict SAFE"));
-  EXPECT_TRUE(has(page, "by air that is a reservoir (A). "));
+  EXPECT_TRUE(has(page, "by a reservoir (A). "));
   EXPECT_FALSE(has(page, "the worst corner where it closes is of"));
 }
 
