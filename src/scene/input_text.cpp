@@ -164,10 +164,10 @@ std::string_view without_blanks_around(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-std::vector<std::string_view> parts_of_list(std::string_view text) {
+std::vector<std::string_view> parts_of_list(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
     parts.push_back(without_blanks_around(text.substr(begin, end - begin)));
     begin = end + 1;
   }

@@ -31,8 +31,8 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 /// Without blanks, tabs and line ends at its ends.
 std::string_view without_blanks_around(std::string_view text);
 
-/// "a, b" as its parts between commas, without blanks around them; at least one, which may be empty.
-std::vector<std::string_view> parts_of_list(std::string_view text);
+/// "a, b" as its parts between separators, without blanks around them; at least one, which may be empty.
+std::vector<std::string_view> parts_of_list(std::string_view text, char separator = ',');
 
 /// With small letters (ASCII).
 std::string lower_case(std::string_view text);
