@@ -155,42 +155,11 @@ std::size_t digits_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
 }
 
-/// Whether a comma without blanks around it may be meant as anything but the comma of a list: "0,5" and
-/// "1,25e3" may have decimals, "1,000" and "1,250.5" thousands, "1.250,5" both. "0,0.01" and "0.5,1" may not.
-bool is_ambiguous(std::string_view left, std::string_view right) {
-  const std::size_t whole = digits_of(left), decimals = digits_of(right);
-  const bool fraction_may_follow = decimals > 0 && (decimals == right.size() || right[decimals] != '.');
-  const bool may_count_thousands = whole > 0 && whole <= 3 && left[0] != '0';
-  if (whole == left.size()) return fraction_may_follow || (may_count_thousands && decimals == 3);
-  // "1.250": groups of three digits.
-  for (left.remove_prefix(whole); !left.empty(); left.remove_prefix(4))
-    if (left[0] != '.' || digits_of(left.substr(1)) < 3 || (left.size() > 4 && left[4] != '.')) return false;
-  return may_count_thousands && fraction_may_follow;
-}
-
-/// Where the number that ends before a place begins.
-std::size_t begin_of_number(std::string_view text, std::size_t end) {
-  const auto continues = [&](std::size_t i) {
-    const char c = text[i];
-    const bool sign_of_exponent =
-        (c == '-' || c == '+') && i > 0 && (text[i - 1] == 'e' || text[i - 1] == 'E');
-    return is_digit(c) || c == '.' || c == 'e' || c == 'E' || sign_of_exponent;
-  };
-  while (end > 0 && continues(end - 1)) --end;
-  return end;
-}
-
-/// Commas of a list that would silently make two numbers of what was perhaps one.
+/// Commas between two digits, which may be meant for decimals or thousands.
 std::vector<std::size_t> ambiguous_commas(std::string_view text) {
   std::vector<std::size_t> found;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos;
-       comma = text.find(',', comma + 1)) {
-    const std::size_t begin = begin_of_number(text, comma),
-                      end = std::min(text.find_first_not_of("0123456789.eE", comma + 1), text.size());
-    const std::string_view left = text.substr(begin, comma - begin),
-                           right = text.substr(comma + 1, end - comma - 1);
-    if (!left.empty() && is_ambiguous(left, right)) found.push_back(comma);
-  }
+  for (std::size_t i = 1; i + 1 < text.size(); ++i)
+    if (text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1])) found.push_back(i);
   return found;
 }
 
