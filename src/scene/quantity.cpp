@@ -150,29 +150,18 @@ InputError fault(std::string found, Dimension dimension, std::string suggestion 
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Length of the digits that a text begins with.
-std::size_t digits_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
-}
-
-/// Commas between two digits, which may be meant for decimals or thousands.
-std::vector<std::size_t> ambiguous_commas(std::string_view text) {
-  std::vector<std::size_t> found;
-  for (std::size_t i = 1; i + 1 < text.size(); ++i)
-    if (text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1])) found.push_back(i);
-  return found;
-}
-
-std::string with_commas_as(std::string_view replacement, std::string_view text,
-                           const std::vector<std::size_t>& commas) {
+/// A text with something else for each comma between two digits, which may be meant for decimals or
+/// thousands.
+std::string with_commas_as(std::string_view replacement, std::string_view text) {
   std::string result;
-  std::size_t begin = 0;
-  for (const std::size_t comma : commas) {
-    result += text.substr(begin, comma - begin);
-    result += replacement;
-    begin = comma + 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_inner = i > 0 && i + 1 < text.size();
+    if (is_inner && text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1]))
+      result += replacement;
+    else
+      result += text[i];
   }
-  return result += text.substr(begin);
+  return result;
 }
 
 InputError comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
@@ -199,7 +188,7 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
   if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
     return Token{number, without_blanks_around(rest)};
-  const std::size_t decimals = digits_of(rest.substr(1));
+  const std::size_t decimals = std::min(rest.find_first_not_of("0123456789", 1), rest.size()) - 1;
   const bool has_point =
       number.find('.') != std::string_view::npos || rest.substr(1 + decimals).starts_with('.');
   if (has_point || decimals == 3) throw comma_fault(whole, dimension, {});
@@ -318,8 +307,8 @@ Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimen
 }
 
 Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
-  if (const auto commas = ambiguous_commas(text); !commas.empty()) {
-    const std::string pointed = with_commas_as(".", text, commas), list = with_commas_as(", ", text, commas);
+  if (const std::string list = with_commas_as(", ", text); list != text) {
+    const std::string pointed = with_commas_as(".", text);
     const bool may_be_points = parse_list(pointed, dimension).has_value();
     return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
   }
