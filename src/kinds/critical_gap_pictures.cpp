@@ -230,9 +230,7 @@ struct GapLines {
   /// "30, 120 µm"; empty without another axis.
   std::string text_of(const auto& lines) const {
     if (across == nullptr) return {};
-    std::vector<double> shown;
-    for (const std::size_t line : lines) shown.push_back(values_across[line]);
-    return numbers_text(across->key, shown);
+    return numbers_text(across->key, of_each(lines, [&](std::size_t line) { return values_across[line]; }));
   }
 
   /// Of some lines, those that are drawn as one; a bound of 0 is none that is drawn.
@@ -294,7 +292,7 @@ std::optional<Plot> plot_of(const CriticalGapResult& result, const std::vector<S
                  along,
                  across};
   for (std::size_t i = 0; i < result.answers.size(); ++i)
-    if (const StudyCase& input = result.study.cases[i]; input.coordinates.size() == axes.size())
+    if (const StudyCase& input = result.study.cases[i]; input.coordinates.size() >= axes.size())
       lines.add(input, result.answers[i]);
   return lines.tells() ? std::optional(lines.drawn()) : std::nullopt;
 }

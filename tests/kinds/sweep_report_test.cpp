@@ -418,7 +418,9 @@ TEST(SweepPictures, WhereNoLineJoinsTwoValuesAnotherAxisIsDrawn) {
 TEST(SweepReport, WritesItsFiles) {
   const CriticalGapResult result = made_sweep();
   const auto rendered = render_report(report_of(result));
-  if (gnuplot_is_there()) EXPECT_NE(text_in(rendered, "critical_gap.svg"), "");
+  if (gnuplot_is_there()) {
+    EXPECT_NE(text_in(rendered, "critical_gap.svg"), "");
+  }
   EXPECT_EQ(nlohmann::ordered_json::parse(text_in(rendered, "study.json")), json_of(result));
   const std::string page = text_in(rendered, "report.md");
   EXPECT_TRUE(page.starts_with("# A made study\n\nThe shot leaves the barrel with 773.9 m/s"))
