@@ -161,9 +161,7 @@ std::vector<std::string> write_where_absent(const path& folder, const NamedTexts
 }
 
 std::vector<std::string> places_of(const path& folder, const NamedTexts& texts) {
-  std::vector<std::string> places;
-  for (const report::TextFile& each : texts) places.push_back((folder / each.name).string());
-  return places;
+  return study::of_each(texts, [&](const auto& each) { return (folder / each.name).string(); });
 }
 
 store::Manifest study_manifest(const study::StudyFile& file, int jobs) {

@@ -206,9 +206,7 @@ std::string shell_quoted(std::string_view word) {
 }
 
 std::string shell_command(const std::vector<std::string>& words) {
-  std::vector<std::string> quoted;
-  for (const std::string& word : words) quoted.push_back(shell_quoted(word));
-  return fmt::format("{}", fmt::join(quoted, " "));
+  return fmt::format("{}", fmt::join(study::of_each(words, shell_quoted), " "));
 }
 
 }  // namespace launchsafe::app

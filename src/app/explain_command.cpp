@@ -72,8 +72,7 @@ std::string checks_text(const std::vector<std::string>& implausible, const study
 /// with the number of several cases. Empty for a kind that gives no verdicts on scenes of its own.
 std::vector<std::string> plausibility_lines(const study::StudyFile& study) {
   if (!study.study.kind.gives_verdicts && study.study.kind.own_scenes) return {};
-  std::vector<std::string> lines;
-  for (const scene::Implausible& each : study.study.implausible) lines.push_back(line_of(each));
+  std::vector<std::string> lines = study::of_each(study.study.implausible, line_of);
   std::vector<std::string> order;
   std::map<std::string, std::size_t> cases;
   for (const study::StudyCase& each : study.cases) {

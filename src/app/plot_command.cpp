@@ -30,9 +30,8 @@ struct Selection {
 };
 
 std::vector<std::string> words_of_kinds() {
-  std::vector<std::string> words;
-  for (const PictureKind& kind : report::picture_kinds()) words.emplace_back(kind.word);
-  return words;
+  return study::of_each(report::picture_kinds(),
+                        [](const PictureKind& kind) { return std::string(kind.word); });
 }
 
 /// The words of kinds that a user named, between commas or blanks; each must be one.

@@ -1,4 +1,4 @@
-// The pictures of a critical-gap study that varies something: the critical gap over one or two axes.
+// The picture of a critical-gap study that varies something: the critical gap over one or two axes.
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "study_keys.hpp"
 
@@ -8,7 +8,7 @@ using report::Scale;
 
 namespace {
 
-constexpr std::size_t most_pictures = 9, most_lines = 6;
+constexpr std::size_t most_lines = 6;
 
 /// An axis of the study with its values in the unit shown, ascending, each once.
 struct SweptAxis {
@@ -37,15 +37,12 @@ report::PlotAxis picture_axis(const SweptAxis& swept) {
   return axis;
 }
 
-/// ", flaw size 1 mm": with the values of the axes that the picture does not show.
-std::string title_of(const std::vector<SweptAxis>& axes, const std::vector<std::size_t>& shown_axes,
-                     const StudyCase& input) {
+/// ", flaw size 1 mm": with the axes of a single value.
+std::string title_of(const std::vector<SweptAxis>& axes, const Study& study) {
   std::string fixed;
-  for (const SweptAxis& axis : axes) {
-    const bool is_shown = std::ranges::find(shown_axes, axis.index) != shown_axes.end();
-    if (is_shown || axis.index >= input.coordinates.size()) continue;
-    fixed += fmt::format(", {} {}", axis.key.heading, axis.key.text(input.coordinates[axis.index]));
-  }
+  for (const SweptAxis& axis : axes)
+    if (axis.values.size() == 1)
+      fixed += fmt::format(", {} {}", axis.key.heading, axis.key.text(study.axes[axis.index].values.front()));
   return fixed;
 }
 
@@ -143,13 +140,10 @@ struct GapLines {
     if (lower > 0.0) shares = {shares.computation || own.computation, shares.model_form || own.model_form};
   }
 
-  /// Values on lines of two and more; none where all differ by less than the best of them is known to.
-  std::size_t joined() const {
-    std::size_t joined = 0;
-    if (highest - lowest < least_uncertainty) return joined;
-    for (const std::vector<double>& line : values)
-      if (const std::size_t known = known_of(line); known > 1) joined += known;
-    return joined;
+  /// Whether a line joins two values, and they do not all differ by less than the best of them is known to.
+  bool tells() const {
+    return highest - lowest >= least_uncertainty &&
+           std::ranges::any_of(values, [](const auto& line) { return known_of(line) > 1; });
   }
 
   Plot drawn() {
@@ -236,9 +230,7 @@ struct GapLines {
   /// "30, 120 µm"; empty without another axis.
   std::string text_of(const auto& lines) const {
     if (across == nullptr) return {};
-    std::vector<double> shown;
-    for (const std::size_t line : lines) shown.push_back(values_across[line]);
-    return numbers_text(across->key, shown);
+    return numbers_text(across->key, of_each(lines, [&](std::size_t line) { return values_across[line]; }));
   }
 
   /// Of some lines, those that are drawn as one; a bound of 0 is none that is drawn.
@@ -291,64 +283,22 @@ struct GapLines {
   }
 };
 
-struct Drawn {
-  const SweptAxis* across = nullptr;
-  std::vector<Plot> plots = {};
-  std::size_t joined = 0;  ///< values that their lines join
-};
-
-/// A picture for every combination of the other axes, in the order of the cases, where a line joins values.
-Drawn plots_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes, const SweptAxis& along,
-               const SweptAxis* across) {
-  std::vector<std::size_t> shown{along.index};
-  if (across != nullptr) shown.push_back(across->index);
-  std::map<std::vector<double>, std::size_t> combinations;  // their places among the lines
-  std::vector<GapLines> lines;
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const StudyCase& input = result.study.cases[i];
-    if (input.coordinates.size() < axes.size()) continue;
-    std::vector<double> others = input.coordinates;
-    for (const std::size_t axis : shown) others[axis] = 0;
-    const auto [place, is_new] = combinations.try_emplace(std::move(others), lines.size());
-    if (is_new) {
-      lines.push_back({result,
-                       {.title = title_of(axes, shown, input),
-                        .x = picture_axis(along),
-                        .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
-                        .width = 1000,
-                        .height = 620,
-                        .named_in_place = true},
-                       along,
-                       across});
-    }
-    lines[place->second].add(input, result.answers[i]);
-  }
-  Drawn drawn{across};
-  for (GapLines& each : lines)
-    if (const std::size_t joined = each.joined(); joined > 0) {
-      drawn.joined += joined;
-      drawn.plots.push_back(each.drawn());
-    }
-  return drawn;
-}
-
-/// Along the longer of the first two axes, a line for each value of the other; where no line joins values,
-/// along the axes that join most.
-Drawn most_joined(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
-                  std::vector<const SweptAxis*> several) {
-  if (several.size() == 1) return plots_of(result, axes, *several[0], nullptr);
-  if (several[1]->values.size() > several[0]->values.size()) std::swap(several[0], several[1]);
-  Drawn most = plots_of(result, axes, *several[0], several[1]);
-  if (most.joined > 0) return most;
-  for (const SweptAxis* along : several)
-    for (const SweptAxis* across : several) {
-      if (along == across) continue;
-      Drawn drawn = plots_of(result, axes, *along, across);
-      if (drawn.joined > most.joined ||
-          (drawn.joined == most.joined && drawn.plots.size() < most.plots.size()))
-        most = std::move(drawn);
-    }
-  return most;
+/// A line for each value of `across`, if there is one; nothing where no line joins two values.
+std::optional<Plot> plot_of(const CriticalGapResult& result, const std::vector<SweptAxis>& axes,
+                            const SweptAxis& along, const SweptAxis* across) {
+  GapLines lines{result,
+                 {.title = title_of(axes, result.study.study),
+                  .x = picture_axis(along),
+                  .y = {.label = report::quantity::critical_gap.label(), .minimum = 0.0},
+                  .width = 1000,
+                  .height = 620,
+                  .named_in_place = true},
+                 along,
+                 across};
+  for (std::size_t i = 0; i < result.answers.size(); ++i)
+    if (const StudyCase& input = result.study.cases[i]; input.coordinates.size() >= axes.size())
+      lines.add(input, result.answers[i]);
+  return lines.tells() ? std::optional(lines.drawn()) : std::nullopt;
 }
 
 }  // namespace
@@ -358,22 +308,22 @@ GapPictures gap_pictures(const CriticalGapResult& result) {
   std::vector<const SweptAxis*> several;
   for (const SweptAxis& axis : axes)
     if (axis.values.size() > 1) several.push_back(&axis);
-  if (several.empty() || result.answers.empty()) return {};
-  auto [across, plots, joined] = most_joined(result, axes, several);
+  if (several.empty() || several.size() > 2 || result.answers.empty()) return {};
+  const SweptAxis *along = several.front(), *across = several.size() == 1 ? nullptr : several.back();
+  if (across != nullptr && across->values.size() > along->values.size()) std::swap(along, across);
+  std::optional<Plot> plot = plot_of(result, axes, *along, across);
+  if (!plot && across != nullptr) {
+    std::swap(along, across);
+    plot = plot_of(result, axes, *along, across);
+  }
+  if (!plot) return {};
   GapPictures made;
-  if (plots.size() > most_pictures)
-    made.remarks.push_back(fmt::format(
-        "The pictures show {} of the {} combinations of the other axes; critical_gaps.csv has all.",
-        most_pictures, plots.size()));
   if (across != nullptr && across->values.size() > most_lines)
     made.remarks.push_back(
-        fmt::format("The pictures have lines for {} of {} values of {}; critical_gaps.csv has all.",
-                    most_lines, across->values.size(), across->key.heading));
-  for (std::size_t i = 0; i < std::min(plots.size(), most_pictures); ++i) {
-    std::string shows = plots[i].title;
-    made.pictures.push_back({fmt::format("critical_gap{}.svg", i == 0 ? "" : fmt::format("_{}", i + 1)),
-                             std::move(plots[i]), std::move(shows)});
-  }
+        fmt::format("The picture has lines for {} of {} values of {}; critical_gaps.csv has all.", most_lines,
+                    across->values.size(), across->key.heading));
+  std::string shows = plot->title;
+  made.pictures.push_back({"critical_gap.svg", std::move(*plot), std::move(shows)});
   return made;
 }
 

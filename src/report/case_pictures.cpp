@@ -114,10 +114,7 @@ Plot titled_plot(const DrawnCase& drawn, std::string title) {
 }
 
 std::vector<double> shown_values(const std::vector<double>& values, const Column& quantity) {
-  std::vector<double> shown;
-  shown.reserve(values.size());
-  for (const double value : values) shown.push_back(shown_value(value, quantity.form));
-  return shown;
+  return study::of_each(values, [&](double value) { return shown_value(value, quantity.form); });
 }
 
 Column drawn_time() { return quantity::time(4); }

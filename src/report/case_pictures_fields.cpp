@@ -186,9 +186,8 @@ std::vector<FieldCell> cells_of(const DrawnCase& drawn, const Field& field, cons
 
 /// The words of a snapshot's events with something between.
 std::string events_of(const run::Snapshot& shot, const char* between) {
-  std::vector<std::string> words;
-  for (const scene::Event event : shot.events) words.push_back(scene::word_of(event));
-  return fmt::format("{}", fmt::join(words, between));
+  const auto word = [](scene::Event event) { return scene::word_of(event); };
+  return fmt::format("{}", fmt::join(study::of_each(shot.events, word), between));
 }
 
 /// "_0.04cm_18ms_burnt": of a gap that burns, at a time that was asked for, at an event.
@@ -396,11 +395,10 @@ Quantities<std::size_t> particle_quantities(const DrawnCase& drawn, const run::S
 }
 
 std::vector<CaseTable> field_tables(const DrawnCase& drawn) {
-  std::vector<CaseTable> tables;
-  for (const ShownSnapshot& each : chosen_snapshots(drawn))
-    tables.push_back({"field" + name_of(each) + ".csv",
-                      sample_table(particle_quantities(drawn, *each.snapshot), each.snapshot->x.size())});
-  return tables;
+  return study::of_each(chosen_snapshots(drawn), [&](const ShownSnapshot& each) {
+    return CaseTable{"field" + name_of(each) + ".csv",
+                     sample_table(particle_quantities(drawn, *each.snapshot), each.snapshot->x.size())};
+  });
 }
 
 }  // namespace

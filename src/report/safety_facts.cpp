@@ -28,8 +28,7 @@ std::string short_value(const std::string& value) {
 /// All inputs, but those of a law of which no body is made.
 Row inputs_of(const scene::SceneFile& file) {
   const auto known = [](const std::string& name) { return scene::find_key(scene::scene_keys(), name); };
-  std::vector<std::string> names;
-  for (const scene::ListedKey& key : scene::list_keys(file)) names.push_back(key.name);
+  std::vector<std::string> names = study::of_each(scene::list_keys(file), &scene::ListedKey::name);
   // Values of bodies, interfaces and further materials whose source the scene says.
   for (const scene::Source& source : file.scene.sources)
     std::ranges::copy_if(source.keys, std::back_inserter(names),

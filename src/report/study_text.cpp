@@ -77,11 +77,7 @@ ShownKey shown(const study::Axis& axis) {
   return key;
 }
 
-std::vector<ShownKey> shown_axes(const study::Study& study) {
-  std::vector<ShownKey> keys;
-  for (const study::Axis& axis : study.axes) keys.push_back(shown(axis));
-  return keys;
-}
+std::vector<ShownKey> shown_axes(const study::Study& study) { return study::of_each(study.axes, shown); }
 
 Quantities<std::vector<double>> axis_quantities(const study::Study& study) {
   Quantities<std::vector<double>> quantities;

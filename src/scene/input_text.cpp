@@ -14,8 +14,8 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Scenes and studies need five.
-constexpr std::size_t deepest_nesting = 16;
+/// Points of a key are nested tables: of scenes and studies one or two. A sentence has fewer than this.
+constexpr std::size_t most_points = 200;
 
 Place place_at(std::string_view text, std::size_t position, const std::string& file) {
   const std::string_view before = text.substr(0, position);
@@ -23,47 +23,6 @@ Place place_at(std::string_view text, std::size_t position, const std::string& f
   return {file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
           1 + static_cast<int>(position - line_begin)};
 }
-
-/// Walks over the texts and comments of TOML, so that what is between them can be counted. It need only be
-/// right up to the first fault of the syntax, where the parser stops.
-class TomlScanner {
- public:
-  explicit TomlScanner(std::string_view text) : text_(text) {}
-
-  bool done() const { return position_ >= text_.size(); }
-  std::size_t position() const { return position_; }
-
-  /// The next character outside of texts and comments; 0 where one of these was passed over.
-  char next() {
-    const char c = text_[position_++];
-    if (c != '#' && c != '"' && c != '\'') return c;
-    if (c == '#')
-      position_ = std::min(text_.find('\n', position_), text_.size());
-    else
-      pass_text(c);
-    return 0;
-  }
-
- private:
-  /// From behind its first quotation mark. A short one ends with its line at the latest, a long one at the
-  /// last three of up to five quotation marks.
-  void pass_text(char quote) {
-    const bool is_long = text_.substr(position_ - 1).starts_with(std::string(3, quote));
-    const std::string mark(is_long ? 3 : 1, quote);
-    for (position_ += mark.size() - 1; !done(); ++position_) {
-      if (text_.substr(position_).starts_with(mark)) {
-        position_ += mark.size();
-        for (int more = 0; is_long && more < 2 && !done() && text_[position_] == quote; ++more) ++position_;
-        return;
-      }
-      if (text_[position_] == '\n' && !is_long) return;
-      if (text_[position_] == '\\' && quote == '"') ++position_;
-    }
-  }
-
-  std::string_view text_;
-  std::size_t position_ = 0;
-};
 
 constexpr std::string_view allowed_file = "a regular file";
 
@@ -164,10 +123,10 @@ std::string_view without_blanks_around(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-std::vector<std::string_view> parts_of_list(std::string_view text) {
+std::vector<std::string_view> parts_of_list(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
     parts.push_back(without_blanks_around(text.substr(begin, end - begin)));
     begin = end + 1;
   }
@@ -194,20 +153,13 @@ void check_encoding(std::string_view text, const std::string& file) {
   }
 }
 
-void check_nesting(std::string_view toml, const std::string& file) {
-  TomlScanner scanner(toml);
-  std::size_t open = 0, points = 0;  // brackets, and points since the last character that ends a key
-  while (!scanner.done()) {
-    const char c = scanner.next();
-    if (c == '[' || c == '{') ++open;
-    if ((c == ']' || c == '}') && open > 0) --open;
-    if (c == '.') ++points;
-    if (c == '[' || c == '{' || c == '=' || c == ',' || c == '\n') points = 0;
-    if (std::max(open, points) < deepest_nesting) continue;
-    throw error_at(place_at(toml, scanner.position() - 1, file), {},
-                   open >= deepest_nesting ? fmt::format("{} brackets inside each other", open)
-                                           : fmt::format("a key of more than {} parts", points),
-                   fmt::format("tables and arrays nested less than {} deep", deepest_nesting));
+void check_points(std::string_view toml, const std::string& file) {
+  std::size_t points = 0;  // since the last character that ends a key or a number of a list
+  for (std::size_t i = 0; i < toml.size(); ++i) {
+    if (contains(std::string_view("[{=,\n"), toml[i])) points = 0;
+    if (toml[i] != '.' || ++points < most_points) continue;
+    throw error_at(place_at(toml, i, file), {}, fmt::format("{} points without a comma", points),
+                   "a key of tables that are nested less deep, or shorter sentences");
   }
 }
 

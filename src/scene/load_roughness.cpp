@@ -227,38 +227,16 @@ std::string size_text(const Ring& ring, const Load& load) {
                      100.0 * ring.amplitude / PressureHistory(load).stated_peak());
 }
 
-/// Pa, the peak of a pulse without a ring of a period (s), of which averages over one, two and four periods
-/// have nothing. What they take from a pulse that falls as |t|^n about its peak grows 2^n-fold from each to
-/// the next, from which follows what an average over nothing would have (Aitken's extrapolation). Nothing
-/// where that is not below the record's peak: too few points a period tell the pulse from its ring.
-std::optional<double> peak_without_ring(Load load, double period) {
-  const double stated = PressureHistory(load).stated_peak();
-  load.rescale_to_peak = false;
-  const PressureHistory one(averaged(load, period));
-  const auto at_peak = [&](double window) {
-    return PressureHistory(averaged(load, window)).at(one.peak_time());
-  };
-  const double two = at_peak(2.0 * period), four = at_peak(4.0 * period), record = one.stated_peak();
-  const double growth = (two - four) / (one.peak() - two);
-  const double peak = one.peak() + (one.peak() - two) / (growth - 1.0);
-  return growth > 1.0 && peak < record ? std::optional(stated / record * peak) : std::nullopt;
-}
-
 /// How to take a ring away: averages over its period have none of it.
 std::string removal_text(const Load& load) {
   if (const auto gone = smoothed_ring(load)) return "; it took away a ring at " + size_text(*gone, load);
   const auto ring = ring_of(load);
   if (!ring) return {};
   const double period = in_digits(1.0 / ring->frequency, 3);  // which its frequency bears
-  const std::string text = fmt::format(
+  return fmt::format(
       "; if the ring is the gauge's own, load.smoothing = \"{}\", its period, takes it away, and {} from the "
       "peak",
       time_text(period), percent(peak_lost_to_smoothing(averaged(load, period))));
-  const auto peak = peak_without_ring(without_exit(load), period);
-  if (!peak) return text;
-  return text +
-         fmt::format("; load.rescale_to_peak = true and load.peak = \"{}\" give the pulse its own back",
-                     pressure_text(in_digits(*peak, 4)));
 }
 
 std::string smoothing_text(const Load& load) {

@@ -4,27 +4,6 @@
 namespace launchsafe::scene {
 namespace {
 
-/// A cell that begins with a quotation mark; what follows it stays in `rest`.
-std::optional<std::string> take_quoted(std::string_view& rest) {
-  std::string cell;
-  rest.remove_prefix(1);
-  for (;;) {
-    const std::size_t mark = rest.find('"');
-    if (mark == std::string_view::npos) return std::nullopt;
-    cell += rest.substr(0, mark);
-    rest.remove_prefix(mark + 1);
-    if (!rest.starts_with('"')) return std::string(without_blanks_around(cell));
-    cell += '"';
-    rest.remove_prefix(1);
-  }
-}
-
-/// Like `without_blanks_around`, but a tab that separates cells stays.
-std::string_view without_blanks_before(std::string_view text, char separator) {
-  while (!text.empty() && text[0] != separator && (text[0] == ' ' || text[0] == '\t')) text.remove_prefix(1);
-  return text;
-}
-
 /// The next line of a text, which is shortened by it; lines end with LF, CRLF or CR.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
@@ -34,39 +13,24 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-/// The first of semicolon, tab and comma that separates cells of this header, outside of quotation marks; a
-/// comma if none does.
+/// The first of semicolon, tab and comma in this header; a comma if it has none.
 char separator_of(std::string_view header) {
-  std::string outside;
-  bool quoted = false;
-  for (const char c : header) {
-    if (c == '"') quoted = !quoted;
-    if (!quoted) outside += c;
-  }
   for (const char separator : {';', '\t'})
-    if (outside.find(separator) != std::string::npos) return separator;
+    if (contains(header, separator)) return separator;
   return ',';
 }
 
-/// The cells of a line without blanks around them and without their quotation marks; a doubled quotation mark
-/// in these is one. Nothing where a quotation mark is not closed, or closed before the end of its cell.
+/// The cells of a line without blanks and quotation marks around them. Nothing where a quotation mark stands
+/// elsewhere, as where there is a separator within a pair of them.
 std::optional<std::vector<std::string>> cells_of(std::string_view line, char separator) {
   std::vector<std::string> cells;
-  for (;;) {
-    line = without_blanks_before(line, separator);
-    if (line.starts_with('"')) {
-      auto cell = take_quoted(line);
-      line = without_blanks_before(line, separator);
-      if (!cell || (!line.empty() && line[0] != separator)) return std::nullopt;
-      cells.push_back(std::move(*cell));
-    } else {
-      const std::size_t end = std::min(line.find(separator), line.size());
-      cells.emplace_back(without_blanks_around(line.substr(0, end)));
-      line.remove_prefix(end);
-    }
-    if (line.empty()) return cells;
-    line.remove_prefix(1);
+  for (std::string_view cell : parts_of_list(line, separator)) {
+    if (cell.size() > 1 && cell.starts_with('"') && cell.ends_with('"'))
+      cell = without_blanks_around(cell.substr(1, cell.size() - 2));
+    if (contains(cell, '"')) return std::nullopt;
+    cells.emplace_back(cell);
   }
+  return cells;
 }
 
 constexpr std::string_view allowed_header =
@@ -242,7 +206,8 @@ double read_cell(const std::string& cell, const Column& column, DecimalMark& dec
 void add_point(std::string_view line, const Header& header, double lowest, DecimalMark& decimals,
                const Place& place, PressureCurve& curve) {
   const auto cells = cells_of(line, header.separator);
-  if (!cells) throw error_at(place, {}, "a quotation mark that does not close its cell", "\"0.5\"");
+  if (!cells)
+    throw error_at(place, {}, "a quotation mark within a cell", "\"0.5\", without a separator in it");
   if (cells->size() != header.columns) throw wrong_count(header, cells->size(), place);
   const auto fault = [&](const Column& column, std::string allowed, std::string suggestion = {}) {
     return error_at(place, name_of(column.dimension), (*cells)[column.cell] + " " + column.unit, allowed,

@@ -150,60 +150,18 @@ InputError fault(std::string found, Dimension dimension, std::string suggestion 
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Length of the digits that a text begins with.
-std::size_t digits_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::find_if_not(text, is_digit) - text.begin());
-}
-
-/// Whether a comma without blanks around it may be meant as anything but the comma of a list: "0,5" and
-/// "1,25e3" may have decimals, "1,000" and "1,250.5" thousands, "1.250,5" both. "0,0.01" and "0.5,1" may not.
-bool is_ambiguous(std::string_view left, std::string_view right) {
-  const std::size_t whole = digits_of(left), decimals = digits_of(right);
-  const bool fraction_may_follow = decimals > 0 && (decimals == right.size() || right[decimals] != '.');
-  const bool may_count_thousands = whole > 0 && whole <= 3 && left[0] != '0';
-  if (whole == left.size()) return fraction_may_follow || (may_count_thousands && decimals == 3);
-  // "1.250": groups of three digits.
-  for (left.remove_prefix(whole); !left.empty(); left.remove_prefix(4))
-    if (left[0] != '.' || digits_of(left.substr(1)) < 3 || (left.size() > 4 && left[4] != '.')) return false;
-  return may_count_thousands && fraction_may_follow;
-}
-
-/// Where the number that ends before a place begins.
-std::size_t begin_of_number(std::string_view text, std::size_t end) {
-  const auto continues = [&](std::size_t i) {
-    const char c = text[i];
-    const bool sign_of_exponent =
-        (c == '-' || c == '+') && i > 0 && (text[i - 1] == 'e' || text[i - 1] == 'E');
-    return is_digit(c) || c == '.' || c == 'e' || c == 'E' || sign_of_exponent;
-  };
-  while (end > 0 && continues(end - 1)) --end;
-  return end;
-}
-
-/// Commas of a list that would silently make two numbers of what was perhaps one.
-std::vector<std::size_t> ambiguous_commas(std::string_view text) {
-  std::vector<std::size_t> found;
-  for (std::size_t comma = text.find(','); comma != std::string_view::npos;
-       comma = text.find(',', comma + 1)) {
-    const std::size_t begin = begin_of_number(text, comma),
-                      end = std::min(text.find_first_not_of("0123456789.eE", comma + 1), text.size());
-    const std::string_view left = text.substr(begin, comma - begin),
-                           right = text.substr(comma + 1, end - comma - 1);
-    if (!left.empty() && is_ambiguous(left, right)) found.push_back(comma);
-  }
-  return found;
-}
-
-std::string with_commas_as(std::string_view replacement, std::string_view text,
-                           const std::vector<std::size_t>& commas) {
+/// A text with something else for each comma between two digits, which may be meant for decimals or
+/// thousands.
+std::string with_commas_as(std::string_view replacement, std::string_view text) {
   std::string result;
-  std::size_t begin = 0;
-  for (const std::size_t comma : commas) {
-    result += text.substr(begin, comma - begin);
-    result += replacement;
-    begin = comma + 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_inner = i > 0 && i + 1 < text.size();
+    if (is_inner && text[i] == ',' && is_digit(text[i - 1]) && is_digit(text[i + 1]))
+      result += replacement;
+    else
+      result += text[i];
   }
-  return result += text.substr(begin);
+  return result;
 }
 
 InputError comma_fault(std::string_view whole, Dimension dimension, std::string suggestion) {
@@ -230,7 +188,7 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
   const std::string_view number = text.substr(0, length), rest = text.substr(length);
   if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1]))
     return Token{number, without_blanks_around(rest)};
-  const std::size_t decimals = digits_of(rest.substr(1));
+  const std::size_t decimals = std::min(rest.find_first_not_of("0123456789", 1), rest.size()) - 1;
   const bool has_point =
       number.find('.') != std::string_view::npos || rest.substr(1 + decimals).starts_with('.');
   if (has_point || decimals == 3) throw comma_fault(whole, dimension, {});
@@ -349,8 +307,8 @@ Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimen
 }
 
 Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension) {
-  if (const auto commas = ambiguous_commas(text); !commas.empty()) {
-    const std::string pointed = with_commas_as(".", text, commas), list = with_commas_as(", ", text, commas);
+  if (const std::string list = with_commas_as(", ", text); list != text) {
+    const std::string pointed = with_commas_as(".", text);
     const bool may_be_points = parse_list(pointed, dimension).has_value();
     return comma_fault(text, dimension, may_be_points ? quoted_list({pointed, list}) : quoted_list({list}));
   }

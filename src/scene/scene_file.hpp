@@ -31,8 +31,8 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 /// Without blanks, tabs and line ends at its ends.
 std::string_view without_blanks_around(std::string_view text);
 
-/// "a, b" as its parts between commas, without blanks around them; at least one, which may be empty.
-std::vector<std::string_view> parts_of_list(std::string_view text);
+/// "a, b" as its parts between separators, without blanks around them; at least one, which may be empty.
+std::vector<std::string_view> parts_of_list(std::string_view text, char separator = ',');
 
 /// With small letters (ASCII).
 std::string lower_case(std::string_view text);
@@ -40,9 +40,9 @@ std::string lower_case(std::string_view text);
 /// Throws the fault of the first byte of a text that is no UTF-8, or a NUL, with its line.
 void check_encoding(std::string_view text, const std::string& file);
 
-/// Throws that of TOML nested deeper than any scene or study is, which would exhaust the stack of whoever
-/// walks through it: brackets inside each other, or a dotted key of many parts.
-void check_nesting(std::string_view toml, const std::string& file);
+/// Throws that of a dotted key of so many parts that its nested tables would exhaust the stack of whoever
+/// walks through them. What is in a text or a comment counts too.
+void check_points(std::string_view toml, const std::string& file);
 
 /// A file of studies/materials.
 struct BuiltInText {

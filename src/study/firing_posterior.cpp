@@ -87,9 +87,8 @@ Posterior posterior_of(const FiringPrior& prior, const std::vector<FiredLaunch>&
             prior.centre.exchange_time * std::exp(exchange.deviations * prior.log_exchange_time),
             prior.centre.ignition_temperature + temperature.deviations * prior.ignition_temperature};
         if (constants.ignition_temperature < prior.least_ignition_temperature) continue;
-        std::vector<double> margins;
-        for (const FiredLaunch& launch : launches)
-          margins.push_back(launch.boundary.log_heat_margin(constants));
+        const std::vector<double> margins = of_each(
+            launches, [&](const FiredLaunch& each) { return each.boundary.log_heat_margin(constants); });
         for (const Node& scatter : few) {
           const PosteriorPoint point{constants,
                                      prior.scatter * std::exp(scatter.deviations * prior.log_scatter)};
@@ -125,11 +124,9 @@ std::optional<surface::IgnitionBoundary> boundary_for(const Posterior& posterior
 std::vector<double> ignition_probabilities(const Posterior& posterior,
                                            const surface::IgnitionBoundary& boundary,
                                            double log_heat_spread) {
-  std::vector<double> probabilities;
-  for (const PosteriorPoint& each : posterior)
-    probabilities.push_back(
-        below(-boundary.log_heat_margin(each.constants) / std::hypot(each.scatter, log_heat_spread)));
-  return probabilities;
+  return of_each(posterior, [&](const PosteriorPoint& each) {
+    return below(-boundary.log_heat_margin(each.constants) / std::hypot(each.scatter, log_heat_spread));
+  });
 }
 
 double tail_probability(const std::vector<double>& probabilities, int ignited, int rounds) {

@@ -230,11 +230,10 @@ std::vector<double> UncertainInputs::point_of(const std::vector<double>& values)
 }
 
 std::vector<math::ChaosBasis> UncertainInputs::bases() const {
-  std::vector<math::ChaosBasis> bases;
-  for (const math::Distribution& each : distributions)
-    bases.push_back(each.kind == Kind::normal || each.kind == Kind::log_normal ? math::ChaosBasis::hermite
-                                                                               : math::ChaosBasis::legendre);
-  return bases;
+  return of_each(distributions, [](const math::Distribution& each) {
+    const bool is_normal = each.kind == Kind::normal || each.kind == Kind::log_normal;
+    return is_normal ? math::ChaosBasis::hermite : math::ChaosBasis::legendre;
+  });
 }
 
 math::FiniteRows SurrogateRecord::fitted_rows(const std::vector<double>& values) const {

@@ -259,37 +259,6 @@ TEST(PeakBetweenPoints, IsNoHigherThanWhatIsSaidToBeMissed) {
   }
 }
 
-// Issue 33: smoothed as told, a record is as hot as the clean one, whose peak is 496 MPa.
-TEST(Ring, AdviceGivesThePulseItsOwnPeakBack) {
-  for (const auto& [frequency, share] :
-       {std::pair{1e3, 0.03}, {1.5e3, 0.02}, {2.4e3, 0.03}, {3.2e3, 0.005}, {9.8e3, 0.005}, {9.8e3, 0.03}}) {
-    const std::string text = measured_load_text(ringing(frequency, share, 1801)), key = "load.peak = \"";
-    const std::size_t at = text.find(key);
-    ASSERT_NE(at, std::string::npos) << text;
-    const double peak = std::stod(text.substr(at + key.size()));
-    EXPECT_GE(peak, 495.9) << text;
-    EXPECT_LE(peak, 1.008 * 496.0) << text;
-  }
-}
-
-TEST(Ring, AdviceNamesNoPeakThatTheRecordDoesNotTell) {
-  const std::string key = "load.peak = \"";
-  // Two and a half points a period: averages over periods have something of the ring.
-  const std::string coarse = measured_load_text(measured(1101, [](double time) {
-    return pulse(time) * (1.0 + 0.04 * std::sin(2.0 * std::numbers::pi * 20e3 * time));
-  }));
-  EXPECT_NE(coarse.find("takes it away"), std::string::npos) << coarse;
-  EXPECT_EQ(coarse.find(key), std::string::npos) << coarse;
-  // A record scaled to 300 MPa has a pulse of 496/504.8 of that: the ring's crest is part of the 300.
-  Load scaled = ringing(3.2e3, 0.03, 1801);
-  const double record = PressureHistory(scaled).stated_peak();
-  scaled.rescale_to_peak = true;
-  scaled.peak = 300e6;
-  const std::string text = measured_load_text(scaled);
-  ASSERT_NE(text.find(key), std::string::npos) << text;
-  EXPECT_NEAR(std::stod(text.substr(text.find(key) + key.size())), 300.0 * 496e6 / record, 0.005 * 300.0);
-}
-
 // At 9.8 kHz so small a ring ignites the 155 mm shell without a gap.
 TEST(LoadRoughness, SeesARingOfATenthOfAPercent) {
   const auto ring = ring_of(ringing(9.8e3, 0.001, 1801));

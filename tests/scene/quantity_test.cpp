@@ -77,6 +77,8 @@ TEST(Quantity, ADecimalCommaIsAFaultThatSaysWhy) {
   expect_fault(parse_list("0,5, 1,5 mm", Dimension::length), "\"0.5, 1.5 mm\" or \"0, 5, 1, 5 mm\"");
   expect_fault(parse_list("1,2,3 mm", Dimension::length), "\"1, 2, 3 mm\"");
   expect_fault(parse_list("0,5e-3 m", Dimension::length), "\"0.5e-3 m\" or \"0, 5e-3 m\"");
+  expect_fault(parse_list("0,0.01,0.02 cm", Dimension::length), "\"0, 0.01, 0.02 cm\"");
+  expect_fault(parse_list("0.5,1 mm", Dimension::length), "\"0.5, 1 mm\"");
   expect_fault(parse_list("-1,5 MPa", Dimension::pressure), "\"-1.5 MPa\" or \"-1, 5 MPa\"");
   for (const char* text : {"1,250.5 MPa", "1.250,5 MPa", "12.000.000,5 Pa", "450,500 MPa"})
     EXPECT_FALSE(parse_list(text, Dimension::pressure)) << text;
@@ -84,11 +86,9 @@ TEST(Quantity, ADecimalCommaIsAFaultThatSaysWhy) {
 
 TEST(Quantity, CommasThatCanOnlyBeThoseOfAListStay) {
   const std::vector<double> three{0.0, 1e-4, 2e-4};
-  for (const char* text : {"0, 0.01, 0.02 cm", "0,0.01,0.02 cm", "0 cm,0.1 mm,0.2 mm", "0 , 0.01 , 0.02 cm",
-                           "0, 1e-2, 2e-2 cm", "0,.01,.02 cm"})
+  for (const char* text :
+       {"0, 0.01, 0.02 cm", "0 cm,0.1 mm,0.2 mm", "0 , 0.01 , 0.02 cm", "0, 1e-2, 2e-2 cm", "0,.01,.02 cm"})
     EXPECT_EQ(*parse_list(text, Dimension::length), three) << text;
-  EXPECT_EQ(*parse_list("0.5,1 mm", Dimension::length), (std::vector<double>{5e-4, 1e-3}));
-  EXPECT_EQ(*parse_list("1e-3,2e-3 m", Dimension::length), (std::vector<double>{1e-3, 2e-3}));
   EXPECT_EQ(*parse_list("0, 5 mm", Dimension::length), (std::vector<double>{0.0, 5e-3}));
 }
 

@@ -50,7 +50,7 @@ report::Plot temperature_plot(const CriticalGapResult& result);
 /// each combination of the others, and then the same less its uncertainty.
 struct GapPictures {
   std::vector<report::Picture> pictures;
-  std::vector<std::string> remarks;  ///< combinations that have no picture
+  std::vector<std::string> remarks;  ///< values that have no line
 };
 GapPictures gap_pictures(const CriticalGapResult& result);
 

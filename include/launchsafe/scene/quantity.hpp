@@ -37,7 +37,7 @@ bool is_range(std::string_view text);
 Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension);
 
 /// "0, 0.01, 0.02 cm": one or more numbers; a number without a unit takes the next one's. A comma between
-/// digits without a blank ("0,5", "1,000") is a fault where it may be meant for decimals or thousands.
+/// two digits ("0,5", "1,000") is a fault, as it may be meant for decimals or thousands.
 Expected<std::vector<double>> parse_list(std::string_view text, Dimension dimension);
 
 /// For people: six digits in the unit that reads best, such as "0.25 cm", "18 ms", "496 MPa".
