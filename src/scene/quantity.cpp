@@ -191,10 +191,8 @@ Token split(std::string_view text, std::string_view whole, Dimension dimension) 
   const std::size_t decimals = std::min(rest.find_first_not_of("0123456789", 1), rest.size()) - 1;
   const bool has_point =
       number.find('.') != std::string_view::npos || rest.substr(1 + decimals).starts_with('.');
-  if (has_point || decimals == 3) throw comma_fault(whole, dimension, {});
-  std::string pointed(whole);
-  std::ranges::replace(pointed, ',', '.');
-  throw comma_fault(whole, dimension, '"' + pointed + '"');
+  const std::string pointed = has_point || decimals == 3 ? "" : with_commas_as(".", whole);
+  throw comma_fault(whole, dimension, in_quotes(pointed));
 }
 
 /// The double nearest to `number` times ten to the power.
