@@ -55,7 +55,8 @@ constexpr std::size_t deep = 100'000;
 INSTANTIATE_TEST_SUITE_P(
     Files, HostileFileProgram,
     ::testing::Values(
-        HostileFile{"NestedArrays", "a = " + repeated("[", deep) + repeated("]", deep), {"deep"}},
+        HostileFile{
+            "NestedArrays", "a = " + repeated("[", deep) + repeated("]", deep), {"nested value depth of 16"}},
         HostileFile{"DeepestThatIsRead",
                     "[" + repeated("a.", 15) + "a]\nb = " + repeated("{" + repeated("a.", 15) + "a = ", 14) +
                         "1" + repeated("}", 14) + "\n",
