@@ -48,7 +48,9 @@ std::string finding_of(const Row& verdicts, const Row& critical, const std::stri
                        significant(std::ranges::min(corner_ignitions.x), 6));
   return fmt::format(
       "{}; critical gap{} {}",
-      largest ? fmt::format("{} up to {} cm", safe, significant(*largest, 6)) : "No computed gap is SAFE",
+      largest ? fmt::format("{}{} up to {} cm", safe, safe.find(',') == std::string::npos ? "" : ",",
+                            significant(*largest, 6))
+              : "No computed gap is SAFE",
       by_reservoir, text_of(critical, "critical_gap_with_bounds"));
 }
 

@@ -64,7 +64,7 @@ TEST_F(SafetyReport, PageOneTellsLoadConfidenceCoverageCalibrationProgramAndWhat
         // At 0.0625 cm, of its closing_shares: 408.0 K, and 2.3, -0.3 and 6.8 K.
         "it ignites. Without the last of these T max is at most 417 K, where known",
         "Section 3 has the critical gap by the reservoir, which permits nothing either, over peak pressure "
-        "250 to 700 MPa and crack radius 30 to 2000 µm; nothing else is covered.",
+        "250 to 700 MPa and crack radius 30 to 2000 µm.",
         "to no firing (published rows not fitted, before ignition, are missed by at most",
         "Not among the evidence: a study of accuracy;",
         "the largest part, 0.0052 cm, is that of: initial temperature. Next: a measurement of how the charge "
