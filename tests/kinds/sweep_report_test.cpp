@@ -292,12 +292,17 @@ TEST(SweepPictures, WhereAShareIsAssumedTheLowerBoundIsOpenAndTheRowSaysWhich) {
   EXPECT_NE(drawn().subtitle.find("computation or model form is assumed"), std::string::npos);
 }
 
-// By hand: at 10 um the bound is 0 from 450 MPa on, at 30 um everywhere.
-TEST(SweepPictures, LowerBoundsOfZeroAreSaidAndNotDrawn) {
+/// Of two axes, peak pressure and crack radius.
+study::StudyFile pressures_and_cracks() {
   study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
   file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6}),
                      axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
-  const Plot plot = gap_pictures(swept(std::move(file),
+  return file;
+}
+
+// By hand: at 10 um the bound is 0 from 450 MPa on, at 30 um everywhere.
+TEST(SweepPictures, LowerBoundsOfZeroAreSaidAndNotDrawn) {
+  const Plot plot = gap_pictures(swept(pressures_and_cracks(),
                                        [](const study::Study& study, const std::vector<double>& at) {
                                          study::CaseAnswer answer =
                                              value_answer(study, 4e-4 - 1e-12 * (at[0] - 400e6) - at[1]);
@@ -352,10 +357,7 @@ TEST(SweepPictures, MoreThanTwoAxesMakeNoPicture) {
 
 // By hand: the gaps of 10 and 30 um are alike, their lower bounds are not.
 TEST(SweepPictures, LinesOnEachOtherAreOneWithTheNamesOfAll) {
-  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
-  file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6}),
-                     axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
-  const Plot plot = gap_pictures(swept(std::move(file),
+  const Plot plot = gap_pictures(swept(pressures_and_cracks(),
                                        [](const study::Study& study, const std::vector<double>& at) {
                                          study::CaseAnswer answer =
                                              value_answer(study, 4e-4 - 1e-12 * (at[0] - 400e6));
@@ -400,11 +402,8 @@ TEST(SweepPictures, SingleValuesMakeNoPicture) {
 
 // By hand: along the pressure, the longer axis, all but one value are unknown.
 TEST(SweepPictures, WhereNoLineJoinsTwoValuesAnotherAxisIsDrawn) {
-  study::StudyFile file = bare_study(kinds::traits_of("critical-gap"), {0});
-  file.study.axes = {axis(file, "peak_pressure", "load.peak", {400e6, 450e6, 500e6}),
-                     axis(file, "crack_radius", "charge.crack_radius", {1e-5, 3e-5})};
-  const GapPictures made =
-      gap_pictures(swept(std::move(file), [](const study::Study& study, const std::vector<double>& at) {
+  const GapPictures made = gap_pictures(
+      swept(pressures_and_cracks(), [](const study::Study& study, const std::vector<double>& at) {
         study::CaseAnswer answer = value_answer(study, at[1] < 2e-5 ? 4e-4 : 3e-4);
         if (at[0] > 401e6) answer.critical.kind = study::CriticalGapKind::indeterminate;
         return answer;
