@@ -223,7 +223,9 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   store::Manifest manifest = store::make_manifest(scene::to_toml(scene), 1);
   path target;
   if (arguments.output) {
-    target = *arguments.output / arguments.scene.stem().concat(".h5");
+    std::string name = arguments.scene.stem();
+    std::ranges::replace(name, ':', '_');  // XDMF ends the name of a file at its first colon
+    target = *arguments.output / (name + ".h5");
     // Found out before anything is computed.
     console.refuse_any(store::obstacle_to_case_file(target, manifest));
     if (scene.output.asks_for_snapshots()) console.refuse_any(store::obstacle_to_sidecar(target));

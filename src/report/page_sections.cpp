@@ -1,4 +1,5 @@
 #include "launchsafe/report/report.hpp"
+#include "launchsafe/scene/toml_reader.hpp"
 
 #include <kainjow/mustache.hpp>
 #include <openssl/evp.h>

@@ -1,6 +1,7 @@
 // Names in the plot itself, where nothing else is drawn.
 #include "plot_names.hpp"
 
+#include "launchsafe/math/numbers.hpp"
 #include "launchsafe/report/table.hpp"
 
 #include <array>

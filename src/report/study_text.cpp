@@ -1,6 +1,7 @@
 #include "launchsafe/report/study_text.hpp"
 
 #include "launchsafe/report/quantities.hpp"
+#include "launchsafe/study/study_cases.hpp"
 
 namespace launchsafe::report {
 namespace {

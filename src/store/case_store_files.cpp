@@ -1,5 +1,7 @@
 #include "case_store_files.hpp"
 
+#include "launchsafe/scene/toml_reader.hpp"
+
 namespace launchsafe::store {
 namespace {
 

@@ -4,6 +4,8 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
+
 namespace launchsafe::store {
 namespace {
 
@@ -68,13 +70,16 @@ Database::Database(std::filesystem::path path, Handle handle)
     : path_(std::move(path)), handle_(std::move(handle)) {}
 
 Error Database::error(int code) const {
-  const Error::Kind kind = kind_of(code);
+  // Without the lock daemon of NFS, for example. SQLite calls that a file which another process holds.
+  const bool has_no_locks = code == SQLITE_IOERR_LOCK || code == SQLITE_IOERR_RDLOCK ||
+                            (kind_of(code) == Error::Kind::held && errno == ENOLCK);
+  const Error::Kind kind = has_no_locks ? Error::Kind::write_failed : kind_of(code);
   const bool is_told = sqlite3_errcode(handle_.get()) != SQLITE_OK;
   std::string text =
       fmt::format("{}: {}", path_.string(), is_told ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
   if ((code & 0xff) == SQLITE_NOTADB)
     return refusal(path_, "is no results file of launchsafe, or its beginning is damaged");
-  if (code == SQLITE_IOERR_LOCK || code == SQLITE_IOERR_RDLOCK)
+  if (has_no_locks)
     text +=
         "; its file system knows no locks, without which two programs may write at once: name another folder";
   if (kind == Error::Kind::corrupt)

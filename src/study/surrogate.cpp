@@ -1,6 +1,7 @@
 #include "launchsafe/study/surrogate.hpp"
 
 #include "launchsafe/study/record_reader.hpp"
+#include "launchsafe/study/study_file.hpp"
 
 namespace launchsafe::study {
 namespace {

@@ -150,13 +150,13 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
   return history;
 }
 
-IgnitionOfGaps::IgnitionOfGaps(const SkinModel& model, const trace::BottomTrace& trace)
-    : model_(model), trace_(trace) {
-  const detail::Intervals intervals(model, trace, 0.0);
+IgnitionOfGaps::IgnitionOfGaps(SkinModel model, const trace::BottomTrace& trace)
+    : model_(std::move(model)), trace_(trace) {
+  const detail::Intervals intervals(model_, trace, 0.0);
   const std::vector<std::size_t> hottest = hottest_stations(intervals, trace);
   stations_ = hottest.size();
   for (std::size_t interval = 0; interval < intervals.count(); ++interval) {
-    const detail::SkinEquation equation = equation_of(model, intervals, interval);
+    const detail::SkinEquation equation = equation_of(model_, intervals, interval);
     intervals_.push_back({equation.air, equation.air_slope, heating_of(intervals, interval, hottest)});
     all_finite_ = all_finite_ && all_finite(intervals_.back().heating);
   }

@@ -290,13 +290,13 @@ LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure
   return {mean - half, mean + half};
 }
 
-Intervals::Intervals(const SkinModel& model, const trace::BottomTrace& trace, double gap)
-    : model_(model),
+Intervals::Intervals(SkinModel model, const trace::BottomTrace& trace, double gap)
+    : model_(std::move(model)),
       trace_(trace),
-      pressure_(from_chamber(model) ? trace.chamber_pressure : trace.bottom_pressure),
-      mean_(from_chamber(model) ? trace.mean_chamber_pressure : trace.mean_bottom_pressure),
-      friction_(friction_of(model, trace)),
-      ratio_(heat_capacity_ratio(model, gap)),
+      pressure_(from_chamber(model_) ? trace.chamber_pressure : trace.bottom_pressure),
+      mean_(from_chamber(model_) ? trace.mean_chamber_pressure : trace.mean_bottom_pressure),
+      friction_(friction_of(model_, trace)),
+      ratio_(heat_capacity_ratio(model_, gap)),
       rate_of_step_(per_step_rate(ratio_, 1.0, 1.0)) {}
 
 IntervalPressure Intervals::pressure(std::size_t interval) const {

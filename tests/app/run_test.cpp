@@ -36,6 +36,14 @@ TEST_F(RunProgram, SaysWhichEventsOfSnapshotsDidNotHappen) {
   EXPECT_TRUE(exists("out/shell.xdmf"));
 }
 
+TEST_F(RunProgram, FilesOfASceneWithAColonInItsNameHaveNone) {
+  write("105 mm: mine.toml", with(tiny_scene, "[output]\n", "[output]\nsnapshots = \"0 ms\"\n"));
+  EXPECT_EQ(run({"run", "105 mm: mine.toml", "-o", "out"}).code, 0);
+  EXPECT_TRUE(exists("out/105 mm_ mine.h5"));
+  EXPECT_NE(read("out/105 mm_ mine.xdmf").find(">105 mm_ mine.h5:/snapshots/0000/corners<"),
+            std::string::npos);
+}
+
 TEST_F(RunProgram, ExplainSaysTheSizeOfSnapshots) {
   write("shell.toml", with(tiny_scene, "[output]\n",
                            "[output]\nsnapshots = \"0, 0.05 ms\"\nsnapshot_events = \"ignition\"\n"));

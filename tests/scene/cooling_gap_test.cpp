@@ -1,4 +1,5 @@
 // Gaps that open as a cast charge cools, in scene files.
+#include "launchsafe/scene/plan.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,10 @@
 #include "store_fixture.hpp"
 
 #include <nlohmann/json.hpp>
+#include <sqlite3.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 
 namespace launchsafe::store {
@@ -120,6 +122,25 @@ TEST_F(StoreLockTest, AReaderNeedsNoRightToWrite) {
   for (const auto& path : {folder(), where(), where() / "cases"})
     std::filesystem::permissions(path, std::filesystem::perms(0755));
   EXPECT_TRUE(reads);
+}
+
+/// fcntl() on a file system without locks.
+int refuse_lock(int, int, ...) {
+  errno = ENOLCK;
+  return -1;
+}
+
+TEST_F(StoreLockTest, AFileSystemWithoutLocksIsNoOtherProcess) {
+  fill(2);
+  sqlite3_vfs* const system = sqlite3_vfs_find(nullptr);
+  system->xSetSystemCall(system, "fcntl", reinterpret_cast<sqlite3_syscall_ptr>(refuse_lock));
+  const auto writer = try_open(where(), "");
+  const auto reader = CaseStore::open_to_read(where());
+  system->xSetSystemCall(system, "fcntl", nullptr);  // the real one again
+  ASSERT_FALSE(writer);
+  EXPECT_EQ(writer.error().kind, Error::Kind::write_failed) << writer.error().message;
+  ASSERT_FALSE(reader);
+  EXPECT_EQ(reader.error().kind, Error::Kind::write_failed) << reader.error().message;
 }
 
 TEST_F(StoreLockTest, DifferentPartsCoexist) {

@@ -1,11 +1,13 @@
 // The skin on a whole trace: air models, sampling, ignition, maxima, cost.
 #include "launchsafe/surface/skin.hpp"
+#include "launchsafe/surface/skin_equation.hpp"
 #include "plain_model.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace {
 
@@ -38,6 +40,14 @@ TEST(Ignites, SaysNothingWithoutATraceOrWithATemperatureThatIsNone) {
   trace::BottomTrace trace = smooth_launch(50, 1, friction_energy);
   trace.mean_bottom_pressure[20] = std::nan("");
   EXPECT_FALSE(IgnitionOfGaps(plain, trace)(1e-4));
+}
+
+TEST(Ignites, KeepsAModelOfItsOwnAndNoTraceThatEnds) {
+  const trace::BottomTrace trace = smooth_launch(50, 1, friction_energy);
+  const IgnitionOfGaps ignites(plain_model(), trace);
+  EXPECT_EQ(ignites(1e-4), IgnitionOfGaps(plain_model(), trace)(1e-4));
+  EXPECT_FALSE((std::is_constructible_v<IgnitionOfGaps, SkinModel, trace::BottomTrace>));
+  EXPECT_FALSE((std::is_constructible_v<detail::Intervals, SkinModel, trace::BottomTrace, double>));
 }
 
 // Each of more stations than a register holds has an interval in which it is heated most. The one that

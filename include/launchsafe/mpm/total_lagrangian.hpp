@@ -31,6 +31,7 @@ class TotalLagrangian {
  public:
   /// Holds references to scene and bodies, which must outlive it at the same address.
   TotalLagrangian(const scene::Scene& scene, std::vector<AnyBody>& bodies, int threads);
+  TotalLagrangian(const scene::Scene&& scene, std::vector<AnyBody>& bodies, int threads) = delete;
 
   /// Takes over the state of another computation of the same bodies on the same lattice. The particles are
   /// the caller's to copy.

@@ -76,8 +76,9 @@ SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& tra
 /// more than another, as they are nowhere hotter. What does not depend on the gap is found once.
 class IgnitionOfGaps {
  public:
-  /// Both outlive it.
-  IgnitionOfGaps(const SkinModel& model, const trace::BottomTrace& trace);
+  /// Keeps a reference to the trace, which must outlive it.
+  IgnitionOfGaps(SkinModel model, const trace::BottomTrace& trace);
+  IgnitionOfGaps(SkinModel model, const trace::BottomTrace&& trace) = delete;
   /// Whether any station that tiles the bottom ignites under a gap (m); nothing where a temperature is not a
   /// number.
   std::optional<bool> operator()(double gap) const;
@@ -90,7 +91,7 @@ class IgnitionOfGaps {
   /// Of so many of the stations that count, from one on.
   std::optional<bool> any_ignites(const detail::Intervals& intervals, std::size_t first,
                                   std::size_t count) const;
-  const SkinModel& model_;
+  SkinModel model_;
   const trace::BottomTrace& trace_;
   std::vector<Interval> intervals_;
   std::size_t stations_ = 0;  ///< that count

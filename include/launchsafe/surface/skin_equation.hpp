@@ -64,10 +64,11 @@ struct LinearAir {
 /// jump at samples; it never falls below the initial air temperature.
 LinearAir linear_air(const materials::AirParameters& air, const IntervalPressure& pressure);
 
-/// Reads a trace for one model and one gap. Interval k ends at sample k + 1.
+/// Reads a trace, which must outlive it, for one model and one gap (m). Interval k ends at sample k + 1.
 class Intervals {
  public:
-  Intervals(const SkinModel& model, const trace::BottomTrace& trace, double gap);
+  Intervals(SkinModel model, const trace::BottomTrace& trace, double gap);
+  Intervals(SkinModel model, const trace::BottomTrace&& trace, double gap) = delete;
 
   std::size_t count() const { return trace_.samples() > 0 ? trace_.samples() - 1 : 0; }
   double length(std::size_t interval) const { return trace_.time[interval + 1] - trace_.time[interval]; }
@@ -80,7 +81,7 @@ class Intervals {
   double friction_heating(std::size_t interval, std::size_t station) const;
 
  private:
-  const SkinModel& model_;
+  SkinModel model_;
   const trace::BottomTrace& trace_;
   const std::vector<double>& pressure_;
   const std::vector<double>& mean_;
