@@ -108,7 +108,8 @@ ExitCode explain_scene(const ExplainArguments& arguments, Console& console) {
   if (arguments.picture) draw_grid(*arguments.picture, scene, console);
   const double update_rate = measured_update_rate(scene, console);
   const study::StudyFile alone = study_of(file);
-  const Json facts = scene_json(scene, update_rate);
+  Json facts = scene_json(scene, update_rate);
+  facts["kinetics"] = report::kinetics_json(file);
   return console.done(
       scene_text(scene, facts) + checks_text(plausibility_lines(alone), study::acceptances_of(alone)), facts);
 }
@@ -176,6 +177,7 @@ Json forecast_json(const study::StudyFile& file, const Forecast& forecast) {
     updates *= static_cast<double>(forecast.run_count) / static_cast<double>(forecast.runs.size());
   return {{"title", file.study.title},
           {"kind", file.study.kind.name},
+          {"kinetics", report::kinetics_json(file.scene)},
           {"cases", forecast.cases},
           {"mechanical_runs", forecast.run_count},
           {"estimated_from_runs", forecast.runs.size()},

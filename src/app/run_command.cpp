@@ -251,6 +251,7 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
   if (!missing.empty())
     console.remark(fmt::format("no snapshot of {}: it did not happen", fmt::join(missing, ", ")));
   Json object = case_json(scene, result);
+  object["kinetics"] = report::kinetics_json(file);
   console.print_text(case_text(scene, result, object));
   object["events_without_snapshot"] = missing;
   object["implausible"] = plausibility_json(scene);

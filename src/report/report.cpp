@@ -139,11 +139,9 @@ std::string to_text(const Report& report, const std::filesystem::path& folder, s
 
 std::string study_json(const study::StudyFile& study, const Report& report,
                        const nlohmann::ordered_json& members) {
-  nlohmann::ordered_json head{{"format", "launchsafe study 1"},
-                              {"kind", study.study.kind.name},
-                              {"study", study_file_name(study)},
-                              {"title", report.title},
-                              {"answer", report.answer}};
+  nlohmann::ordered_json head{{"format", "launchsafe study 1"},  {"kind", study.study.kind.name},
+                              {"study", study_file_name(study)}, {"title", report.title},
+                              {"answer", report.answer},         {"kinetics", kinetics_json(study.scene)}};
   if (study.study.demonstration) head["demonstration"] = true;
   head.update(members);
   if (const auto& evidence = study.study.calibration.firings; evidence && study.study.kind.gives_verdicts) {

@@ -93,6 +93,8 @@ Row scene_facts(const StudyEvidence& study) {
             {"curve_file", scene.load.curve_file},
             {"smoothing_ms", in(millisecond, scene.load.smoothing)},
             {"inputs", inputs_of(study.scene)}};
+  // The manifest's scene has every number written out; where they come from the study says.
+  facts["kinetics"] = study.study.contains("kinetics") ? study.study["kinetics"] : kinetics_json(study.scene);
   facts["held"] = interfaces_of(scene);
   for (const scene::Body& body : scene.bodies)
     facts["bodies"].push_back({{"body", body.name},

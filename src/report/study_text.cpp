@@ -167,12 +167,24 @@ std::string remaking_command(const study::StudyFile& study) {
   return fmt::format("launchsafe study {} -o DIR", study_file_name(study));
 }
 
+Row kinetics_json(const scene::SceneFile& file) {
+  if (!scene::has_charge(file.scene)) return nullptr;
+  const materials::KineticsParameters& kinetics = file.scene.charge().kinetics;
+  Row facts{{"activation_temperature_K", kinetics.activation_temperature},
+            {"frequency_per_s", kinetics.frequency},
+            {"heat_of_reaction_J_per_kg", kinetics.heat_of_reaction},
+            {"from", scene::kinetics_origin(file)}};
+  facts["text"] = noted("kinetics", facts).front();
+  return facts;
+}
+
 std::string setup_text(const study::StudyFile& study) {
   Row facts{{"study", study_file_name(study)},
             {"scene", study.study.scene},
             {"accuracy", study.study.accuracy},
             {"setting", study.chosen_setting},
-            {"measured", scene::measured_load_text(study.scene.scene.load)}};
+            {"measured", scene::measured_load_text(study.scene.scene.load)},
+            {"kinetics", kinetics_json(study.scene)}};
   for (const auto& [key, value] : study.overrides)
     facts["overrides"].push_back({{"key", key}, {"value", value}});
   for (const study::Axis& axis : study.study.axes)

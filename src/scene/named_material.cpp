@@ -158,9 +158,51 @@ bool scene_gives(const SceneFile& file, const std::string& name) {
   });
 }
 
+/// A law with the numbers of a material.
+template <class Law>
+Law law_with(const NamedMaterial& material) {
+  Law law;
+  for (const Key<Law>& key : Law::parameters())
+    if (const Given* given = find_in(material.values, key.name)) key.set(law, given->value);
+  return law;
+}
+
+/// The key that gives a number of the kinetics: its own, or that of a named set.
+const auto& given_kinetics(const std::map<std::string, Given>& values, const std::string& name) {
+  const auto own = values.find(name);
+  return *(own != values.end() ? own : values.find("kinetics.set"));
+}
+
+/// Throws that of a key of [kinetics] by which the charge would not react as its own material does. Studies
+/// may set the ignition temperature, which is also a constant of calibrations.
+void check_kinetics_of(const NamedMaterial& material, const SceneFile& file) {
+  static const std::vector<Key<Charge>> keys = Charge::parameters();
+  const Charge own = law_with<Charge>(material);
+  Charge stated = own;
+  for (const Key<Charge>& key : keys) {
+    const Given* given = find_in(file.given, key.name);
+    if (given == nullptr || !key.name.starts_with("kinetics.")) continue;
+    if (given->place.file == file.file || key.role().part != keys::Part::calibrated)
+      key.set(stated, given->value);
+  }
+  for (const Key<Charge>& key : keys) {
+    if (!key.name.starts_with("kinetics.") || key.kind == KeyKind::word || key.get(stated) == key.get(own))
+      continue;
+    const auto& [name, given] = given_kinetics(file.given, key.name);
+    const Place& of_material = given_kinetics(material.values, key.name).second.place;
+    throw error_at(
+        given.place, name,
+        fmt::format("{} = {} beside {} of the material \"{}\"", key.name, format_value(key, key.get(stated)),
+                    format_value(key, key.get(own)), material.name),
+        fmt::format("the kinetics of the charge's material alone, {}:{}", of_material.file,
+                    of_material.line));
+  }
+}
+
 /// The named material as the scene's material of its law. A number that is the program's own is no given one:
 /// what rests on defaults, such as the constants of a calibration, stays as it is.
 void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
+  if (material.law == Charge::name) check_kinetics_of(material, file);
   std::vector<Source> sources = material.sources;
   materials::for_each_law([&]<class Law>(const Law& usual) {
     if (material.law != Law::name) return;
@@ -182,11 +224,9 @@ void use_as_law(const NamedMaterial& material, SceneFile& file, Scene& scene) {
 
 /// The named material beside another one of its law.
 void add_beside(const NamedMaterial& material, Scene& scene) {
-  materials::for_each_law([&]<class Law>(Law law) {
-    if (material.law != Law::name) return;
-    for (const Key<Law>& key : Law::parameters())
-      if (const Given* given = find_in(material.values, key.name)) key.set(law, given->value);
-    scene.materials.push_back({material.name, law, material.title});
+  materials::for_each_law([&]<class Law>(const Law&) {
+    if (material.law == Law::name)
+      scene.materials.push_back({material.name, law_with<Law>(material), material.title});
   });
   for (Source source : material.sources) {
     for (std::string& key : source.keys)
@@ -301,6 +341,30 @@ std::vector<Key<SceneFile>> keys_of_used_materials(const SceneFile& file) {
     });
   }
   return keys;
+}
+
+std::string kinetics_origin(const SceneFile& file) {
+  const auto at = [](const std::string& what, const Place& place) {
+    const std::string name = std::filesystem::path(place.file).filename().string();
+    return fmt::format("{} ({}:{})", what, name, place.line);
+  };
+  const Given* set = find_in(file.given, "kinetics.set");
+  std::vector<std::string> origins{
+      set ? at(fmt::format("named set \"{}\"", std::get<std::string>(set->value)), set->place)
+          : fmt::format("named set \"{}\", the default", Charge{}.kinetics.name)};
+  std::string prefix;
+  for (const std::string& name : file.body_materials) {
+    const NamedMaterial* material = find_named_material(file, name);
+    if (material == nullptr || material->law != Charge::name) continue;
+    origins.front() = at(fmt::format("material \"{}\"", name), material->place);
+    prefix = fmt::format("material.{}.", name);
+  }
+  for (const char* number : {"activation_temperature", "frequency", "heat_of_reaction"}) {
+    const std::string key = fmt::format("{}kinetics.{}", prefix, number);
+    const Place place = place_of_key(file, key);
+    if (place.line > 0) origins.push_back(at(key, place));
+  }
+  return fmt::format("{}", fmt::join(origins, "; "));
 }
 
 void use_materials(SceneFile& file, Scene& scene) {

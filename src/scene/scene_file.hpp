@@ -60,8 +60,8 @@ const NamedMaterial* find_named_material(const SceneFile& file, const std::strin
 /// scene's material of that law: its numbers are given values of the law's keys, and the scene's own stand
 /// above them. Where bodies of one law are of several materials, that one is the law's that is called so,
 /// else the first body's; the others keep their names and numbers. Of explosives there may be one. Throws: a
-/// name that no material has, a second explosive, and keys of a law of which no body says which material they
-/// mean.
+/// name that no material has, a second explosive, keys of a law of which no body says which material they
+/// mean, and keys of [kinetics] that differ from the charge's material.
 void use_materials(SceneFile& file, Scene& scene);
 
 /// "material.NAME.KEY" of the materials that bodies name, on their numbers in the file.
@@ -102,7 +102,7 @@ inline InputError fault_at(const SceneFile& file, const std::string& key, std::s
 /// Edges of bodies, or a bore around the axis, that nearly but not quite lie at one place: closer than a
 /// tenth of a cell, which no grid shows. The message has the value that makes them one.
 void check_near_edges(const SceneFile& file);
-/// A charge whose bottom does not bear on a body all over, bodies that nothing holds, and a chamber that the
+/// A charge with an end that bodies do not cover all over, bodies that nothing holds, and a chamber that the
 /// drawing leaves unclear.
 void check_support(const SceneFile& file);
 /// A body that does not touch the charge, keys of an interface that are missing or would do nothing, sliding

@@ -65,6 +65,11 @@ Keys general_keys() {
                "Frictionless rigid barrel around the outer surface, or a free outer surface.",
                {{"rigid", Barrel::rigid}, {"none", Barrel::none}}, &Scene::barrel) |
           always_plausible("a free shell is the harder case"),
+      flag_key("open_charge", Standing::assumed,
+               "Whether the charge may have a front, or a step, that no body covers all over.",
+               &Scene::open_charge) |
+          written_where([](const Scene& scene) { return scene.open_charge; }) |
+          always_plausible("the launch itself is computed as drawn"),
       number_key("initial_temperature", Dimension::temperature, between(200, 500), Standing::paper,
                  "Temperature of all bodies and of the gap's air before launch.",
                  &Scene::initial_temperature) |

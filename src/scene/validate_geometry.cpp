@@ -41,12 +41,13 @@ void check_pair(const SceneFile& file, const Body& body, const Body& other, cons
     }
 }
 
-/// The length of the charge's rear face along r that a body lies against, m.
-double borne_length(const Scene& scene, const Body& charge) {
+/// The length along r of the front or rear face of a charge that other bodies lie against, m.
+double covered_length(const Scene& scene, const Body& charge, bool rear) {
   double length = 0.0;
-  for (const Body& body : scene.bodies)
-    if (!is_charge(scene, body) && std::abs(body.x_begin - charge.x_end) <= length_tolerance(scene))
-      length += std::max(0.0, overlap(body, charge, axis_r));
+  for (const Body& body : scene.bodies) {
+    const double distance = rear ? body.x_begin - charge.x_end : body.x_end - charge.x_begin;
+    if (std::abs(distance) <= length_tolerance(scene)) length += std::max(0.0, overlap(body, charge, axis_r));
+  }
   return length;
 }
 
@@ -60,26 +61,38 @@ const Body* next_behind(const Scene& scene, const Body& charge) {
   return next;
 }
 
-void check_bottom(const SceneFile& file) {
+InputError open_bottom(const SceneFile& file, const Body& charge, bool in_part) {
+  const Body* next = next_behind(file.scene, charge);
+  return fault_at(
+      file, "gap.thickness",
+      fmt::format("a gap in the drawing: no body lies against {} of the bottom of \"{}\", x = {}, r {}{}",
+                  in_part ? "a part" : "any part", charge.name, centimetres(charge.x_end),
+                  exact_range(charge.r_begin, charge.r_end),
+                  next == nullptr
+                      ? ""
+                      : fmt::format("; \"{}\" begins at {}", next->name, centimetres(next->x_begin))),
+      "a bottom that bears on a body all over; the gap is no part of the drawing, gap.thickness says it",
+      next == nullptr || in_part
+          ? std::string{}
+          : fmt::format("body.{}.x = \"{}\"", next->name, exact_range(charge.x_end, next->x_end)));
+}
+
+void check_ends(const SceneFile& file) {
   const Scene& scene = file.scene;
   const double tolerance = length_tolerance(scene), bottom = charge_extent(scene).x_end;
   for (const Body& charge : scene.bodies) {
-    if (!is_charge(scene, charge) || charge.x_end < bottom - tolerance) continue;
-    const double width = charge.r_end - charge.r_begin, borne = borne_length(scene, charge);
-    if (borne >= width - tolerance * static_cast<double>(scene.bodies.size())) continue;
-    const Body* next = next_behind(scene, charge);
-    const bool moves = next != nullptr && borne <= tolerance;
-    throw fault_at(
-        file, "gap.thickness",
-        fmt::format("a gap in the drawing: no body lies against {} of the bottom of \"{}\", x = {}, r {}{}",
-                    borne > tolerance ? "a part" : "any part", charge.name, centimetres(bottom),
-                    exact_range(charge.r_begin, charge.r_end),
-                    next == nullptr
-                        ? ""
-                        : fmt::format("; \"{}\" begins at {}", next->name, centimetres(next->x_begin))),
-        "a bottom that bears on a body all over; the gap is no part of the drawing, gap.thickness says it",
-        moves ? fmt::format("body.{}.x = \"{}\"", next->name, exact_range(bottom, next->x_end))
-              : std::string{});
+    if (!is_charge(scene, charge)) continue;
+    for (const bool rear : {true, false}) {
+      const double width = charge.r_end - charge.r_begin, covered = covered_length(scene, charge, rear);
+      if (covered >= width - tolerance * static_cast<double>(scene.bodies.size())) continue;
+      if (rear && charge.x_end >= bottom - tolerance) throw open_bottom(file, charge, covered > tolerance);
+      if (scene.open_charge) continue;
+      throw fault_at(file, fmt::format("body.{}.x", charge.name),
+                     fmt::format("\"{}\", where no body covers the {} of the charge, r {}, all over",
+                                 exact_range(charge.x_begin, charge.x_end), rear ? "rear" : "front",
+                                 exact_range(charge.r_begin, charge.r_end)),
+                     "bodies against all of it, or open_charge = true");
+    }
   }
 }
 
@@ -137,7 +150,7 @@ void check_near_edges(const SceneFile& file) {
 }
 
 void check_support(const SceneFile& file) {
-  for (const auto check : {check_bottom, check_hold, check_chamber}) check(file);
+  for (const auto check : {check_ends, check_hold, check_chamber}) check(file);
 }
 
 }  // namespace launchsafe::scene

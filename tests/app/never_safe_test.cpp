@@ -168,6 +168,57 @@ TEST_F(NeverSafe, ALoadThatTheRangeTableContradictsIsRefused) {
   EXPECT_TRUE(outcome.says("drives the projectile to 398")) << outcome.err;
 }
 
+/// The scene with a charge that decomposes a hundred times faster.
+std::vector<Edit> with_hot_mix() {
+  return {{"shell.toml", "title =", "material_file = \"explosives.toml\"\ntitle ="},
+          {"shell.toml", "material = \"charge\"", "material = \"hot-mix\""},
+          {"explosives.toml", "",
+           "[material.hot-mix]\nlaw = \"charge\"\nlike = \"comp-b\"\n"
+           "kinetics.activation_temperature = \"15000 K\"\n"}};
+}
+
+TEST_F(NeverSafe, AMaterialReactsByItsOwnKineticsWhichEveryPageHas) {
+  run_edited(with_hot_mix());
+  EXPECT_EQ(verdicts("SAFE"), 0);
+  EXPECT_GT(verdicts("UNSAFE"), 0);
+  using nlohmann::json;
+  const json kinetics = json::parse(read("out/study.json"))["kinetics"];
+  EXPECT_EQ(kinetics["activation_temperature_K"], 15000.0);
+  EXPECT_EQ(kinetics["frequency_per_s"], 2.01e18);
+  EXPECT_EQ(kinetics["heat_of_reaction_J_per_kg"], 5.82e6);
+  EXPECT_EQ(kinetics["from"], "material \"hot-mix\" (explosives.toml:1)");
+  for (const char* command : {"explain", "run"})
+    EXPECT_EQ(json::parse(run({command, "shell.toml", "--json"}).out)["kinetics"], kinetics) << command;
+  EXPECT_EQ(json::parse(run({"explain", "study.toml", "--json"}).out)["kinetics"], kinetics);
+  EXPECT_EQ(run({"report", "out", "-o", "page"}).code, 0);
+  const std::string told = kinetics["text"];
+  for (const std::string& page :
+       {read("out/report.md"), read("page/report.md"), run({"explain", "shell.toml"}).out,
+        run({"explain", "study.toml"}).out, run({"run", "shell.toml"}).out})
+    EXPECT_NE(page.find(told), std::string::npos) << page;
+}
+
+TEST_F(NeverSafe, OtherKineticsBesideThoseOfAMaterialAreRefusedWithBothPlaces) {
+  std::vector<Edit> edits = with_hot_mix();
+  edits.push_back({"shell.toml", "[kinetics]\n", "[kinetics]\nset = \"comp-b\"\n"});
+  const Outcome outcome = run_edited(edits);
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(outcome.says("kinetics.set: found")) << outcome.err;
+  EXPECT_TRUE(outcome.says("shell.toml:")) << outcome.err;
+  EXPECT_TRUE(outcome.says("explosives.toml:4")) << outcome.err;
+}
+
+TEST_F(NeverSafe, AChargeThatNothingHoldsAtItsFrontIsRefused) {
+  const Outcome outcome = run_edited(
+      {{"shell.toml",
+        "  { name = \"nose\",   material = \"steel\",  x = \"0 to 11.8 cm\",    r = \"0 to 7.75 cm\" },\n",
+        ""},
+       {"shell.toml", "[interface.nose]\ncondition = \"sliding\"\nfriction = 0                   # [C]\n",
+        ""}});
+  EXPECT_EQ(outcome.code, 2) << outcome.out;
+  EXPECT_TRUE(outcome.says("body.charge.x")) << outcome.err;
+}
+
 TEST_F(NeverSafe, TheAcceptanceOfAllAtOnceIsRefusedWithTheNewForm) {
   const Outcome outcome = run_edited(in_scene(
       "title =", "accept = [{ key = \"calibration\", because = \"everything is much alike\" }]\ntitle ="));

@@ -13,7 +13,7 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(outcome.out.starts_with("Launch\n  end of the launch     9.019 m/s after 0.000933 m"))
+  EXPECT_NE(outcome.out.find("  end of the launch     9.019 m/s after 0.000933 m"), std::string::npos)
       << outcome.out;
   for (const std::string part :
        {"a small shell", "T max [K]", "G1", "ignition", "The energy of the air", "Energy balance", "drift",

@@ -91,9 +91,10 @@ TEST(PageTexts, TellANumberInTheDigitsOfItsError) {
 
 // A form that is none would leave a text, or a warning, as if nothing had been asked.
 TEST(PageTexts, OfTheProgramUseFormsThatThereAre) {
-  const std::set<std::string> forms{"all",   "and",   "any",    "count", "counted",   "down", "first",
-                                    "fixed", "is",    "joined", "list",  "measured",  "over", "percent",
-                                    "sci",   "short", "sig",    "some",  "uncertain", "up",   "words"};
+  const std::set<std::string> forms{"all",   "and",       "any",     "count",  "counted", "down",
+                                    "first", "fixed",     "is",      "joined", "list",    "measured",
+                                    "mega",  "over",      "percent", "sci",    "short",   "sig",
+                                    "some",  "uncertain", "up",      "words"};
   const std::regex tag(R"(\{\{[^}]*\}\})"), form(R"(\|([a-z_]+))"),
       column(R"(\n\| [^\n|]+ \| [^\n|]+ \| ([a-z_]+)(?![a-z_ ]*\|))");
   std::size_t found = 0;

@@ -4,6 +4,7 @@
 #include "launchsafe/scene/read_scene.hpp"
 #include "scene/scene_text.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,13 +94,96 @@ TEST(NamedMaterial, YieldsToTheTablesOfTheSceneAndLosesTheirSource) {
   const SceneFile file = scene_of(of_own + "\n[charge]\ndensity = \"1.7 g/cm3\"\n" + own_mix);
   EXPECT_DOUBLE_EQ(file.scene.charge().initial_density(), 1700.0);
   EXPECT_EQ(source_of(file.scene.sources, "charge.density"), nullptr);
-  const SceneFile printed = scene_of(of_own + "\n[kinetics]\nset = \"printed\"\n" + own_mix);
-  EXPECT_EQ(printed.scene.charge().kinetics.name, "printed");
   const auto changed = with_written_key(scene_of(of_own + own_mix), "charge.density", "1.6 g/cm3", {});
   ASSERT_TRUE(changed);
   EXPECT_DOUBLE_EQ(changed->scene.charge().initial_density(), 1600.0);
   EXPECT_EQ(source_of(changed->scene.sources, "charge.density"), nullptr);
   EXPECT_NE(source_of(changed->scene.sources, "charge.specific_heat"), nullptr);
+}
+
+const std::string hot_mix =
+    "\n[material.my-mix]\nlaw = \"charge\"\nlike = \"comp-b\"\nkinetics.activation_temperature = \"15000 "
+    "K\"\n";
+
+TEST(NamedMaterial, ReactsByItsOwnKinetics) {
+  const SceneFile hot = scene_of(of_own + hot_mix);
+  EXPECT_EQ(hot.scene.charge().kinetics.activation_temperature, 15000.0);
+  EXPECT_EQ(hot.scene.charge().kinetics.frequency, Charge{}.kinetics.frequency);
+  const SceneFile pbx = scene_of(with(small_scene, "material = \"charge\"", "material = \"pbx-9501\""));
+  EXPECT_EQ(pbx.scene.charge().kinetics.activation_temperature, 26520.0);
+  EXPECT_EQ(pbx.scene.charge().kinetics.frequency, 5e19);
+  EXPECT_EQ(pbx.scene.charge().kinetics.heat_of_reaction, 2.09e6);
+}
+
+TEST(NamedMaterial, IsNotGivenOtherKineticsByTheScene) {
+  for (const auto& [key, value] : {std::pair{"set", "comp-b"},
+                                   {"set", "printed"},
+                                   {"activation_temperature", "27000 K"},
+                                   {"frequency", "1e18 1/s"},
+                                   {"heat_of_reaction", "5 MJ/kg"},
+                                   {"ignition_temperature", "600 K"},
+                                   {"burnt_temperature", "800 K"}}) {
+    const std::string line = fmt::format("{} = \"{}\"", key, value),
+                      text = of_own + "\n[kinetics]\n" + line + "\n" + hot_mix;
+    const bool of_hot = key == std::string("set") || key == std::string("activation_temperature");
+    const InputError error = error_of(text);
+    EXPECT_EQ(error.key, std::string("kinetics.") + key) << error.message();
+    EXPECT_EQ(error.line, line_of(text, line)) << error.message();
+    const std::string material =
+        of_hot ? fmt::format("shell.toml:{}", line_of(text, "kinetics.act")) : "the shipped comp-b.toml:";
+    EXPECT_NE(error.message().find(material), std::string::npos) << error.message();
+  }
+  const std::string pbx = with(small_scene, "material = \"charge\"", "material = \"pbx-9501\"");
+  EXPECT_EQ(error_of(pbx + "\n[kinetics]\nset = \"comp-b\"\n").key, "kinetics.set");
+  for (const char* same : {"frequency = \"2.01e18 1/s\"", "burnt_temperature = \"784 K\""})
+    EXPECT_EQ(scene_of(of_own + "\n[kinetics]\n" + same + "\n" + hot_mix)
+                  .scene.charge()
+                  .kinetics.activation_temperature,
+              15000.0);
+  scene_of(of_comp_b + "\n[kinetics]\nset = \"comp-b\"\n");
+}
+
+/// What calibrations find of it, the ignition temperature, is theirs to set.
+TEST(NamedMaterial, IsGivenOtherKineticsByStudiesUnderItsName) {
+  const SceneFile hot = scene_of(of_own + hot_mix);
+  const Place study{"study.toml", 3};
+  for (const auto& [key, value] : {std::pair{"kinetics.set", "comp-b"}, {"kinetics.frequency", "1e18 1/s"}}) {
+    const auto refused = with_written_key(hot, key, value, study);
+    ASSERT_FALSE(refused) << key;
+    EXPECT_EQ(refused.error().file, "study.toml");
+    EXPECT_EQ(refused.error().key, key);
+  }
+  const auto later = with_written_key(hot, "kinetics.ignition_temperature", "540 K", study);
+  ASSERT_TRUE(later) << later.error().message();
+  EXPECT_EQ(later->scene.charge().kinetics.ignition_temperature, 540.0);
+  const auto other = with_written_key(hot, "material.my-mix.kinetics.frequency", "1e18 1/s", study);
+  ASSERT_TRUE(other) << other.error().message();
+  EXPECT_EQ(other->scene.charge().kinetics.frequency, 1e18);
+  // A body of another material beside a line of the scene, too.
+  const SceneFile usual = scene_of(small_scene + "\n[kinetics]\nset = \"comp-b\"\n");
+  EXPECT_FALSE(with_written_key(usual, "body.filling.material", "pbx-9501", study));
+}
+
+TEST(NamedMaterial, AndNamedSetsAndKeysAreTheOriginsOfKinetics) {
+  const std::string of_set = small_scene + "\n[kinetics]\nset = \"printed\"\n",
+                    of_number = of_set + "frequency = \"1e18 1/s\"\n", of_material = of_own + hot_mix;
+  const auto at = [](const std::string& text, const std::string& line) {
+    return fmt::format("(shell.toml:{})", line_of(text, line));
+  };
+  EXPECT_EQ(kinetics_origin(scene_of(small_scene)), "named set \"comp-b\", the default");
+  const std::string set = "named set \"printed\" " + at(of_set, "set =");
+  EXPECT_EQ(kinetics_origin(scene_of(of_set)), set);
+  EXPECT_EQ(kinetics_origin(scene_of(of_number)),
+            set + "; kinetics.frequency " + at(of_number, "frequency ="));
+  const std::string material = "material \"my-mix\" " + at(of_material, "[material.my-mix]");
+  EXPECT_EQ(kinetics_origin(scene_of(of_material)), material);
+  const auto changed = with_written_key(scene_of(of_material), "material.my-mix.kinetics.heat_of_reaction",
+                                        "5 MJ/kg", {"a/study.toml", 3});
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(kinetics_origin(*changed),
+            material + "; material.my-mix.kinetics.heat_of_reaction (study.toml:3)");
+  EXPECT_TRUE(
+      kinetics_origin(scene_of(of_comp_b)).starts_with("material \"comp-b\" (the shipped comp-b.toml:"));
 }
 
 TEST(NamedMaterial, OfABodyIsAKeyThatStudiesChange) {

@@ -105,9 +105,9 @@ TEST(SceneKeys, ChangedSceneIsValidatedAtThePlaceOfTheChange) {
   const auto thick = with_written_key(file, "body.filling.r", "0 to 1.8 cm", {"sweep.toml", 7, 1});
   ASSERT_FALSE(thick);
   EXPECT_NE(thick.error().found.find("overlaps"), std::string::npos);
-  const auto shorter = with_written_key(file, "body.filling.x", "1.05 to 4 cm", {"sweep.toml", 7, 1});
+  const auto shorter = with_written_key(file, "body.cup.x", "0.05 to 1 cm", {"sweep.toml", 7, 1});
   ASSERT_TRUE(shorter) << shorter.error().message();
-  EXPECT_EQ(shorter->scene.bodies[1].x_begin, 0.0105);
+  EXPECT_EQ(shorter->scene.bodies[0].x_begin, 0.0005);
   const auto unknown = with_written_key(file, "charge.crack_radios", "1 mm", {"sweep.toml", 7, 1});
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().suggestion, "charge.crack_radius");

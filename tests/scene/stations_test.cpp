@@ -63,7 +63,8 @@ TEST(Stations, CountCellsInTheCornerAndWhereTheyAreLongest) {
 
 TEST(Stations, WiderOrDeeperThanTheChargeAreRefusedWhereTheyAreAskedFor) {
   const auto text = [](const std::string& key) {
-    return "body = [ { name = \"charge\", material = \"charge\", x = \"0 to 3 mm\", r = \"0 to 2 mm\" }, "
+    return "open_charge = true\nbody = [ { name = \"charge\", material = \"charge\", x = \"0 to 3 mm\", r = "
+           "\"0 to 2 mm\" }, "
            "{ name = \"base\", x = \"3 to 6 mm\", r = \"0 to 2 mm\", material = \"steel\" }, "
            "{ name = \"wall\", x = \"0 to 6 mm\", r = \"2 to 3 mm\", material = \"steel\" } ]\n"
            "[load]\nduration = \"1 ms\"\npeak_time = \"0.5 ms\"\n[numerics]\ncell_size = \"1 "
@@ -73,7 +74,7 @@ TEST(Stations, WiderOrDeeperThanTheChargeAreRefusedWhereTheyAreAskedFor) {
   for (const std::string key : {"width = \"2.1 mm\"", "depth = \"3.1 mm\""}) {
     const auto file = parse_scene(text(key), "small.toml");
     ASSERT_FALSE(file) << key;
-    EXPECT_NE(file.error().message().find("small.toml:8:"), std::string::npos) << file.error().message();
+    EXPECT_NE(file.error().message().find("small.toml:9:"), std::string::npos) << file.error().message();
     EXPECT_NE(file.error().message().find("at most the charge's"), std::string::npos);
   }
   const auto usual = parse_scene(text(""), "small.toml");

@@ -39,6 +39,33 @@ TEST(Drawing, AGapUnderTheChargeIsRefusedByTheKeyThatSaysGaps) {
   EXPECT_NE(part.found.find("a part of the bottom"), std::string::npos) << part.message();
 }
 
+/// Without its cup; under a cup with a bore; and behind a narrower charge, of which it leaves a step.
+TEST(Drawing, AnOpenEndOfTheChargeIsRefusedUnlessTheSceneSaysSo) {
+  const auto body = [](const char* name, const char* material, const char* x, const char* r) {
+    return fmt::format("[[body]]\nname = \"{}\"\nmaterial = \"{}\"\nx = \"{}\"\nr = \"{}\"\n", name, material,
+                       x, r);
+  };
+  const std::string cup = body("cup", "steel", "0 to 1 cm", "0 to 2 cm"),
+                    ring = body("ring", "steel", "0 to 1 cm", "1 to 2 cm"),
+                    plug = body("plug", "steel", "0 to 0.5 cm", "0 to 1 cm");
+  for (const auto& [front, open] :
+       {std::pair{std::string{}, "filling"},
+        {ring, "filling"},
+        {ring + body("booster", "charge", "0 to 1 cm", "0 to 1 cm"), "booster"},
+        {ring + plug + body("booster", "charge", "0.5 to 1 cm", "0 to 0.8 cm"), "filling"}}) {
+    const std::string text = with(small_scene, cup, front);
+    const InputError error = error_of(text);
+    EXPECT_EQ(error.key, fmt::format("body.{}.x", open)) << error.message();
+    EXPECT_EQ(error.line, line_of(text, open) + 2) << error.message();
+    const auto said = parse_scene("open_charge = true\n" + text, "shell.toml");
+    ASSERT_TRUE(said) << said.error().message();
+    EXPECT_EQ(to_toml(parse_scene(to_toml(said->scene), "shell.toml")->scene), to_toml(said->scene));
+  }
+  // The bottom bears all over, whatever the scene says.
+  const std::string bored = with_base(r_of_base, "r = \"0.5 to 2 cm\"");
+  EXPECT_EQ(error_of("open_charge = true\n" + bored).key, "gap.thickness");
+}
+
 TEST(Drawing, ABodyThatNothingHoldsIsRefused) {
   const std::string tail =
       "\n[[body]]\nname = \"tail\"\nmaterial = \"steel\"\nx = \"5.1 to 6 cm\"\nr = \"0 to 2 cm\"\n";

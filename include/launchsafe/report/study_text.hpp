@@ -42,6 +42,10 @@ std::string remaking_command(const study::StudyFile& study);
 /// What was simulated, as Markdown list items: scene, overrides, what is varied, load, mesh, surface
 /// constants.
 std::string setup_text(const study::StudyFile& study);
+/// Activation temperature [K], frequency factor [1/s] and heat of reaction [J/kg] of the charge, where they
+/// come from, and all of it as `text`; null in a scene without a charge.
+Row kinetics_json(const scene::SceneFile& file);
+
 /// Whether a study varies the scene key of that name.
 bool varies(const study::Study& study, const std::string& key);
 /// "re-used 3 mechanical runs, ran 12 ...": runs, rate, wall time.

@@ -239,6 +239,10 @@ struct SceneFile {
   std::vector<std::string> notes;           ///< on words of earlier versions, a line each
 };
 
+/// Where activation temperature, frequency factor and heat of the charge come from, as people read it: the
+/// charge's material, a named set, or keys of the scene or a study, each with file and line.
+std::string kinetics_origin(const SceneFile& file);
+
 /// Where the user gave a key; the file as a whole if it is a default.
 Place place_of_key(const SceneFile& file, const std::string& key);
 

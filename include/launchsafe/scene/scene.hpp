@@ -239,6 +239,7 @@ struct Scene {
   Symmetry symmetry = Symmetry::axisymmetric;
   Frame frame = Frame::co_moving;
   Barrel barrel = Barrel::rigid;
+  bool open_charge = false;            ///< ends of the charge but its bottom need not bear on bodies
   double initial_temperature = 300.0;  ///< K
   std::vector<Body> bodies;
   std::vector<Interface> interfaces;
