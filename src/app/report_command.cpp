@@ -25,7 +25,10 @@ store::StudyRecord record_of(const report::SafetyEvidence& evidence, const Repor
                   document.number, document.author, document.date, fmt::join(document.approvals, ", "));
   for (const report::StudyEvidence& study : evidence.studies)
     input += fmt::format("{} {}\n", study.record.manifest.input_sha256, study.title);
-  return {.manifest = store::make_manifest(input, 1)};
+  std::set<std::string> programs;
+  for (const report::StudyEvidence& study : evidence.studies)
+    programs.insert(study.record.programs.begin(), study.record.programs.end());
+  return {.manifest = store::make_manifest(input, 1), .programs = {programs.begin(), programs.end()}};
 }
 
 /// Prints the page; why not, where no browser does.

@@ -111,6 +111,19 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   return table;
 }
 
+/// Why the result is no basis for a verdict: what is implausible and not accepted, the launch, what burns.
+std::vector<std::string> warnings_of(const scene::Scene& scene, const run::CaseResult& result) {
+  std::vector<std::string> warnings;
+  for (const scene::Implausible& each : scene::implausible_values(scene))
+    if (!each.accepted()) warnings.push_back(scene::validity_warning(each));
+  std::ranges::move(run::validity_warnings(scene, result.mechanics), std::back_inserter(warnings));
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.combustion)
+      for (const std::string& each : run::combustion_validity_warnings(scene, *gap.combustion))
+        warnings.push_back(fmt::format("gap {:.6g} cm: {}", 100.0 * gap.gap, each));
+  return warnings;
+}
+
 /// For programs, in SI units but for the gaps (see the keys).
 Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
   const run::MechanicsResult& mechanics = result.mechanics;
@@ -119,6 +132,7 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
               {"reason", mechanics.reason},
               {"end_time_ms", report::shown_value(mechanics.end_time, report::quantity::time(2).form)},
               {"load", load_json(scene)},
+              {"validity_warnings", warnings_of(scene, result)},
               {"gaps", Json::array()}};
   for (const GapRow& row : rows_of(result)) object["gaps"].push_back(gap_json(row));
   object["combustion"] = report::json_rows(report::combustion_table(scene, result));
@@ -231,13 +245,7 @@ ExitCode perform(const RunArguments& arguments, Console& console) {
     if (scene.output.asks_for_snapshots()) console.refuse_any(store::obstacle_to_sidecar(target));
     console.refuse_any(prepare_output_folder(*arguments.output));
   }
-  for (const scene::Implausible& each : scene::implausible_values(scene))
-    if (!each.accepted()) console.remark("validity warning: " + scene::validity_warning(each));
   const run::CaseResult result = run_with_progress(scene, console);
-  for (const run::GapResult& gap : result.gaps)
-    if (gap.combustion)
-      for (const std::string& each : run::combustion_validity_warnings(scene, *gap.combustion))
-        console.remark(fmt::format("validity warning: gap {:.6g} cm: {}", 100.0 * gap.gap, each));
   manifest.wall_time = result.mechanics.wall_time;
   if (result.mechanics.status == run::RunStatus::interrupted)
     report_interruption(arguments, result.mechanics, scene, console);

@@ -2,20 +2,14 @@
 #include "common_options.hpp"
 #include "launchsafe/report/study_text.hpp"
 
-#include <unistd.h>
-
-#include <thread>
-
 namespace launchsafe::app {
 namespace {
 
 struct StatusArguments {
   std::vector<path> folders;  ///< of one study: its own, or those of its shards
-  bool watch = false;         ///< look again until it has ended
 };
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 /// The folder of a study near one that is none: around it, in it, or beside a name that is not there.
 std::string study_folder_near(const path& folder) {
@@ -52,30 +46,12 @@ std::vector<store::StoreStatus> snapshots_of(const StatusArguments& asked, Conso
   return all;
 }
 
-/// False when it was interrupted meanwhile.
-bool wait_for(std::chrono::milliseconds time) {
-  constexpr auto step = 100ms;
-  for (; time > 0ms && !stop_requested(); time -= step) std::this_thread::sleep_for(step);
-  return !stop_requested();
-}
-
 ExitCode perform(const StatusArguments& asked, Console& console) {
-  const bool on_terminal = ::isatty(STDOUT_FILENO) == 1;
-  std::error_code failed;
-  while (true) {
-    const std::vector<store::StoreStatus> snapshots = snapshots_of(asked, console);
-    std::vector<std::string> names(asked.folders.begin(), asked.folders.end());
-    report::Row facts =
-        report::status_facts(fmt::format("{}", fmt::join(names, ", ")), snapshots, std::time(nullptr));
-    // On a terminal in place of what was shown before.
-    console.print_text((asked.watch && on_terminal ? "\x1b[H\x1b[J" : "") + report::status_text(facts));
-    // A merge follows the shards of an array job, which may all be waiting.
-    const bool waits = facts["state"] == "waiting" && fs::exists(asked.folders.front() / "slurm", failed);
-    const bool goes_on = asked.watch && (waits || report::is_running(facts));
-    if (goes_on && wait_for(on_terminal ? 2s : 10s)) continue;
-    console.print_json(facts);
-    return goes_on ? ExitCode::interrupted : static_cast<ExitCode>(facts["exit_code"].get<int>());
-  }
+  const std::vector<std::string> names(asked.folders.begin(), asked.folders.end());
+  const report::Row facts = report::status_facts(fmt::format("{}", fmt::join(names, ", ")),
+                                                 snapshots_of(asked, console), std::time(nullptr));
+  console.done(report::status_text(facts), facts);
+  return static_cast<ExitCode>(facts["exit_code"].get<int>());
 }
 
 }  // namespace
@@ -83,7 +59,6 @@ ExitCode perform(const StatusArguments& asked, Console& console) {
 void add_status(CLI::App& app, CommandLine& line) {
   auto [command, status] = add_command<StatusArguments>(app, line, "status");
   add_required(command, "folder", status.folders);
-  add(command, "--watch", status.watch);
 }
 
 }  // namespace launchsafe::app

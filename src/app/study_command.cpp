@@ -27,12 +27,19 @@ struct StudyArguments {
 
 /// Whether the report in the folder says what a new one would. A study's results follow from its input, but
 /// for what failed.
-bool report_stands(const path& folder, const StudyRecord& record, const store::Manifest& manifest,
-                   const std::string& failures) {
-  return !record.files.empty() && record.complete && same_study(record.manifest, manifest) &&
-         record.manifest.program_version == manifest.program_version &&
-         record.manifest.commit == manifest.commit && record.failures == failures &&
+bool report_stands(const path& folder, const StudyRecord& record, const StudyRecord& anew) {
+  return !record.files.empty() && record.complete && same_study(record.manifest, anew.manifest) &&
+         store::program_of(record.manifest) == store::program_of(anew.manifest) &&
+         record.programs == anew.programs && record.failures == anew.failures &&
          store::read_as_written(folder, record.files);
+}
+
+/// The programs that made what a store holds of this model version.
+std::vector<std::string> programs_of(const store::CaseStore& store) {
+  std::set<std::string> programs;
+  for (const store::RunRecord& each : store.records())
+    if (each.model_version == run::model_version) programs.insert(each.program);
+  return {programs.begin(), programs.end()};
 }
 
 /// A study's folder while it is ours, from before the runs to the report.
@@ -67,6 +74,10 @@ class StudySession {
     options.progress = watch_->callback();
     kinds::StudyOutcome result = kinds::run_study(file_, options);
     watch_->end_line();
+    record_.programs = programs_of(*store_);
+    if (const std::vector<std::string> others = record_.other_programs(); !others.empty())
+      result.report.remarks.push_back(
+          fmt::format("These programs made the launches: {}.", fmt::join(others, "; ")));
     return result;
   }
 
@@ -161,17 +172,15 @@ class StudySession {
   void write_files(const kinds::StudyOutcome& result) {
     std::string failures;
     for (const auto& [label, reason, outcome] : result.failures) failures += label + "\n" + reason + "\n";
-    const std::string digest = store::sha256(failures);
+    StudyRecord written = record_;
+    written.failures = store::sha256(failures);
     const auto present = store::read_study_record(asked_.output);
-    if (result.timing.runs == 0 && present &&
-        report_stands(asked_.output, *present, record_.manifest, digest))
+    if (result.timing.runs == 0 && present && report_stands(asked_.output, *present, written))
       return console_.remark(fmt::format("the report in {} stands as it is", asked_.output.string()));
     store_->replace_tables(report::plain_tables(result.report));
     keep();
     const report::RenderedReport rendered = report::render_report(result.report, {.stop = &stop_requested()});
     console_.remarks(rendered.remarks);
-    StudyRecord written = record_;
-    written.failures = digest;
     written.manifest.wall_time = result.timing.wall_time;
     // A report that lacks a picture is no finished one: the next time it is written again.
     written.complete = rendered.pictures_missing == 0;

@@ -1,4 +1,4 @@
-// What a running study shows of itself: a line of progress, status files, and the page of its folder.
+// What a running study shows of itself: a line of progress and a status file.
 #pragma once
 
 #include "console.hpp"
@@ -51,7 +51,6 @@ class StudyWatch {
     told["time_left_s"] = nullptr;
     told["exit_code"] = exit_code;
     store_.tell_progress(std::move(told), true);
-    write_page();
   }
 
  private:
@@ -81,9 +80,6 @@ class StudyWatch {
     line_->show(
         report::progress_line(now, std::time(nullptr), terminal_width(STDERR_FILENO).value_or(80) - 1));
     store_.tell_progress(members(now));
-    if (page_written_ && std::chrono::steady_clock::now() - *page_written_ < 10s) return;
-    page_written_ = std::chrono::steady_clock::now();
-    write_page();
   }
 
   Json members(const study::Progress& progress) const {
@@ -92,27 +88,12 @@ class StudyWatch {
     return members;
   }
 
-  void write_page() {
-    const auto snapshots = store::statuses_in(store_.folder());
-    if (snapshots.empty()) return;
-    const std::time_t now = std::time(nullptr);
-    const auto facts = report::status_facts(store_.folder().filename().string(), snapshots, now);
-    std::vector<std::string> linked{"report.html",       "report.md",       "ask.html",        "verdicts.csv",
-                                    "critical_gaps.csv", "temperature.svg", "critical_gap.svg"};
-    std::error_code failed;
-    std::erase_if(linked, [&](const std::string& name) {
-      return !std::filesystem::exists(store_.folder() / name, failed);
-    });
-    store_.write_page(report::status_page(facts, linked));
-  }
-
   store::CaseStore& store_;
   std::string command_;
   std::optional<std::time_t> until_;
   std::mutex mutex_;  ///< of what follows
   study::Progress progress_;
   std::chrono::steady_clock::time_point told_;
-  std::optional<std::chrono::steady_clock::time_point> page_written_;
   std::optional<Progress> line_;
   std::jthread thread_;
 };

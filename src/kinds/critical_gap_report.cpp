@@ -19,24 +19,27 @@ void raise(double& most, double value) {
   if (std::isfinite(value) && !(value <= most)) most = value;
 }
 
-/// Of all cases, or of those with a crack below its flaw.
+/// Of all cases, or of those with a crack below its flaw; without changes where one of them failed.
 Effect effect_of(const CriticalGapResult& result, std::size_t axis, bool below_flaw) {
   // Of the cases that differ along the axis alone: K, infinite where one ignites, by gap too; and m.
   std::map<std::pair<std::vector<double>, double>, Extent> temperatures;
   std::map<std::vector<double>, Extent> critical_gaps;
   Effect effect;
+  bool all_completed = true;
   for (std::size_t i = 0; i < result.answers.size(); ++i) {
     const StudyCase& input = result.study.cases[i];
     const CaseAnswer& answer = result.answers[i];
-    if (input.coordinates.size() <= axis || !answer.completed()) continue;
+    if (input.coordinates.size() <= axis) continue;
     if (below_flaw && input.strength().initial_crack_radius >= input.strength().flaw_size) continue;
     std::vector<double> others = input.coordinates;
     effect.values.include(others[axis]);
+    all_completed = all_completed && answer.completed();
     others[axis] = 0.0;
     critical_gaps[others].include(report::value_of(answer.critical));
     for (const GapVerdict& row : answer.verdicts)
       temperatures[{others, row.gap}].include(row.ignition ? math::infinity : row.maximum.temperature);
   }
+  if (!all_completed) return effect;
   for (const auto& [others, range] : critical_gaps) raise(effect.critical, range.highest - range.lowest);
   for (const auto& [others, range] : temperatures) raise(effect.temperature, range.highest - range.lowest);
   return effect;

@@ -164,7 +164,7 @@ double number_of(const OutputSensitivity& of, const SensitivityResult& result, s
 void summarise(const Study& study, OutputSensitivity& output) {
   std::vector<double> sample;
   for (std::size_t i = 0; i < output.values.size(); ++i)
-    if (samples_inputs(study, i) && std::isfinite(output.values[i])) sample.push_back(output.values[i]);
+    if (samples_inputs(study, i)) sample.push_back(output.values[i]);
   if (sample.size() < 2) return;
   const auto [mean, squares] = math::moments_of(sample);
   output.mean = mean;
@@ -181,11 +181,9 @@ void estimate(const SensitivityResult& result, OutputSensitivity& output) {
 
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
   OutputSensitivity output = values_of(result, which);
+  if (!output.reason.empty()) return output;
   summarise(result.study.study, output);
-  if (output.bounds > 0)
-    output.reason = gap_reason(result.answers);
-  else
-    estimate(result, output);
+  estimate(result, output);
   return output;
 }
 
@@ -256,6 +254,13 @@ OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput w
     ++output.missing;
     if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
   }
+  const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
+  if (failed > 0)
+    output.reason = fmt::format("{} of {} evaluations failed", failed, all);
+  else if (output.missing > 0)
+    output.reason = fmt::format("{} of {} evaluations have no number", output.missing, all);
+  if (failed == 0 && which == SensitivityOutput::critical_gap)
+    output.reason = gap_reason(result.answers, output.reason);
   return output;
 }
 

@@ -62,7 +62,7 @@ std::vector<double> next_points(const SensitivityResult& result, std::size_t cou
   for (const auto which : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap}) {
     const double asked = asked_error(study, which);
     const OutputSensitivity output = values_of(result, which);
-    if (std::isnan(asked) || output.bounds > 0) continue;
+    if (std::isnan(asked) || !output.reason.empty()) continue;
     SurrogateOutput fitted = unfitted(result, output);
     fit_output(record, fitted);
     if (!fitted.reason.empty()) continue;
@@ -143,18 +143,12 @@ std::vector<double> design_points(const Study& study) {
   return points;
 }
 
-SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output) {
-  SurrogateOutput fit = unfitted(result, output);
-  fit_output(launches_of(result), fit);
-  if (output.output == SensitivityOutput::critical_gap) fit.reason = gap_reason(result.answers, fit.reason);
-  return fit;
-}
-
 void estimate_by_chaos(const SensitivityResult& result, OutputSensitivity& output) {
   const Study& study = result.study.study;
   const auto& own = settings_of<SensitivitySettings>(study);
   const SurrogateRecord record = launches_of(result);
-  const SurrogateOutput& fit = output.fit.emplace(fit_of(result, output));
+  SurrogateOutput& fit = output.fit.emplace(unfitted(result, output));
+  fit_output(record, fit);
   output.reason = fit.reason;
   if (!output.reason.empty()) return;
   std::vector<std::size_t> begins = of_each(inputs_of(study), &SensitivityInput::first);

@@ -26,9 +26,6 @@ std::string at_gap(const Study& study, SensitivityOutput output);
 /// then independent ones that are held out.
 std::vector<double> design_points(const Study& study);
 
-/// The fit of an output that has its values, to the evaluations that are fitted.
-study::SurrogateOutput fit_of(const SensitivityResult& result, const OutputSensitivity& output);
-
 /// Fits an output, and finds its indices: of a polynomial by its terms, of a process by
 /// differences. Their intervals are widened by the share of the variance that the fit does not explain. None
 /// where nothing is predicted (study::fit_output).

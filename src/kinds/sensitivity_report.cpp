@@ -153,8 +153,9 @@ struct IndexRow {
   ShownInput input;
   std::size_t place;  ///< among the inputs
 
-  const math::SobolIndices* sobol() const { return output->reason.empty() ? &output->sobol : nullptr; }
-  const math::InputIndices* indices() const { return sobol() ? &sobol()->inputs[place] : nullptr; }
+  const math::InputIndices* indices() const {
+    return output->reason.empty() ? &output->sobol.inputs[place] : nullptr;
+  }
 };
 
 std::vector<IndexRow> index_rows(const SensitivityResult& result, const OutputSensitivity& output) {
@@ -175,17 +176,12 @@ Quantities<IndexRow> interval_quantities(const std::string& name, const std::str
 }
 
 Quantities<IndexRow> index_quantities() {
-  return joined<IndexRow>(
-      {{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
-        {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
-       interval_quantities("first_order", "first", &math::InputIndices::first,
-                           "Share of the variance by the input alone."),
-       interval_quantities("total_order", "total", &math::InputIndices::total,
-                           "Share of the variance with its interactions."),
-       {{"used", "rows used", count(), "Rows of the design that the indices rest on.", &IndexRow::sobol,
-         &math::SobolIndices::rows_used},
-        {"of", "of", count(), "Rows of the design.", &IndexRow::sobol,
-         [](const math::SobolIndices& sobol) { return sobol.rows_used + sobol.rows_left_out; }}}});
+  return joined<IndexRow>({{{"input", "input", text(), "What varies.", &IndexRow::input, &ShownInput::name},
+                            {quantity::distribution, &IndexRow::input, &ShownInput::distribution}},
+                           interval_quantities("first_order", "first", &math::InputIndices::first,
+                                               "Share of the variance by the input alone."),
+                           interval_quantities("total_order", "total", &math::InputIndices::total,
+                                               "Share of the variance with its interactions.")});
 }
 
 /// The same below each other for all outputs.
@@ -247,9 +243,6 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
             {"mean", report::number(shown.value(output.mean))},
             {"deviation", shown.value(output.deviation)},
             {"unit", unit.empty() ? "" : " " + unit},
-            {"missing", output.missing},
-            {"evaluations", output.values.size()},
-            {"bounds", output.bounds},
             {"method", method_text(result)},
             {"inert", output.inert},
             {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},

@@ -21,14 +21,15 @@ struct OutputSample {
   /// gap, and infinity where nothing ignites up to the end of the search: it has a rank and no value.
   std::vector<double> values;
   std::size_t missing = 0;  ///< draws of which nothing is known
+  bool all_known = true;    ///< something is known of every evaluation; else there are no quantiles
   std::size_t count(double value) const {
     return static_cast<std::size_t>(std::ranges::count(values, value));
   }
   std::size_t ignites_at_zero() const { return count(-infinite); }
   std::size_t none_ignites() const { return count(infinite); }
-  /// The smallest draw that at least this share (0 to 1) of them does not exceed; NaN without draws.
+  /// The smallest draw that at least this share (0 to 1) of them does not exceed; NaN where there is none.
   double quantile(double share) const {
-    if (values.empty()) return not_a_number;
+    if (!all_known || values.empty()) return not_a_number;
     constexpr double round_off = 1e-9;
     const auto size = static_cast<double>(values.size());
     const double rank = std::clamp(std::ceil(share * size - round_off), 1.0, size);
@@ -40,9 +41,10 @@ struct OutputSample {
 OutputSample sample_of(const SensitivityResult& result, const OutputSensitivity& output,
                        std::size_t most = std::numeric_limits<std::size_t>::max()) {
   OutputSample sample;
-  for (std::size_t i = 0; i < output.values.size() && sample.values.size() < most; ++i) {
-    if (!samples_inputs(result.study.study, i)) continue;
+  for (std::size_t i = 0; i < output.values.size(); ++i) {
     const double value = ranked(output, result.answers[i], output.values[i]);
+    sample.all_known = sample.all_known && !std::isnan(value);
+    if (!samples_inputs(result.study.study, i) || sample.values.size() >= most) continue;
     if (std::isnan(value))
       ++sample.missing;
     else
@@ -67,7 +69,7 @@ std::vector<const OutputSensitivity*> told_outputs(const SensitivityResult& resu
 
 /// "0.0278 cm", "ignites without a gap", "> 0.4 cm".
 std::string quantile_text(const SensitivityResult& result, double gap) {
-  if (std::isnan(gap)) return "n/a";
+  if (std::isnan(gap)) return {};
   if (std::isfinite(gap)) return in_words(gap, significant(3, centimetre));
   return gap < 0 ? "ignites without a gap" : "> " + centimetres(result.study.study.largest_gap);
 }
@@ -123,7 +125,7 @@ Plot plot_of(const SensitivityResult& result, const OutputSensitivity& output) {
             .x = {.label = shown.column.label()},
             .y = {.label = "draws", .minimum = 0.0},
             .named_in_place = true};
-  if (histogram.counts.empty()) return plot;
+  if (histogram.counts.empty() || !sample.all_known) return plot;
   const double low = shown.value(sample.quantile(quantile_shares.front())),
                high = shown.value(sample.quantile(quantile_shares.back()));
   const std::string unit = " " + shown.column.form.unit;
@@ -230,7 +232,8 @@ std::string samples_text(const SensitivityResult& result) {
                       {"uncovered", of.uncovered}};
     }
     for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
-      if (!sample.values.empty()) facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
+      if (sample.all_known && !sample.values.empty())
+        facts["quantiles"][name] = quantile_text(result, sample.quantile(share));
   }
   return said("sensitivity.samples", facts).front();
 }

@@ -190,6 +190,9 @@ std::string gap_reason(const std::vector<CaseAnswer>& answers, std::string other
 }
 
 void predict_from_sound_launches(SurrogateRecord& record, const std::vector<CaseAnswer>& answers) {
+  if (const std::size_t failed = count_failed(answers); failed > 0)
+    for (SurrogateOutput& output : record.outputs)
+      output.reason = fmt::format("{} of {} launches failed", failed, answers.size());
   const auto has_warnings = [](const CaseAnswer& answer) { return !answer.validity_warnings.empty(); };
   const auto unsound = std::ranges::count_if(answers, has_warnings);
   if (unsound == 0) return;

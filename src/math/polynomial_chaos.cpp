@@ -295,8 +295,6 @@ SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<doubl
   indices.inputs.assign(begins.size() - 1, {no_estimate, no_estimate});
   if (!indices.reason.empty()) return indices;
   const FiniteRows rows = finite_rows(chaos.inputs.size(), points, values);
-  indices.rows_used = chaos.points;
-  indices.rows_left_out = values.size() - chaos.points;
   indices.mean = chaos.mean();
   indices.variance = chaos.variance();
   if (!(indices.variance > 0.0)) {

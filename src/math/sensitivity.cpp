@@ -13,17 +13,6 @@ namespace launchsafe::math {
 namespace {
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
-/// The outputs of those rows that are all finite.
-std::vector<double> finite_rows(std::size_t blocks, const std::vector<double>& outputs) {
-  std::vector<double> rows;
-  for (auto row = outputs.begin(); row != outputs.end(); row += static_cast<std::ptrdiff_t>(blocks)) {
-    const auto end = row + static_cast<std::ptrdiff_t>(blocks);
-    if (std::all_of(row, end, [](double value) { return std::isfinite(value); }))
-      rows.insert(rows.end(), row, end);
-  }
-  return rows;
-}
-
 /// f_A and f_B of all rows.
 std::vector<double> sample_outputs(std::size_t blocks, const std::vector<double>& rows) {
   std::vector<double> values;
@@ -120,7 +109,7 @@ std::vector<std::vector<double>> index_replicates(const std::vector<double>& con
   return replicates;
 }
 
-/// Indices of rows that are complete and vary.
+/// Indices of rows that vary.
 std::vector<InputIndices> estimated(const std::vector<double>& rows, std::size_t inputs, double origin,
                                     double unit, const SobolOptions& options) {
   const std::size_t size = rows.size() / (inputs + 2);
@@ -135,11 +124,6 @@ std::vector<InputIndices> estimated(const std::vector<double>& rows, std::size_t
   std::vector<InputIndices> result;
   for (std::size_t i = 0; i < inputs; ++i) result.push_back({estimate(i), estimate(inputs + i)});
   return result;
-}
-
-std::string too_few_rows(std::size_t used, std::size_t left_out, std::size_t needed) {
-  return std::to_string(used) + " of " + std::to_string(used + left_out) + " rows are complete, at least " +
-         std::to_string(needed) + " are needed";
 }
 
 /// Quantile of sorted values, linear between them; the first and last belong to 0 and 1.
@@ -190,23 +174,24 @@ SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& output
                            const SobolOptions& options) {
   const std::size_t blocks = inputs + 2;
   assert(outputs.size() % blocks == 0);
-  const std::vector<double> rows = finite_rows(blocks, outputs), sample = sample_outputs(blocks, rows);
+  const std::vector<double> sample = sample_outputs(blocks, outputs);
   const auto [mean, squares] = moments_of(sample);
   SobolIndices result;
   result.mean = mean;
   result.variance = sample.empty() ? not_a_number : squares / static_cast<double>(sample.size() - 1);
-  result.rows_used = rows.size() / blocks;
-  result.rows_left_out = outputs.size() / blocks - result.rows_used;
   result.inputs.assign(inputs, {no_estimate, no_estimate});
 
   constexpr std::size_t needed = 16;
+  const std::size_t rows = outputs.size() / blocks;
   const auto [least, greatest] = std::minmax_element(sample.begin(), sample.end());
-  if (result.rows_used < needed) {
-    result.reason = too_few_rows(result.rows_used, result.rows_left_out, needed);
-  } else if (!(*greatest - *least > rounding * largest_size(rows))) {
+  if (!std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); })) {
+    result.reason = "an evaluation has no number";
+  } else if (rows < needed) {
+    result.reason = std::to_string(rows) + " rows; at least " + std::to_string(needed) + " are needed";
+  } else if (!(*greatest - *least > rounding * largest_size(outputs))) {
     result.reason = "the output does not vary";
   } else {
-    result.inputs = estimated(rows, inputs, mean, *greatest - *least, options);
+    result.inputs = estimated(outputs, inputs, mean, *greatest - *least, options);
   }
   return result;
 }

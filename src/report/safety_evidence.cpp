@@ -253,8 +253,6 @@ void read_stored_runs(SafetyEvidence& evidence) {
                          main.command()));
     if (store::CaseIdentity(read->manifest.input_text).hash() != name.stem())
       throw main.fault(name, "this is the file of another case", "case files as they were written");
-    if (read->manifest.commit != main.record.manifest.commit)
-      evidence.other_commits.insert(read->manifest.commit);
     if (read->result.mechanics.trace.samples() < 2) continue;
     StoredLaunch stored{each.input().scene.scene, {std::move(read->result.mechanics), {}}};
     if (const std::string contradiction = contradiction_of(each, stored); !contradiction.empty())

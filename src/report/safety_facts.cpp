@@ -188,6 +188,7 @@ Row about(const StudyEvidence& study, const StudyEvidence& main) {
                 {"kind", study.kind},
                 {"tells", study.tells},
                 {"command", study.command()},
+                {"other_programs", study.record.other_programs()},
                 {"scene_title", study.scene.scene.title},
                 {"held", interfaces_of(study.scene.scene)},
                 {"covers", covered_by(study)},
@@ -423,7 +424,6 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
       facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  facts["other_commits"] = evidence.other_commits;
   const StudyEvidence* drawn = evidence.find(tells::sensitivity);
   if (drawn != nullptr) {
     facts["same_launch"] = !cases.empty() && is_drawn_about(own_case(cases), *drawn);

@@ -1,20 +1,17 @@
 #include "launchsafe/report/study_text.hpp"
 
 #include <fmt/chrono.h>
-#include <kainjow/mustache.hpp>
 
 namespace launchsafe::report {
 namespace {
 
-constexpr double longest_silence = 120.0;  ///< s; a writer that lives tells something every second
-constexpr std::size_t most_gaps = 40;      ///< that are listed
+constexpr std::size_t most_gaps = 40;  ///< that are listed
 constexpr int interrupted_code = 75, failed_code = 70;
 
-enum class State : std::size_t { finished, waiting, interrupted, silent, failed, running };
+enum class State : std::size_t { finished, waiting, interrupted, failed, running };
 
 const char* word_for(State state) {
-  return std::array{"finished", "waiting", "interrupted", "silent", "failed", "running"}.at(
-      std::size_t(state));
+  return std::array{"finished", "waiting", "interrupted", "failed", "running"}.at(std::size_t(state));
 }
 
 /// Seconds since the epoch of "2026-03-01T09:30:00Z"; 0 for any other text.
@@ -49,9 +46,9 @@ Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
   } else if (found_in(members, "ended") == true) {
     writer.exit_code = failed_code;
     writer.state = State::failed;
-  } else if (silence > longest_silence) {
+  } else if (!snapshot.alive) {  // it was killed
     writer.exit_code = interrupted_code;
-    writer.state = State::silent;
+    writer.state = State::interrupted;
   } else if (const double left = number_of(members, "time_left_s"); left >= 0) {
     writer.left = std::max(0.0, left - silence);
   }
@@ -60,7 +57,6 @@ Writer writer_of(const store::StoreStatus& snapshot, std::time_t now) {
   writer.row.update(
       {{"shard", of == std::string::npos ? "whole" : part.substr(0, of) + "/" + part.substr(of + 4)},
        {"state", word_for(writer.state)},
-       {"silence", duration(silence)},
        {"left", writer.left ? duration(*writer.left) : ""}});
   return writer;
 }
@@ -239,8 +235,7 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
     largest = std::max(largest, amount_in(each.row, "largest_critical_gap_cm"));
     facts["exit_code"] = std::max(facts["exit_code"].get<int>(), each.exit_code);
     facts["writers"].push_back(each.row);
-    if (each.state == State::interrupted || each.state == State::silent)
-      facts["command"] = text_of(each.row, "command");
+    if (each.state == State::interrupted) facts["command"] = text_of(each.row, "command");
   }
   facts["phase"] = text_of(snapshots.front().members, "phase");
   facts["time"] = clock_time(end, now);
@@ -259,20 +254,5 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
 }
 
 std::string status_text(const Row& facts) { return filled(status_text_template, {&facts}); }
-
-std::string status_page(Row facts, const std::vector<std::string>& files) {
-  facts["files"] = files;
-  constexpr double width = 300.0, line = 18.0;  // px, of the longest bar and between two
-  double y = 0;
-  for (Row& gap : facts["critical_gaps"]) {
-    gap["x"] = width * number_of(gap, "lower_cm") / number_of(facts, "largest_critical_gap_cm");
-    gap["y"] = y += line;
-  }
-  facts["plot_height"] = y + line;
-  return std::string(store::page_begin) +
-         filled(status_page_template, {&facts}, kainjow::mustache::html_escape<std::string>);
-}
-
-bool is_running(const Row& facts) { return found_in(facts, "is.running") == true; }
 
 }  // namespace launchsafe::report

@@ -25,7 +25,7 @@ namespace {
 constexpr const char* make_table =
     "CREATE TABLE IF NOT EXISTS stored_runs (hash TEXT, state TEXT NOT NULL, label TEXT, reason TEXT, "
     "model_version INTEGER, wall_time_s REAL, processor_time_s REAL, predicted_updates REAL, time_limit_s "
-    "REAL, host INTEGER, end_time TEXT, file_bytes INTEGER, file_time_ns INTEGER, PRIMARY KEY (hash)) "
+    "REAL, program INTEGER, end_time TEXT, file_bytes INTEGER, file_time_ns INTEGER, PRIMARY KEY (hash)) "
     "STRICT, "
     "WITHOUT ROWID";
 /// The members of a record in the order of its columns.
@@ -33,24 +33,24 @@ constexpr std::tuple record_members{&RunRecord::hash,           &RunRecord::stat
                                     &RunRecord::label,          &RunRecord::reason,
                                     &RunRecord::model_version,  &RunRecord::wall_time,
                                     &RunRecord::processor_time, &RunRecord::predicted_updates,
-                                    &RunRecord::time_limit,     &RunRecord::host,
+                                    &RunRecord::time_limit,     &RunRecord::program,
                                     &RunRecord::end_time,       &RunRecord::file_size,
                                     &RunRecord::file_time};
 constexpr std::size_t columns = std::tuple_size_v<decltype(record_members)>;
-constexpr std::size_t host_column = 9;  ///< of texts that repeat
+constexpr std::size_t program_column = 9;  ///< of texts that repeat
 
 void put_record(Database& database, const RunRecord& record) {
   SqlRow row;
   std::apply([&](auto... member) { (row.push_back(to_sql(record.*member)), ...); }, record_members);
-  row[host_column] = database.number_of_text(record.host);
+  row[program_column] = database.number_of_text(record.program);
   const std::vector<std::string> marks(columns, "?");
   database.run(fmt::format("INSERT OR REPLACE INTO stored_runs VALUES ({})", fmt::join(marks, ", ")), row);
 }
 
-/// From the columns and, behind them, the name of the host. Throws where a value is none of its member's.
+/// From the columns and, behind them, the name of the program. Throws where a value is none of its member's.
 RunRecord record_from(SqlRow row) {
   if (row.size() != columns + 1) throw Error{Error::Kind::corrupt, "stored_runs has other columns"};
-  row[host_column] = std::move(row.back());
+  row[program_column] = std::move(row.back());
   RunRecord record;
   std::size_t next = 0;
   const auto read = [&](auto... member) { return (from_sql(row[next++], record.*member) && ...); };
@@ -62,10 +62,11 @@ RunRecord record_from(SqlRow row) {
 }  // namespace
 
 std::vector<RunRecord> records_in(Database& database, const std::string& which, const SqlRow& values) try {
-  const std::string with_hosts =
-      "SELECT stored_runs.*, iif(host, text, '') FROM stored_runs LEFT JOIN stored_texts ON number = host ";
+  const std::string with_programs =
+      "SELECT stored_runs.*, iif(program, text, '') FROM stored_runs LEFT JOIN stored_texts ON number = "
+      "program ";
   std::vector<RunRecord> records;
-  for (SqlRow& row : database.rows(with_hosts + which + " ORDER BY hash", values))
+  for (SqlRow& row : database.rows(with_programs + which + " ORDER BY hash", values))
     records.push_back(record_from(std::move(row)));
   return records;
 } catch (const Error&) {
@@ -158,9 +159,9 @@ bool CaseStore::adopt(const std::string& hash) {
     record.state = CaseState::done;
     record.reason.clear();
     record.wall_time = record.processor_time = 0;  // whatever took them was another attempt
-    record.host = host_;
     record.end_time = utc_now();
   }
+  record.program = program_of(*checked);
   record.model_version = checked->model_version;
   record.file_size = size_of(file);
   record.file_time = time_of(file);
@@ -207,7 +208,7 @@ MaybeError CaseStore::take_file(const std::filesystem::path& file, const std::st
 
 void CaseStore::fill_in(RunRecord& record) const {
   if (record.model_version == 0) record.model_version = run::model_version;
-  record.host = host_;
+  record.program = program_of(manifest_);
   record.end_time = utc_now();
 }
 
@@ -239,11 +240,6 @@ void CaseStore::write_status(bool ended) {
   if (progress_) members.update(*progress_);
   // It helps people alone, so a failure to write it is none of the store.
   write_file_atomically(names_.status(), to_text(members), IfExists::replace);
-}
-
-void CaseStore::write_page(const std::string& page) {
-  if (!obstacle_in_place(names_.page(), is_page))
-    write_file_atomically(names_.page(), page, IfExists::replace);
 }
 
 }  // namespace launchsafe::store

@@ -78,8 +78,8 @@ std::string writer_in(const std::filesystem::path& status_file) {
 }  // namespace
 
 bool is_store_name(std::string_view name) {
-  return name == "cases" || name == StoreNames{}.page() || part_in(name, stem, ending) ||
-         part_in(name, stem, ".db-journal") || part_of_status(name);
+  return name == "cases" || part_in(name, stem, ending) || part_in(name, stem, ".db-journal") ||
+         part_of_status(name);
 }
 
 std::vector<std::filesystem::path> results_files_in(const std::filesystem::path& folder) {
@@ -98,8 +98,6 @@ std::vector<std::string> stored_hashes(const StoreNames& names) {
   return hashes;
 }
 
-bool is_page(std::string_view content) { return content.starts_with(page_begin); }
-
 void demand_free(const StoreNames& names) {
   std::error_code failed;
   const auto cases = std::filesystem::symlink_status(names.cases(), failed);
@@ -108,7 +106,6 @@ void demand_free(const StoreNames& names) {
   demand_files_of_cases(names);
   demand_nothing_before_first(names);
   demand_place(names.status(), [](std::string_view content) { return status_in(content).has_value(); });
-  demand_place(names.page(), is_page);
   const std::filesystem::path results = names.results();
   demand_place(results, {});
   demand_place(results.string() + "-journal", is_rollback_journal);
@@ -173,13 +170,15 @@ std::vector<StoreStatus> statuses_in(const std::filesystem::path& folder) {
   std::optional<StoreStatus> whole;
   for (const std::string& name : scene::list_folder(folder)) {
     const std::optional<std::string> part = part_of_status(name);
+    // Before the file is read: a writer that ends in between is seen to have ended.
+    const bool alive = part && Database::is_held(StoreNames{folder, *part}.results());
     const auto text = part ? read_file(folder / name) : Error{};
     const auto members = text ? status_in(*text) : std::nullopt;
     if (!members || !members->value("time", nlohmann::ordered_json()).is_string()) continue;
     if (part->empty())
-      whole = StoreStatus{{}, *members};
+      whole = StoreStatus{{}, *members, alive};
     else
-      parts.push_back({*part, *members});
+      parts.push_back({*part, *members, alive});
   }
   // A merge that lacked runs told nothing of them.
   const bool parts_are_newer =

@@ -38,7 +38,4 @@ Error of_another_case(const std::filesystem::path& path);
 std::vector<RunRecord> records_in(Database& database, const std::string& which = {},
                                   const SqlRow& values = {});
 
-/// Whether the content of a file is that of a page of status.
-bool is_page(std::string_view content);
-
 }  // namespace launchsafe::store

@@ -10,7 +10,7 @@ namespace launchsafe::store {
 namespace {
 
 constexpr int application_id = 0x4c534146;  // "LSAF", by which a results file of ours is known
-constexpr int schema_version = 2;
+constexpr int schema_version = 3;
 constexpr int patience = 500;  // ms, for a reader that is about to be done
 
 Error::Kind kind_of(int code) {
@@ -125,6 +125,15 @@ Database Database::in_memory(const std::filesystem::path& path) {
   database.path_ = path;
   database.make_tables();
   return database;
+}
+
+bool Database::is_held(const std::filesystem::path& path) try {
+  Database database = connect(path, SQLITE_OPEN_READWRITE);
+  database.run("PRAGMA busy_timeout = 0");
+  database.check_format();
+  return false;
+} catch (const Error& error) {
+  return error.kind == Error::Kind::held;
 }
 
 /// Reads only. A file without anything in it is one to be.

@@ -54,6 +54,10 @@ std::string host_name() {
 
 std::string utc_now() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 
+std::string program_of(const Manifest& manifest) {
+  return fmt::format("launchsafe {}, commit {}", manifest.program_version, manifest.commit);
+}
+
 Manifest make_manifest(std::string input_text, int threads) {
   Manifest manifest;
   manifest.input_sha256 = sha256(input_text);

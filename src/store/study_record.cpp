@@ -61,6 +61,7 @@ StudyRecord record_from(const nlohmann::json& object) {
   record.study = object.value("study", "");
   record.complete = object.value("complete", true);
   record.failures = object.value("failures_sha256", "");
+  record.programs = object.value("programs", std::vector<std::string>{});
   return record;
 }
 
@@ -90,6 +91,7 @@ nlohmann::ordered_json to_json(const StudyRecord& record) {
                  {"threads", manifest.threads},
                  {"start_time", manifest.start_time},
                  {"wall_time_s", manifest.wall_time},
+                 {"programs", record.programs},
                  {"study", record.study},
                  {"complete", record.complete},
                  {"files", files_json(record.files)},
@@ -97,6 +99,10 @@ nlohmann::ordered_json to_json(const StudyRecord& record) {
                  {"input", manifest.input_text}});
   if (!record.unfinished.empty()) object["unfinished"] = files_json(record.unfinished);
   return object;
+}
+
+std::vector<std::string> StudyRecord::other_programs() const {
+  return programs == std::vector{program_of(manifest)} ? std::vector<std::string>{} : programs;
 }
 
 std::vector<std::string> StudyRecord::names() const {

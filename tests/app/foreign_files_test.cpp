@@ -20,8 +20,8 @@ std::vector<Target> targets() {
   return {
       {"Sweep",
        {"study", "study.toml", "-o", "out"},
-       {"study.db", "status.json", "index.html", "cases", "manifest.json", "report.md", "study.json",
-        "verdicts.csv", "critical_gaps.csv", "critical_gap.svg", "critical_gap_2.svg"}},
+       {"study.db", "status.json", "cases", "manifest.json", "report.md", "study.json", "verdicts.csv",
+        "critical_gaps.csv", "critical_gap.svg", "critical_gap_2.svg"}},
       {"Shard",
        {"study", "study.toml", "-o", "out", "--shard", "1/2"},
        {"study.1-of-2.db", "status.1-of-2.json", "manifest.json"}},

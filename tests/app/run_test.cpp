@@ -1,4 +1,5 @@
 // launchsafe run: what it prints, what it writes, and how it ends.
+#include "launchsafe/run/run_case.hpp"
 #include "launchsafe/store/case_file.hpp"
 #include "program.hpp"
 
@@ -77,6 +78,24 @@ TEST_F(RunProgram, JsonIsOneObjectAndNothingElse) {
   EXPECT_GT(object["timing"]["updates_per_second"], 0.0);
   EXPECT_TRUE(object["energy"].contains("drift"));
   EXPECT_TRUE(object["file"].is_null());
+}
+
+// A trace of three samples, whose error is not known.
+TEST_F(RunProgram, AWarningStandsBesideEveryTemperatureAndLeavesTheExitCode) {
+  write("shell.toml", with(tiny_scene, "trace_interval = \"5 us\"", "trace_interval = \"50 us\""));
+  const Outcome text = run({"run", "shell.toml", "-o", "out", "--quiet"});
+  const Outcome json = run({"run", "shell.toml", "--json", "--quiet"});
+  EXPECT_EQ(text.code, 0) << text.err;
+  EXPECT_EQ(json.code, 0) << json.err;
+  const auto stored = store::read_case_with_scene(folder() / "out/shell.h5");
+  ASSERT_TRUE(stored) << stored.error().message;
+  const auto expected = run::validity_warnings(stored->scene, stored->stored.result.mechanics);
+  ASSERT_FALSE(expected.empty());
+  const std::vector<std::string> told = nlohmann::json::parse(json.out)["validity_warnings"];
+  for (const std::string& warning : expected) {
+    EXPECT_NE(std::ranges::find(told, warning), told.end()) << warning;
+    EXPECT_LT(text.out.find(warning), text.out.find("T max [K]")) << text.out;
+  }
 }
 
 TEST_F(RunProgram, WithoutATerminalNothingMovesTheCursor) {

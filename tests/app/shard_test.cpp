@@ -46,5 +46,35 @@ TEST_F(ShardedStudy, WithoutOneOfThemIsNotMerged) {
   EXPECT_FALSE(exists("out/report.md"));
 }
 
+/// Makes the runs of a results file those of another commit.
+void take_for_anothers(const std::filesystem::path& results, const std::string& program) {
+  store::Database database = store::Database::open(results);
+  database.run("UPDATE stored_runs SET program = ?", {database.number_of_text(program)});
+}
+
+TEST_F(ShardedStudy, EveryProgramThatMadeALaunchIsInTheManifestAndOnThePage) {
+  const std::string other = "launchsafe 0.0.1, commit 0123abc";
+  const std::string own = store::program_of(store::make_manifest({}, 1));
+  const auto programs = [this](const std::string& name) {
+    return nlohmann::json::parse(read(name + "/manifest.json"))["programs"];
+  };
+  EXPECT_EQ(programs("alone"), nlohmann::json({own}));
+  EXPECT_EQ(read("alone/report.md").find(own), std::string::npos);
+
+  ASSERT_EQ(run_shard("1/2", "one").code, 0);
+  ASSERT_EQ(run_shard("2/2", "two").code, 0);
+  take_for_anothers(folder() / "one/study.1-of-2.db", other);
+  const Outcome merged = run({"merge", "study.toml", "-o", "out", "one", "two"});
+  EXPECT_EQ(merged.code, alone_.code) << merged.err;
+  EXPECT_TRUE(merged.says(other)) << merged.err;
+  EXPECT_EQ(programs("out"), nlohmann::json({other, own}));
+  EXPECT_NE(read("out/report.md").find(other), std::string::npos);
+
+  take_for_anothers(folder() / "alone/study.db", other);
+  EXPECT_EQ(run({"study", "study.toml", "-o", "alone"}).code, alone_.code);
+  EXPECT_EQ(programs("alone"), nlohmann::json({other})) << "although nothing was computed";
+  EXPECT_NE(read("alone/report.md").find(other), std::string::npos);
+}
+
 }  // namespace
 }  // namespace launchsafe::app

@@ -1,4 +1,4 @@
-// launchsafe status, the page of a folder, and the end of a study at a time of the day.
+// launchsafe status, and the end of a study at a time of the day.
 #include "launchsafe/store/case_store.hpp"
 #include "stored_study.hpp"
 
@@ -18,19 +18,13 @@ class Status : public StoredStudy {
   }
 };
 
-TEST_F(Status, SaysWhatAFinishedStudyDidAndItsPageLinksTheReport) {
+TEST_F(Status, SaysWhatAFinishedStudyDid) {
   ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
   const auto status = status_of({"out"}, 0);
   EXPECT_EQ(status["state"], "finished");
   EXPECT_EQ(status["cases"], 24);
   EXPECT_EQ(status["cases_done"], 24);
   EXPECT_EQ(status["runs_stored"], 12);
-  const std::string page = read("out/index.html");
-  EXPECT_TRUE(page.starts_with(store::page_begin));
-  EXPECT_NE(page.find("<a href=\"report.md\">"), std::string::npos) << page;
-  EXPECT_EQ(page.find("refresh"), std::string::npos) << page;
-  const std::string record = read("out/manifest.json");
-  EXPECT_EQ(record.find("index.html"), std::string::npos) << "the page is no part of the report";
 }
 
 TEST_F(Status, CountsWhatIsStoredAsDone) {
@@ -45,12 +39,11 @@ TEST_F(Status, IsReadBesideARunningStudyAndSaysWhatAnInterruptionLeft) {
   start({"study", "study.toml", "-o", "out", "--jobs", "1"});
   wait_until([this] {
     const auto found = store::statuses_in(folder() / "out");
-    return exists("out/index.html") && !found.empty() && found.front().members.value("runs_running", 0) == 1;
+    return !found.empty() && found.front().members.value("runs_running", 0) == 1;
   });
   const auto running = status_of({"out"}, 0);
   EXPECT_EQ(running["state"], "running");
   EXPECT_EQ(running["cases_done"], 0);
-  EXPECT_NE(read("out/index.html").find("http-equiv=\"refresh\""), std::string::npos);
   send(SIGINT);
   EXPECT_EQ(wait().code, 75);
   const auto status = status_of({"out"}, 75);
@@ -58,9 +51,21 @@ TEST_F(Status, IsReadBesideARunningStudyAndSaysWhatAnInterruptionLeft) {
   EXPECT_EQ(status["cases_done"], 0);
   EXPECT_EQ(status["cases_failed"], 0);
   EXPECT_TRUE(status["command"].get<std::string>().ends_with("study study.toml -o out --jobs 1"));
-  const std::string page = read("out/index.html");
-  EXPECT_EQ(page.find("refresh"), std::string::npos) << page;
-  EXPECT_NE(page.find("<h1>out: interrupted"), std::string::npos) << page;
+}
+
+TEST_F(Status, OfAKilledStudyIsInterruptedAtOnceHoweverLatelyItTold) {
+  write("shell.toml", long_scene());
+  start({"study", "study.toml", "-o", "out", "--jobs", "1"});
+  wait_until([this] {
+    const auto found = store::statuses_in(folder() / "out");
+    return !found.empty() && found.front().alive && found.front().members.value("runs_running", 0) == 1;
+  });
+  EXPECT_EQ(status_of({"out"}, 0)["state"], "running");
+  send(SIGKILL);
+  wait();
+  const auto status = status_of({"out"}, 75);
+  EXPECT_EQ(status["state"], "interrupted");
+  EXPECT_TRUE(status["command"].get<std::string>().ends_with("study study.toml -o out --jobs 1"));
 }
 
 TEST_F(Status, KnowsShardsInOneFolderAndInSeveralAndTheirMerge) {
@@ -100,22 +105,6 @@ TEST_F(Status, NamesAFolderNearOneThatHasNone) {
     EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
     EXPECT_TRUE(outcome.says("did you mean out?") || outcome.says("did you mean ./out?")) << outcome.err;
   }
-}
-
-TEST_F(Status, WatchesUntilTheStudyHasEnded) {
-  ASSERT_EQ(run({"study", "study.toml", "-o", "out"}).code, 0);
-  const Outcome outcome = run({"status", "out", "--watch"});
-  EXPECT_EQ(outcome.code, 0);
-  EXPECT_TRUE(outcome.out.starts_with("out: finished")) << outcome.out;
-}
-
-TEST_F(Status, LeavesSomebodyElsesPageAlone) {
-  std::filesystem::create_directory(folder() / "out");
-  write("out/index.html", "<!DOCTYPE html>\nmine");
-  const Outcome outcome = run({"study", "study.toml", "-o", "out"});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_TRUE(outcome.says("index.html")) << outcome.err;
-  EXPECT_EQ(read("out/index.html"), "<!DOCTYPE html>\nmine");
 }
 
 TEST_F(Status, AStudyRefusesATimeThatIsNone) {

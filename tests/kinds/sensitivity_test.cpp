@@ -306,21 +306,36 @@ TEST(Sensitivity, ABoundIsNoNumber) {
   EXPECT_EQ(output_of(result, SensitivityOutput::margin).reason, "");
 }
 
-TEST(Sensitivity, AFailedEvaluationTakesAwayItsRowAlone) {
-  const StudyFile study = study_of(linear_text(no_search + "method = \"sobol\"\nsamples = 64\n"));
-  Counted counted;
-  const double failing = study.cases[5 * 5].scene.scene.load.peak;  // A of row 5
-  counted.options.runners.mechanics = [failing](const scene::Scene& scene, const run::RunOptions&) {
-    run::MechanicsResult result = synthetic_mechanics(scene);
-    if (scene.load.peak == failing) result.status = run::RunStatus::non_finite;
-    return result;
-  };
-  const SensitivityResult result = run_sensitivity(study, counted.options);
-  EXPECT_FALSE(std::ranges::all_of(result.answers, &CaseAnswer::completed));
-  const OutputSensitivity& margin = output_of(result, SensitivityOutput::margin);
-  EXPECT_EQ(margin.missing, 3u);  // A, and the two that share its mechanical run
-  EXPECT_EQ(margin.sobol.rows_used, 63u);
-  EXPECT_EQ(margin.sobol.rows_left_out, 1u);
+// The first evaluation fails, and with it those that share its mechanical run.
+TEST(Sensitivity, NoStatisticIsOverLessThanAllEvaluations) {
+  for (const std::string method : {"method = \"sobol\"\nsamples = 32\n",
+                                   "method = \"polynomial-chaos\"\nsamples = 24\nheld_out = 30\n"}) {
+    const StudyFile study = study_of(linear_text(wide_search + method));
+    Counted counted;
+    const double failing = study.cases[0].scene.scene.load.peak;
+    counted.options.runners.mechanics = [failing](const scene::Scene& scene, const run::RunOptions&) {
+      run::MechanicsResult result = synthetic_mechanics(scene);
+      if (scene.load.peak == failing) result.status = run::RunStatus::non_finite;
+      return result;
+    };
+    const SensitivityResult result = run_sensitivity(study, counted.options);
+    EXPECT_TRUE(result.any_indeterminate());
+    const auto json = nlohmann::json::parse(report_of(result).json);
+    const auto failed = json["failed"].get<std::size_t>();
+    EXPECT_GE(failed, 1u);
+    EXPECT_EQ(json["evaluations"].size(), study.cases.size());
+    for (const auto& row : json["indices"])
+      for (const char* key : {"first_order", "first_order_lower", "total_order", "total_order_upper"})
+        EXPECT_TRUE(row[key].is_null()) << method << row;
+    for (const auto& row : json["outputs"]) {
+      EXPECT_EQ(row["missing"], failed);
+      EXPECT_NE(row["reason"], "");
+      for (const char* key : {"mean", "standard_deviation", "leave_one_out", "held_out_error"})
+        EXPECT_TRUE(row[key].is_null()) << method << row;
+    }
+    for (const auto& row : json["quantiles"])
+      EXPECT_TRUE(row["critical_gap_cm"].is_null() && row["temperature_max_K"].is_null()) << method << row;
+  }
 }
 
 }  // namespace

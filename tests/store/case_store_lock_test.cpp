@@ -75,7 +75,9 @@ TEST_F(StoreLockTest, ASecondProcessIsToldWhoHoldsTheStore) {
 TEST_F(StoreLockTest, ClearsItselfWhenItsOwnerIsKilled) {
   Holder holder(where(), "");
   ASSERT_TRUE(holder.holds());
+  EXPECT_TRUE(statuses_in(where()).at(0).alive);
   holder.kill();
+  EXPECT_FALSE(statuses_in(where()).at(0).alive);
   EXPECT_EQ(conflict(), "");
 }
 

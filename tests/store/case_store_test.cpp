@@ -49,7 +49,7 @@ TEST_F(CaseStoreTest, RemembersAfterItWasClosed) {
     EXPECT_EQ(entry->wall_time, 61.5);
     EXPECT_EQ(entry->processor_time, 60.25);
     EXPECT_EQ(entry->predicted_updates, 1e9);
-    EXPECT_EQ(entry->host, host_name());
+    EXPECT_EQ(entry->program, program_of(make_manifest({}, 1)));
     EXPECT_EQ(entry->file_size, std::filesystem::file_size(file_of(number)));
     expect_same(result_of(number), *store->load(hash));
   }

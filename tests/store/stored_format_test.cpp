@@ -20,6 +20,11 @@ TEST_F(StoredFormat, CasesOfTheFirstFormatAreReadBitByBit) {
   const auto store = opened();
   const std::string hash = identity_of(1).hash();
   ASSERT_TRUE(store->holds(hash));
+  // Found without a record, it is still that of the program which made it.
+  const auto made = read_manifest(where() / "cases" / (hash + ".h5"));
+  ASSERT_TRUE(made);
+  EXPECT_EQ(store->record_of(hash)->program, program_of(*made));
+  EXPECT_NE(store->record_of(hash)->program, program_of(make_manifest({}, 1)));
   const auto result = store->load(hash);
   ASSERT_TRUE(result) << result.error().message;
   run::CaseResult expected = result_of(1);

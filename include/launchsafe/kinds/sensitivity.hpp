@@ -86,8 +86,8 @@ struct OutputSensitivity {
          deviation = study::not_a_number;          ///< over the evaluations that sample the inputs
   math::SobolIndices sobol;                        ///< where there are indices, of every input
   std::optional<study::SurrogateOutput> fit = {};  ///< of a study by fit
-  /// Why there are no indices; empty where there are. Rows with a missing number are left out; where a
-  /// critical gap is a bound none are given, since leaving those rows out would bias the rest.
+  /// Why there are no indices, fit, mean and deviation: an evaluation without a number, or what they say
+  /// themselves. Empty where there are.
   std::string reason;
 };
 

@@ -1,6 +1,6 @@
 // Sensitivity of an output to uncertain inputs: variance-based (Sobol) indices on Saltelli's design. The
 // design says at which points of the unit cube the caller evaluates the model, in any order and wherever he
-// likes; the estimates follow from the outputs, NaN where an evaluation failed. Their intervals come from a
+// likes; the estimates follow from the outputs, all of which are needed. Their intervals come from a
 // bootstrap.
 #pragma once
 
@@ -69,23 +69,20 @@ struct InputIndices {
 };
 
 struct SobolIndices {
-  double mean = 0;            ///< of the output over A and B, its unit
-  double variance = 0;        ///< of the output over A and B, its unit squared
-  std::size_t rows_used = 0;  ///< those whose evaluations are all finite
-  std::size_t rows_left_out = 0;
+  double mean = 0;                   ///< of the output over A and B, its unit
+  double variance = 0;               ///< of the output over A and B, its unit squared
   std::vector<InputIndices> inputs;  ///< in the order of the design; all NaN where there is a reason
   std::string reason;                ///< why there are no indices; empty where there are
 };
 
 /// First-order (Saltelli 2010) and total-order (Jansen 1999) indices from the outputs in the
-/// order of the design's evaluations, any number of whole rows. A row in which an output is not finite is
-/// left out whole: where failures depend on the inputs, the indices are those of the inputs that do not fail.
-/// The intervals come from a bootstrap over the rows. For test functions (Ishigami's, Sobol's G, a linear
-/// one) those at 95 % held the true index of independent rows 92 to 96 times in 100 from 128 rows on, at
-/// least 88 times with 32 and 83 with 16; for a lognormal output, with its heavy tail, 88 to 94 times at any
-/// number. A Latin hypercube does as well or better. Sobol's sequence is mostly near 100 from 256 rows on,
-/// since resampling does not see its balance, but with fewer can miss the index of a weak input most of the
-/// time.
+/// order of the design's evaluations, any number of whole rows. Where an output is not finite there are none:
+/// without the inputs that fail they would be indices of other inputs. The intervals come from a bootstrap
+/// over the rows. For test functions (Ishigami's, Sobol's G, a linear one) those at 95 % held the true index
+/// of independent rows 92 to 96 times in 100 from 128 rows on, at least 88 times with 32 and 83 with 16; for
+/// a lognormal output, with its heavy tail, 88 to 94 times at any number. A Latin hypercube does as well or
+/// better. Sobol's sequence is mostly near 100 from 256 rows on, since resampling does not see its balance,
+/// but with fewer can miss the index of a weak input most of the time.
 SobolIndices sobol_indices(std::size_t inputs, const std::vector<double>& outputs,
                            const SobolOptions& options = {});
 

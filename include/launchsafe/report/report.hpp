@@ -39,9 +39,10 @@ struct Report {
   std::string command;  ///< that makes the report again
   std::vector<std::variant<Statement, ReportTable, Picture>> items = {};  ///< in the order of the page
   std::vector<TextFile> files = {};
-  std::string json = {};                  ///< study.json; none where empty
-  std::vector<std::string> remarks = {};  ///< what pictures leave out, for the end of the page and for people
-  std::string launch = {};                ///< a sentence that stands first: how fast the load makes the shell
+  std::string json = {};  ///< study.json; none where empty
+  std::vector<std::string> remarks =
+      {};                   ///< for the end of the page and for people, as what pictures leave out
+  std::string launch = {};  ///< a sentence that stands first: how fast the load makes the shell
 
   // The next item of the page.
   void say(std::string markdown) { items.emplace_back(Statement{std::move(markdown)}); }
@@ -155,7 +156,7 @@ std::string index_page(const std::filesystem::path& folder);
 /// Of a safety report.
 extern const char *const built_in_html, *const built_in_markdown, *const built_in_texts;
 /// What is said of a study while it runs.
-extern const char *const status_text_template, *const status_page_template;
+extern const char* const status_text_template;
 /// Of the page that leads to all reports of a folder.
 extern const char* const index_template;
 

@@ -51,8 +51,6 @@ struct StoredLaunch {
 struct SafetyEvidence {
   std::vector<StudyEvidence> studies;
   std::map<std::string, StoredLaunch> stored = {};  ///< of the main study, as far as they were kept, by case
-  /// Of those runs, where the manifest of the study names another.
-  std::set<std::string> other_commits = {};
   /// The finished study that tells that; nullptr without one.
   const StudyEvidence* find(const std::string& what) const;
   /// The one that the report is about: that of a launch, or else the first that is not finished or sweeps, or

@@ -114,8 +114,7 @@ std::string friction_remark(const study::StudyFile& study);
 /// What the uncertainty of a margin is made of, as a sentence.
 std::string uncertainty_remark(const study::StudyFile& study);
 
-// --- how far a study is, from what its writers tell in their status files: as facts, as text, and as the
-// page index.html of its folder ---
+// --- how far a study is, from what its writers tell in their status files ---
 
 /// What a writer tells of its progress: members of its status file.
 Row progress_row(const study::Progress& progress);
@@ -131,17 +130,12 @@ std::string clock_time(std::time_t time, std::time_t now);
 std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t now);
 
 /// What the snapshots of a study, at least one, say at a time: its state, cases, times, what is stored,
-/// failures by their reason, preliminary critical gaps, and a row for every writer. A writer that told
-/// nothing for two minutes counts as one that was killed. `folder` is how it is called. Values that a damaged
-/// file lacks are 0.
+/// failures by their reason, preliminary critical gaps, and a row for every writer. A writer that neither
+/// lives nor told its end was killed. `folder` is how it is called. Values that a damaged file lacks are 0.
 Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
                  std::time_t now);
 
-/// Of these facts: for a terminal, and the page. `files`: names of reports that are there, to be linked.
+/// These facts for a terminal.
 std::string status_text(const Row& facts);
-std::string status_page(Row facts, const std::vector<std::string>& files);
-
-/// Whether it pays to look again: a writer is at work.
-bool is_running(const Row& facts);
 
 }  // namespace launchsafe::report

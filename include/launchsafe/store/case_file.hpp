@@ -32,6 +32,9 @@ struct Manifest {
 /// caller.
 Manifest make_manifest(std::string input_text, int threads);
 
+/// "launchsafe 0.1.0, commit 5f8ab68e": what made the results that a manifest is of.
+std::string program_of(const Manifest& manifest);
+
 /// The name of this machine on its network.
 std::string host_name();
 

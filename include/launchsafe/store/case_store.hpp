@@ -4,7 +4,6 @@
 //   DIR/study[.PART].db     SQLite: runs, answers drawn from them, events, and the tables of the report
 //   DIR/cases/HASH.h5       the result of one case, named by what determines it, whole or not there
 //   DIR/status[.PART].json  who writes and how far it is; for whoever watches
-//   DIR/index.html          the same of all parts, as a page
 //
 // PART is "1-of-4" for a shard and absent for a whole study, which takes over what the parts stored. A result
 // is on disk under its name before its row is committed. A results file is held by the process that writes
@@ -55,10 +54,10 @@ struct RunRecord {
   double processor_time = 0;     ///< s, of the run
   double predicted_updates = 0;  ///< particle updates that the plan foresaw, from which cost models learn
   double time_limit = 0;         ///< s, of a case that was timed out
-  std::string host;
-  std::string end_time;         ///< ISO 8601, UTC
-  std::uint64_t file_size = 0;  ///< bytes, of a case that is done
-  std::int64_t file_time = 0;   ///< ns since the epoch, modification time of the file
+  std::string program;           ///< that made the attempt, see `program_of`
+  std::string end_time;          ///< ISO 8601, UTC
+  std::uint64_t file_size = 0;   ///< bytes, of a case that is done
+  std::int64_t file_time = 0;    ///< ns since the epoch, modification time of the file
 };
 
 /// The names of a store's files.
@@ -70,7 +69,6 @@ struct StoreNames {
   std::filesystem::path case_file(const std::string& hash) const { return cases() / (hash + ".h5"); }
   std::filesystem::path results() const { return folder / ("study" + suffix() + ".db"); }
   std::filesystem::path status() const { return folder / ("status" + suffix() + ".json"); }
-  std::filesystem::path page() const { return folder / "index.html"; }
   /// Ends the names of files that this part is writing.
   std::string mark() const { return part.empty() ? "whole" : part; }
 
@@ -148,8 +146,6 @@ class CaseStore {
   /// Members for status.json besides those of the store: how far the runs are that the process was asked for.
   /// Written once a second at most, unless `at_once`.
   void tell_progress(nlohmann::ordered_json progress, bool at_once = false);
-  /// Puts a page (which begins with `page_begin`) in the place of index.html, unless that is somebody else's.
-  void write_page(const std::string& page);
   /// What a person should know of what was found, such as damaged files.
   std::vector<std::string> remarks() const;
   const std::filesystem::path& folder() const { return names_.folder; }
@@ -186,7 +182,7 @@ class CaseStore {
   MaybeError write_file(const std::string& hash, std::string_view bytes);
   /// Takes over the whole result of another folder: a second name of its file where the file system can.
   MaybeError take_file(const std::filesystem::path& file, const std::string& hash);
-  /// Where and when an attempt ended, and of which model it was.
+  /// When an attempt ended, and by which program and model it was made.
   void fill_in(RunRecord& record) const;
   void remark(const std::string& text);
   void write_status(bool ended = false);
@@ -213,17 +209,14 @@ std::vector<std::filesystem::path> results_files_in(const std::filesystem::path&
 /// Whether a file of this name in a study's folder belongs to its store.
 bool is_store_name(std::string_view name);
 
-// --- status.json and index.html of a study's folder: how far the study is, for whoever watches, since nobody
-// else may read a results file that is being written; every writer has a status of its own, the folder one
-// page ---
-
-/// The beginning of index.html, by which it is known as this program's own.
-inline constexpr std::string_view page_begin = "<!DOCTYPE html>\n<!-- launchsafe status 1 -->\n";
+// --- status.json of a study's folder: how far the study is, since nobody else may read a results file that
+// is being written; every writer has a status of its own ---
 
 /// A writer's snapshot: the members of its status file.
 struct StoreStatus {
   std::string part;  ///< "1-of-4" of a shard; empty for a whole study
   nlohmann::ordered_json members;
+  bool alive = false;  ///< a process holds the results file, whose lock ends with the process
 };
 
 /// The file's text.

@@ -29,6 +29,8 @@ class Database {
   static Database open(const std::filesystem::path& path);
   /// Throws why a file that is there may not be opened to write. Changes nothing.
   static void demand_free(const std::filesystem::path& path);
+  /// Whether a living process has the file open to write. Throws nothing.
+  static bool is_held(const std::filesystem::path& path);
   /// An empty one in memory, whose messages name `path`.
   static Database in_memory(const std::filesystem::path& path);
   /// A copy of a file in memory as the last commit left it. The file is held for as long as copying takes and

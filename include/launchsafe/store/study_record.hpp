@@ -34,6 +34,11 @@ struct StudyRecord {
   std::string study =
       {};  ///< the study file as in a command; empty in older manifests, and of a safety report
 
+  /// Programs that made launches of the study, see `program_of`; none while the report is not finished.
+  std::vector<std::string> programs = {};
+
+  /// These, unless the program of the manifest made all launches.
+  std::vector<std::string> other_programs() const;
   /// All that may be there, in alphabetical order.
   std::vector<std::string> names() const;
 };
