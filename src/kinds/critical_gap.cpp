@@ -33,7 +33,6 @@ CaseOutcome judged(const Study& study, const StudyCase& input, std::vector<Finis
     outcome.raised->snapshots.clear();
   }
   evaluate(study, outcome);
-  evaluate_film(study, outcome);
   return outcome;
 }
 

@@ -60,41 +60,24 @@ const auto coupled_quantities = with_whole(
                                                 }),
                           {{quantity::reason, &Confirmation::failure}}}));
 
-/// A gap of a case that also has an answer on other terms.
-struct OtherRow {
+/// A gap of a case that also has an answer under its longer launch.
+struct LongerRow {
   const CaseOutcome* of;
   std::size_t gap;
 };
 
-/// T max with and without those terms. `name`: of what stands beside the answer.
-Quantities<OtherRow> other_quantities(Column usual, Column other,
-                                      std::optional<study::OtherAnswer> CaseOutcome::*member) {
-  return {
-      {quantity::case_name, &OtherRow::of, &CaseOutcome::input, &StudyCase::label},
-      {quantity::gap, [](const OtherRow& row) { return row.of->verdicts[row.gap].gap; }},
-      {std::move(usual), [](const OtherRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
-      {std::move(other),
-       [member](const OtherRow& row) { return (row.of->*member)->maximum_temperature.at(row.gap); }}};
-}
-
-const Quantities<OtherRow> film_quantities = other_quantities(
-    {"temperature_max_reservoir", "T max, reservoir", fixed(1, kelvin),
-     "Highest temperature under the reservoir of air."},
-    {"temperature_max_film", "T max, film", fixed(1, kelvin),
-     "Highest temperature under the film of air, which gives what compression supplies alone."},
-    &CaseOutcome::film);
-
-Quantities<OtherRow> longer_launch_quantities() {
-  Quantities<OtherRow> quantities =
-      other_quantities({"temperature_max_with_exit", "T max, muzzle exit", fixed(1, kelvin),
-                        "Highest temperature with the muzzle exit."},
-                       {"temperature_max_without_exit", "T max, without", fixed(1, kelvin),
-                        "Highest temperature in a barrel without end."},
-                       &CaseOutcome::longer_launch);
-  quantities.emplace_back(for_programs(Column{"critical_gap_without_exit", "critical gap, without", text(),
-                                              "Critical gap in a barrel without end, in words."}),
-                          [](const OtherRow& row) { return reads_as(row.of->longer_launch->critical); });
-  return quantities;
+Quantities<LongerRow> longer_launch_quantities() {
+  return {{quantity::case_name, &LongerRow::of, &CaseOutcome::input, &StudyCase::label},
+          {quantity::gap, [](const LongerRow& row) { return row.of->verdicts[row.gap].gap; }},
+          {{"temperature_max_with_exit", "T max, muzzle exit", fixed(1, kelvin),
+            "Highest temperature with the muzzle exit."},
+           [](const LongerRow& row) { return row.of->verdicts[row.gap].maximum.temperature; }},
+          {{"temperature_max_without_exit", "T max, without", fixed(1, kelvin),
+            "Highest temperature in a barrel without end."},
+           [](const LongerRow& row) { return row.of->longer_launch->maximum_temperature.at(row.gap); }},
+          {for_programs(Column{"critical_gap_without_exit", "critical gap, without", text(),
+                               "Critical gap in a barrel without end, in words."}),
+           [](const LongerRow& row) { return reads_as(row.of->longer_launch->critical); }}};
 }
 
 /// A line over the gap; only that of least squares has errors.
@@ -191,21 +174,18 @@ Table air_energy_table(const CriticalGapResult& result) {
   return air_energy_table(surface.air_model, gaps, surface.model == GapModel::closing);
 }
 
-/// Answers on other terms, where a case has them.
-Table other_table(const CriticalGapResult& result, const char* title, const Quantities<OtherRow>& quantities,
-                  std::optional<study::OtherAnswer> CaseOutcome::*member, const char* note) {
-  std::vector<OtherRow> rows;
+Table longer_launch_table(const CriticalGapResult& result) {
+  std::vector<LongerRow> rows;
   Row facts = Row::object();
   for (const CaseOutcome& outcome : result.details) {
-    if (!(outcome.*member) ||
-        (member == &CaseOutcome::longer_launch && scene::is_cut_short(outcome.input.scene.scene.load)))
-      continue;
+    if (!outcome.longer_launch || scene::is_cut_short(outcome.input.scene.scene.load)) continue;
     for (std::size_t i = 0; i < outcome.verdicts.size(); ++i) rows.push_back({&outcome, i});
     facts["others"].push_back({{"case", outcome.input.label},
                                {"usual", reads_as(outcome.critical)},
-                               {"other", reads_as((outcome.*member)->critical)}});
+                               {"other", reads_as(outcome.longer_launch->critical)}});
   }
-  return table_of(title, quantities, rows, said(note, facts));
+  return table_of("In a barrel without end", longer_launch_quantities(), rows,
+                  said("critical_gap.note.without_exit", facts));
 }
 
 Table fit_table(const CriticalGapResult& result) {
@@ -275,12 +255,7 @@ std::vector<ReportTable> detail_tables(const CriticalGapResult& result) {
     return report::NamedGap{outcome.input.label, &outcome.critical};
   });
   return {{as_calibrated_table(result), "", "as_calibrated", Shown::page},
-          {other_table(result, "In a barrel without end", longer_launch_quantities(),
-                       &CaseOutcome::longer_launch, "critical_gap.note.without_exit"),
-           "", "without_exit"},
-          {other_table(result, "Under both models of the air", film_quantities, &CaseOutcome::film,
-                       "critical_gap.note.air_models"),
-           "", "air_models"},
+          {longer_launch_table(result), "", "without_exit"},
           {air_energy_table(result), "", "air_energy"},
           {report::gap_share_table(cases), "", "gap_shares", Shown::page},
           {fit_table(result), "", "fit"},

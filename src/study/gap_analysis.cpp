@@ -36,10 +36,22 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
   return hotter < 0.0 ? 0.0 : hotter;  // NaN stays NaN
 }
 
+/// What all rows of a case are judged by.
+struct OfAllRows {
+  LoadCurveErrors load_curve;
+  std::vector<RaisedLaunch> raised;  ///< towards ignition
+};
+
+OfAllRows of_all_rows(const Study& study, const CaseOutcome& outcome) {
+  return {load_curve_errors(outcome.input.scene.scene.load),
+          raised_launches(study, outcome, End::towards_ignition)};
+}
+
 /// K, the random causes together, as independent ones are.
-double input_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
+double input_share(const Study& study, const CaseOutcome& outcome, const OfAllRows& all,
+                   const GapVerdict& row) {
   double squares = outcome.raised ? 0.0 : std::pow(stated_input_share(study, outcome.input), 2);
-  for (const RaisedLaunch& each : raised_launches(study, outcome, End::towards_ignition)) {
+  for (const RaisedLaunch& each : all.raised) {
     const double share = raised_share(each, row);
     squares += share * share;
   }
@@ -63,21 +75,20 @@ double model_form_share(const Study& study, const CaseOutcome& outcome, const Ga
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
 /// with the rise.
-void add_shares(const Study& study, const CaseOutcome& outcome, const LoadCurveErrors& load_curve,
-                GapVerdict& row) {
+void add_shares(const Study& study, const CaseOutcome& outcome, const OfAllRows& all, GapVerdict& row) {
   const double initial = outcome.input.scene.scene.initial_temperature;
   row.uncertainty.numerical = numerical_share(outcome.input, row.gap, row.maximum.temperature - initial);
   const Rises rises{outcome.heated_without_gap - initial, row.heated - outcome.heated_without_gap};
   row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises, outcome.heat_factor);
-  row.uncertainty.input = input_share(study, outcome, row);
-  row.uncertainty.load_curve = load_curve.in_kelvin(rises);
+  row.uncertainty.input = input_share(study, outcome, all, row);
+  row.uncertainty.load_curve = all.load_curve.in_kelvin(rises);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding =
       friction_share(outcome) +
       thicker_gap_share(outcome, row, opening_at_base(outcome) + cooling_spread(outcome.input.scene.scene));
 }
 
-GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurveErrors& load_curve,
+GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const OfAllRows& all,
                   const run::GapResult& gap) {
   const scene::Scene& scene = outcome.input.scene.scene;
   const BottomTrace& trace = outcome.result.mechanics.trace;
@@ -98,7 +109,7 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const LoadCurv
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
   row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
-  add_shares(study, outcome, load_curve, row);
+  add_shares(study, outcome, all, row);
   return row;
 }
 
@@ -127,7 +138,7 @@ GapOrBound critical_gap_of(const Study& study, const CriticalGap& critical, cons
 GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
   const run::GapResult gap =
       run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, outcome.critical.lower);
-  GapVerdict row = row_of(study, outcome, load_curve_errors(outcome.input.scene.scene.load), gap);
+  GapVerdict row = row_of(study, outcome, of_all_rows(study, outcome), gap);
   row.uncertainty.coupling = coupling_share(outcome);
   if (misses_calibrated_rows(outcome))
     row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
@@ -203,15 +214,17 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const LoadCurveErrors load_curve = load_curve_errors(scene.load);
-  for (const double gap : gaps_of(study, outcome.input)) {
-    if (!has_trace(outcome)) {
-      outcome.verdicts.emplace_back().gap = gap;
-    } else {
-      outcome.result.gaps.push_back(run::evaluate_gap(scene, outcome.result.mechanics.trace, gap));
-      outcome.verdicts.push_back(row_of(study, outcome, load_curve, outcome.result.gaps.back()));
-    }
+  const std::vector<double>& gaps = gaps_of(study, outcome.input);
+  outcome.verdicts.resize(gaps.size());
+  for (std::size_t i = 0; i < gaps.size(); ++i) outcome.verdicts[i].gap = gaps[i];
+  if (has_trace(outcome)) {
+    const OfAllRows all = of_all_rows(study, outcome);
+    outcome.result.gaps.resize(gaps.size());
+    run_parts(gaps.size(), [&](std::size_t i) {
+      run::GapResult& gap = outcome.result.gaps[i];
+      gap = run::evaluate_gap(outcome.input.scene.scene, outcome.result.mechanics.trace, gaps[i]);
+      outcome.verdicts[i] = row_of(study, outcome, all, gap);
+    });
   }
   attach_references(study, outcome.input, outcome.verdicts);
 }

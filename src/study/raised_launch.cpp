@@ -163,16 +163,6 @@ std::vector<RaisedLaunch> raised_launches(const Study& study, const CaseOutcome&
   return std::move(causes.raised);
 }
 
-void evaluate_film(const Study& study, CaseOutcome& outcome) {
-  const scene::Scene& scene = outcome.input.scene.scene;
-  const trace::BottomTrace& trace = outcome.result.mechanics.trace;
-  if (!outcome.completed() || trace.samples() == 0 || scene.surface.air_model != scene::AirModel::reservoir)
-    return;
-  surface::SkinModel model = surface::skin_model(scene);
-  model.surface.air_model = scene::AirModel::film;
-  outcome.film = answer_on(study, outcome.input, model, trace);
-}
-
 void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome) {
   const std::optional<scene::Scene> longer = with_longer_launch(outcome.input.scene.scene);
   if (longer && mechanics.status == run::RunStatus::completed && mechanics.trace.samples() > 0) {

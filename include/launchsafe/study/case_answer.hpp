@@ -215,9 +215,7 @@ void take_launches(const StudyCase& input, const std::vector<FinishedRun>& runs,
 CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
                            std::string failure);
 
-/// The gaps of the study and the critical gap with air as a film, on the same trace.
-void evaluate_film(const Study& study, CaseOutcome& outcome);
-/// The same of its longer launch, on the mechanics of that one.
+/// The gaps of the study and the critical gap under its longer launch, on the mechanics of that one.
 void evaluate_longer_launch(const Study& study, const run::MechanicsResult& mechanics, CaseOutcome& outcome);
 
 /// What the confirmations say about the critical gap: a disagreement makes it indeterminate.

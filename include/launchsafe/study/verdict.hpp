@@ -387,8 +387,6 @@ struct CaseOutcome : CaseAnswer {
   double heat_factor = 1.0;  ///< by what firings leave open of the constants; 1 where none calibrated
   std::vector<Confirmation> confirmations;
   std::optional<GapFit> fit;  ///< over the rows that do not ignite
-  /// With air as a film that conserves energy, an optimistic bound: of a completed run with the reservoir.
-  std::optional<OtherAnswer> film;
   /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
   /// complete.
   std::optional<OtherAnswer> longer_launch;
