@@ -33,11 +33,12 @@ Json rings_json(const scene::Load& load, const scene::Scene& shell);
 /// What of a launch a load does not cover, for which no verdict stands; empty for none.
 std::string uncovered_text(const scene::Load& load);
 
-/// Totals, then a row for each of the first mechanical runs. `folder` holds the store that the rate was
-/// learned from, if any. `begin`: when the study begins, whose end is told then.
-std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast, const path& folder,
-                          std::optional<std::time_t> begin = {});
+/// Totals and a row for each of the runs that were planned, for programs.
 Json forecast_json(const study::StudyFile& file, const study::Forecast& forecast);
+/// Totals, then a row for each of the first mechanical runs. `facts`: those for programs. `folder` holds the
+/// store that the rate was learned from, if any. `begin`: when the study begins, whose end is told then.
+std::string forecast_text(const study::StudyFile& file, const study::Forecast& forecast, Json facts,
+                          const path& folder, std::optional<std::time_t> begin = {});
 
 /// Particle updates per second that this program does on this machine with this scene, from the first third
 /// of a second of its run, on a coarser mesh where its own has very many particles. Ends the command where

@@ -119,7 +119,8 @@ ExitCode explain_study(const path& place, Console& console) {
   console.remarks(file.scene.notes);
   const Forecast forecast =
       study::forecast_study(file, {}, measured_update_rate(file.cases.front().scene.scene, console));
-  return console.done(forecast_text(file, forecast, {}), forecast_json(file, forecast));
+  const Json facts = forecast_json(file, forecast);
+  return console.done(forecast_text(file, forecast, facts, {}), facts);
 }
 
 /// What of these options makes no sense together; empty for nothing.
@@ -135,14 +136,13 @@ std::string contradiction(const ExplainArguments& explain) {
 
 }  // namespace
 
-std::string forecast_text(const study::StudyFile& file, const Forecast& forecast, const path& folder,
-                          std::optional<std::time_t> begin) {
+std::string forecast_text(const study::StudyFile& file, const Forecast& forecast, Json facts,
+                          const path& folder, std::optional<std::time_t> begin) {
   const scene::Scene& scene = file.scene.scene;
   const bool closes = scene.surface.model == scene::GapModel::closing;
   const bool from_checkpoints = scene.surface.air_model == scene::AirModel::reservoir && !closes;
   // Those of a large study fill no terminal.
   const auto listed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(20, forecast.runs.size()));
-  Json facts = forecast_json(file, forecast);
   facts.update({{"scene", file.study.scene},
                 {"folder", folder.string()},
                 {"judges_gaps", file.study.kind.judges_gaps},

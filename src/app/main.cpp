@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <sstream>
@@ -179,22 +180,39 @@ void become_faster_program(char**) {}
 
 #endif
 
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may only touch lock-free atomics");
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free,
+              "a signal handler may only touch lock-free atomics");
 
-void request_stop(int) { stop_requested().store(true, std::memory_order_relaxed); }
+/// What the program says where it ends without its command; nothing allocates in a signal handler.
+constinit std::atomic<const char*> last_words{"interrupted"};
 
-void stop_on(int signal) {
+void request_stop(int) {
+  constexpr unsigned longest = 2;  // s
+  stop_requested().store(true, std::memory_order_relaxed);
+  ::alarm(longest);
+}
+
+void stop_at_once(int) {
+  fail_at_once(last_words, "interrupted");
+  ::_exit(static_cast<int>(ExitCode::interrupted));
+}
+
+void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
-  action.sa_handler = request_stop;
+  action.sa_handler = handler;
   sigemptyset(&action.sa_mask);
   action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
   sigaction(signal, &action, nullptr);
 }
 
-/// From here on the first SIGINT, SIGTERM or SIGHUP sets the flag of `stop_requested`, and a second one ends
-/// the program at once (files are whole or not there, so that is safe). Writing to a closed pipe or past a
-/// file-size limit becomes an error of the write instead of the program's end.
+void stop_on(int signal) { handle(signal, request_stop); }
+
+/// From here on the first SIGINT, SIGTERM or SIGHUP sets the flag of `stop_requested`. A command that does
+/// not end by itself within two seconds, whatever it is doing, is ended then, and by a second signal at once
+/// (files are whole or not there, so that is safe). Writing to a closed pipe or past a file-size limit
+/// becomes an error of the write instead of the program's end.
 void catch_signals() {
+  handle(SIGALRM, stop_at_once);
   stop_on(SIGINT);
   stop_on(SIGTERM);
   // `nohup` has it ignored, and means it.
@@ -262,6 +280,8 @@ int main(int argument_count, char** arguments) {
   become_faster_program(arguments);
   catch_signals();
   const CommandLine line = parse_command_line(argument_count, arguments);
+  last_words =
+      ::strdup(fmt::format("interrupted; what was finished is kept; to go on: {}", line.text).c_str());
   Console console(line.quiet, line.json);
   // "launchsafe run 1": what the JSON object of a command is, and its version, raised when members change
   // their meaning or go.

@@ -245,8 +245,8 @@ ExitCode dry_run(const study::StudyFile& file, const StudyArguments& arguments, 
   const study::Forecast forecast =
       study::forecast_study(file, options_of(arguments, arguments.jobs, store.get()), update_rate);
   if (store) console.remarks(store->remarks());
-  return console.done(forecast_text(file, forecast, folder, std::time(nullptr)),
-                      forecast_json(file, forecast));
+  const Json facts = forecast_json(file, forecast);
+  return console.done(forecast_text(file, forecast, facts, folder, std::time(nullptr)), facts);
 }
 
 ExitCode perform(const StudyArguments& arguments, Console& console) {

@@ -32,6 +32,8 @@ TEST_F(DryRun, CountsTheFewestRunsAndMakesNoFolder) {
   EXPECT_NE(text.find("measured now"), std::string::npos) << text;
 }
 
+TEST_F(DryRun, ReadsJobsAsADecimalNumber) { EXPECT_EQ(forecast_study({"--jobs", "010"})["jobs"], 10); }
+
 TEST_F(DryRun, SaysDiskAndEndAndListsFewRuns) {
   const std::string few = run({"study", "study.toml", "--dry-run"}).out;
   EXPECT_NE(few.find("  disk                  about "), std::string::npos) << few;

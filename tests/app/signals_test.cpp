@@ -20,6 +20,23 @@ TEST_P(SignalledProgram, EndsAndSaysWhatWasKept) {
   EXPECT_TRUE(std::filesystem::is_empty(folder() / "out"));
 }
 
+TEST_P(SignalledProgram, EndsWhilePlanningAMillionCases) {
+  write("shell.toml", tiny_scene);
+  std::string study = "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = \"0.1 ms\"\n";
+  for (const std::string axis : {"key = \"peak_pressure\"\nrange = \"300 to 400 MPa\"",
+                                 "key = \"crack_radius\"\nrange = \"30 to 40 um\"",
+                                 "key = \"flaw_size\"\nrange = \"1 to 2 mm\""})
+    study += "[[vary]]\n" + axis + "\ncount = 100\n";
+  write("study.toml", study);
+  start({"study", "study.toml", "--dry-run", "--json"});
+  wait_until_it_catches(SIGTERM);
+  send(GetParam());
+  const Outcome outcome = wait();
+  EXPECT_EQ(outcome.code, 75) << outcome.err;
+  EXPECT_TRUE(outcome.says("launchsafe study study.toml --dry-run")) << outcome.err;
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["error"]["message"], "interrupted");
+}
+
 INSTANTIATE_TEST_SUITE_P(Signals, SignalledProgram, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
 
