@@ -3,6 +3,7 @@
 #include <boost/algorithm/string.hpp>
 #include <unistd.h>
 
+#include <charconv>
 #include <sstream>
 
 namespace launchsafe::app {
@@ -91,18 +92,24 @@ CLI::Option* add_read(CLI::App& command, const std::string& name,
   const auto read_or_refuse = [name, read, &words](const std::string& text) {
     scene::Fault fault = fault_of_text(text, read);
     if (!fault) return;
-    fault->allowed = words.allowed;
-    // The first unit of a quantity is not that of every option: 105 is no calibre of 105 cm.
-    if (fault_of_text(boost::algorithm::erase_all_copy(fault->suggestion, "\""), read))
-      fault->suggestion = "";
+    // Of what any quantity of its kind may be only the units are kept.
+    const std::size_t units = std::min(fault->allowed.find(" (units: "), fault->allowed.size());
+    fault->allowed = words.allowed + fault->allowed.substr(units);
     throw CLI::ValidationError(name, fault->message());
   };
   return command.add_option_function<std::string>(name, read_or_refuse, words.meaning)->type_name(words.type);
 }
 
+CLI::Option* add_count(CLI::App& command, const std::string& name, int& count, int most) {
+  return add_read(command, name, [&count, most](const std::string& text) {
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), count);
+    return fault == std::errc{} && end == text.data() + text.size() && count >= 1 && count <= most;
+  });
+}
+
 void add_jobs(CLI::App& command, int& jobs) {
   constexpr int most_jobs = 4096;
-  add(command, "-j,--jobs", jobs)->check(CLI::Range(1, most_jobs));
+  add_count(command, "-j,--jobs", jobs, most_jobs);
 }
 
 std::string bash_completion(const CLI::App& app) {

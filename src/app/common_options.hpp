@@ -100,6 +100,8 @@ CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amoun
 /// A script for bash that completes commands, options and what these take.
 std::string bash_completion(const CLI::App& app);
 
+/// An option that takes a whole number from 1 to `most`, in decimal digits.
+CLI::Option* add_count(CLI::App& command, const std::string& name, int& count, int most);
 void add_jobs(CLI::App& command, int& jobs);
 
 // --- the folders that a user names for results, and that of a study: whether it may be used, and what

@@ -141,10 +141,11 @@ void Console::write_result(std::string_view text) {
   output_lost_ = output_lost_ || (error != 0 && error != EPIPE);
 }
 
-void fail_at_once(const char* message) {
+void fail_at_once(const char* message, const char* in_json) {
   for (const char* part : {"launchsafe: ", message, "\n"}) say(part);
-  if (owed().exchange(false))
-    write_to(STDOUT_FILENO, "{\"error\": {\"message\": \"internal error\"}}\n", true);
+  if (!owed().exchange(false)) return;
+  for (const char* part : {"{\"error\": {\"message\": \"", in_json, "\"}}\n"})
+    write_to(STDOUT_FILENO, part, true);
 }
 
 std::atomic<bool>& stop_requested() {

@@ -90,9 +90,9 @@ class Console {
   void write_result(std::string_view text);
 };
 
-/// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed.
-/// Allocates nothing, never throws.
-void fail_at_once(const char* message);
+/// For the end that nothing else could be made of: one line on stderr, the JSON object where it is owed, with
+/// `in_json` for its message. Allocates nothing, never throws; a signal handler may call it.
+void fail_at_once(const char* message, const char* in_json = "internal error");
 
 /// True once the user wants the program to end. Whoever finds that nothing useful can follow may set it too.
 std::atomic<bool>& stop_requested();

@@ -255,7 +255,7 @@ void add_emit(CLI::App& app, CommandLine& line) {
   add_required(command, "study", emit.study);
   add_required(command, "-o,--output", emit.output);
   constexpr int most_shards = 10000;
-  add_required(command, "--shards", emit.shards)->check(CLI::Range(1, most_shards));
+  add_count(command, "--shards", emit.shards, most_shards)->required();
   add_jobs(command, emit.jobs);
   add_amount(command, "--memory", emit.memory, parse_positive<Dimension::memory>);
   add_amount(command, "--time-limit", emit.time_limit, parse_positive<Dimension::duration>);

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <memory>
+#include <set>
 #include <system_error>
 
 namespace launchsafe::scene {
@@ -97,6 +98,16 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
     }
   }
   return cost[a.size()][b.size()];
+}
+
+/// Whether words surely mean different things, however near they are: those with other digits, as "G1" and
+/// "G4", or with letters before the whole of the other, as "elastic" and "inelastic".
+bool differ_in_meaning(std::string_view a, std::string_view b) {
+  const auto digits = [](std::string word) {
+    std::erase_if(word, [](char c) { return c < '0' || c > '9'; });
+    return word;
+  };
+  return a != b && (a.ends_with(b) || b.ends_with(a) || digits(std::string(a)) != digits(std::string(b)));
 }
 
 /// What to suggest in the place of a file that does not exist, named by its path from a folder: such a path
@@ -266,23 +277,19 @@ std::string InputError::message() const {
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates) {
   if (word.size() > longest_word) return {};
   const std::string wanted = lower_case(word);
-  std::string nearest;
-  std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::set<std::string> nearest;
+  std::size_t fewest = std::min<std::size_t>(2, word.size() / 3);
   for (const std::string& candidate : candidates) {
-    if (candidate.size() > longest_word) continue;
-    // A key without its table.
-    if (lower_case(candidate).ends_with("." + wanted)) return candidate;
-    const std::size_t apart = letters_apart(wanted, lower_case(candidate));
-    if (apart >= fewest || apart >= candidate.size()) continue;
+    const std::string other = lower_case(candidate);
+    const bool lacks_its_table = other.ends_with("." + wanted);
+    if (other.size() > longest_word || (!lacks_its_table && differ_in_meaning(wanted, other))) continue;
+    const std::size_t apart = lacks_its_table ? 0 : letters_apart(wanted, other);
+    if (apart > fewest) continue;
+    if (apart < fewest) nearest.clear();
     fewest = apart;
-    nearest = candidate;
+    nearest.insert(candidate);
   }
-  // "--out" of "--output".
-  const auto begins = [&](const std::string& each) { return lower_case(each).starts_with(wanted); };
-  if (const auto longer = std::ranges::find_if(candidates, begins);
-      nearest.empty() && word.size() > 2 && longer != candidates.end())
-    return *longer;
-  return nearest;
+  return nearest.size() == 1 ? *nearest.begin() : std::string{};
 }
 
 std::string first_of(std::vector<std::string> names, std::size_t most) {

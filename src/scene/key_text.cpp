@@ -109,6 +109,8 @@ std::string allowed_text(const KeyDescription& key) {
   const std::string_view name = name_of(key.dimension);
   const std::string range = limits_text(key.limits, key.dimension);
   const std::string limits = range.empty() ? range : ", " + range;
+  std::string units = fmt::format("{}", fmt::join(units_of(key.dimension), ", "));
+  if (!units.empty()) units = fmt::format(" (units: {})", units);
   switch (key.kind) {
     case KeyKind::flag:
       return "true or false";
@@ -121,20 +123,16 @@ std::string allowed_text(const KeyDescription& key) {
         return fmt::format("an array of {} texts, such as {}", key.list_length, example_of(key));
       return key.example.empty() ? "a text in quotation marks"
                                  : "a text in quotation marks, such as " + example_of(key);
-    case KeyKind::number: {
-      std::string text = fmt::format("a {}{}, such as {}", name, limits, example_of(key));
-      const auto units = units_of(key.dimension);
-      if (!units.empty()) text += fmt::format(" (units: {})", fmt::join(units, ", "));
-      return text;
-    }
+    case KeyKind::number:
+      return fmt::format("a {}{}, such as {}{}", name, limits, example_of(key), units);
     case KeyKind::range:
-      return fmt::format("{}a range, lower end first, of a {}{}, such as {}",
-                         key.may_be_value ? "a value or " : "", name, limits, example_of(key));
+      return fmt::format("{}a range, lower end first, of a {}{}, such as {}{}",
+                         key.may_be_value ? "a value or " : "", name, limits, example_of(key), units);
     case KeyKind::list:
       return fmt::format(
-          "a list of {}, each a {}{}, such as {}",
+          "a list of {}, each a {}{}, such as {}{}",
           key.list_length > 0 ? fmt::format("{} values", key.list_length) : "one or more values", name,
-          limits, example_of(key));
+          limits, example_of(key), units);
   }
   return {};
 }

@@ -81,13 +81,12 @@ bool is_named(const Column& column, std::string_view word) {
 /// A column's unit must be one of its dimension.
 void check_unit(const Column& column, const Place& place) {
   if (parse_quantity("1 " + column.unit, column.dimension)) return;
-  const auto units = units_of(column.dimension);
-  throw error_at(
-      place, name_of(column.dimension),
-      column.unit.empty() ? fmt::format("\"{}\", without a unit", column.name)
-                          : fmt::format("\"{}\" with the unknown unit \"{}\"", column.name, column.unit),
-      fmt::format("a {} in one of the units {}", name_of(column.dimension), fmt::join(units, ", ")),
-      nearest_of(column.unit, units));
+  throw error_at(place, name_of(column.dimension),
+                 column.unit.empty()
+                     ? fmt::format("\"{}\", without a unit", column.name)
+                     : fmt::format("\"{}\" with the unknown unit \"{}\"", column.name, column.unit),
+                 fmt::format("a {} in one of the units {}", name_of(column.dimension),
+                             fmt::join(units_of(column.dimension), ", ")));
 }
 
 /// The one column in a unit of the dimension, or of the wanted name: of several the user must say which.

@@ -23,8 +23,9 @@ struct Unit {
 
 constexpr Unit celsius(std::string_view name) { return {name, 0, 1, 273.15L}; }
 constexpr Unit fahrenheit(std::string_view name) { return {name, 0, 5.0L / 9.0L, 459.67L}; }
+constexpr long double inch = 0.0254L, foot = 12 * inch;  // m
 /// Pa; pound-force (0.45359237 kg at 9.80665 m/s2) over square inch.
-constexpr long double psi = 0.45359237L * 9.80665L / (0.0254L * 0.0254L);
+constexpr long double psi = 0.45359237L * 9.80665L / (inch * inch);
 
 struct DimensionInfo {
   std::string_view name;
@@ -45,7 +46,7 @@ const DimensionInfo& info_of(Dimension dimension) {
        "m",
        {{"cm", -2}, {"mm", -3}, {"m", 0}, {"um", -6}, {"\u00b5m", -6}},
        {"cm", "mm", "\u00b5m", "m"},
-       {},
+       {{"in", 0, inch}, {"ft", 0, foot}},
        {{"\u03bcm", -6}}},
       {"time",
        "\"18 ms\"",
@@ -59,7 +60,8 @@ const DimensionInfo& info_of(Dimension dimension) {
        "Pa",
        {{"MPa", 6}, {"GPa", 9}, {"kPa", 3}, {"Pa", 0}, {"bar", 5}, {"TPa", 12}, {"kbar", 8}, {"Mbar", 11}},
        {"MPa", "GPa", "TPa", "kPa", "Pa"},
-       {{"psi", 0, psi}, {"ksi", 0, 1000 * psi}, {"atm", 0, 101325}}},
+       {{"psi", 0, psi}, {"ksi", 0, 1000 * psi}, {"atm", 0, 101325}},
+       {{"kpsi", 0, 1000 * psi}}},
       {"temperature",
        "\"300 K\"",
        "K",
@@ -69,12 +71,17 @@ const DimensionInfo& info_of(Dimension dimension) {
        {celsius("C"), celsius("\u2103"), fahrenheit("F"), fahrenheit("\u2109")}},
       {"temperature difference", "\"5 K\"", "K", {{"K", 0}}, {}},
       {"density", "\"1717 kg/m3\"", "kg/m3", {{"kg/m3", 0}, {"g/cm3", 3}, {"kg/m^3", 0}, {"g/cm^3", 3}}, {}},
-      {"speed", "\"300 m/s\"", "m/s", {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}}, {}},
+      {"speed",
+       "\"300 m/s\"",
+       "m/s",
+       {{"m/s", 0}, {"km/s", 3}, {"mm/us", 3}, {"cm/us", 4}},
+       {},
+       {{"ft/s", 0, foot}}},
       {"frequency", "\"7320 1/s\"", "1/s", {{"1/s", 0}, {"1/ms", 3}, {"1/us", 6}}, {}},
       {"specific energy",
        "\"5.82 MJ/kg\"",
        "J/kg",
-       {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}},
+       {{"MJ/kg", 6}, {"kJ/kg", 3}, {"J/kg", 0}, {"J/g", 3}, {"kJ/g", 6}},
        {"MJ/kg", "kJ/kg", "J/kg"}},
       {"specific heat",
        "\"1780 J/(kg K)\"",
@@ -115,17 +122,16 @@ const DimensionInfo& info_of(Dimension dimension) {
 
 std::string without_blanks(std::string_view text) {
   std::string result;
-  std::copy_if(text.begin(), text.end(), std::back_inserter(result),
-               [](char c) { return c != ' ' && c != '\t'; });
+  std::copy_if(text.begin(), text.end(), std::back_inserter(result), [](char c) { return c != ' '; });
   return result;
 }
 
+/// The blanks of "J/(kg K)" may be left out; none may be put in, as in "M Pa".
 std::optional<Unit> find_unit(Dimension dimension, std::string_view name) {
   const DimensionInfo& info = info_of(dimension);
-  const std::string wanted = without_blanks(name);
   for (const auto* units : {&info.units, &info.scales, &info.spellings})
     for (const Unit& unit : *units)
-      if (without_blanks(unit.name) == wanted) return unit;
+      if (unit.name == name || without_blanks(unit.name) == name) return unit;
   return std::nullopt;
 }
 
@@ -219,15 +225,10 @@ double convert(const Token& token, std::string_view whole, Dimension dimension) 
       throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
     return scaled(token.number, 0);
   }
-  if (token.unit.empty())
-    throw fault(fmt::format("\"{}\", without a unit", whole), dimension,
-                fmt::format("\"{} {}\"", without_blanks_around(whole), info.units.front().name));
+  if (token.unit.empty()) throw fault(fmt::format("\"{}\", without a unit", whole), dimension);
+  // No unit is suggested: another one, however near in letters, makes another quantity of the number.
   const std::optional<Unit> unit = find_unit(dimension, token.unit);
-  if (!unit) {
-    const std::string near = nearest_of(token.unit, units_of(dimension));
-    throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension,
-                near.empty() ? std::string{} : fmt::format("\"{} {}\"", token.number, near));
-  }
+  if (!unit) throw fault(fmt::format("\"{}\", {}", whole, kind_of_unit(token.unit, dimension)), dimension);
   double value = 0.0;
   if (unit->is_decimal()) {
     value = scaled(token.number, unit->power);

@@ -73,10 +73,7 @@ Parsed parsed_for(const KeyDescription& key, const Place& place, const Expected<
 double read_plain_number(const toml::node& node, const KeyDescription& key, const Place& place) {
   const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
   if (!std::isfinite(value)) throw error_for(place, key, found_text(node) + ", which is not a finite number");
-  const auto units = units_of(key.dimension);
-  if (!units.empty())
-    throw error_for(place, key, found_text(node) + ", without a unit",
-                    fmt::format("\"{} {}\"", found_text(node), units.front()));
+  if (!units_of(key.dimension).empty()) throw error_for(place, key, found_text(node) + ", without a unit");
   if (key.dimension == Dimension::count && !node.is_integer())
     throw error_for(place, key, found_text(node) + ", which is no whole number");
   return value;
@@ -200,15 +197,7 @@ std::string section_of(const std::string& name) {
 
 std::string nearest_key(const std::string& name, const std::vector<std::string>& known) {
   const std::string near = nearest_of(name, known);
-  if (!near.empty()) return near;
-  const std::string last = last_part(name);
-  for (const std::string& candidate : known)
-    if (last_part(candidate) == last) return candidate;
-  for (const std::string& candidate : known)
-    if (last.size() > 3 && candidate.find(last) != std::string::npos) return candidate;
-  for (const std::string& candidate : known)
-    if (last.size() > 3 && last_part(candidate).starts_with(last.substr(0, 3))) return candidate;
-  return {};
+  return near.empty() ? nearest_of(last_part(name), known) : near;
 }
 
 }  // namespace

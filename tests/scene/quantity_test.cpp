@@ -24,6 +24,7 @@ TEST(Quantity, UnderstandsCompoundUnitsWithAndWithoutBlanks) {
   EXPECT_EQ(*parse_quantity("4.61 km/s", Dimension::speed), 4610.0);
   EXPECT_EQ(*parse_quantity("1780 J/(kg K)", Dimension::specific_heat), 1780.0);
   EXPECT_EQ(*parse_quantity("1780 J/kgK", Dimension::specific_heat), 1780.0);
+  EXPECT_EQ(*parse_quantity("1780 J/(kgK)", Dimension::specific_heat), 1780.0);
   EXPECT_EQ(*parse_quantity("0.246 W/(m K)", Dimension::conductivity), 0.246);
   EXPECT_EQ(*parse_quantity("0.5 MPa m^0.5", Dimension::toughness), 5e5);
   EXPECT_EQ(*parse_quantity("5.82 MJ/kg", Dimension::specific_energy), 5.82e6);
@@ -107,13 +108,28 @@ TEST(Quantity, SaysThatARangeIsOneWhereValuesAreWanted) {
         << error.found;
 }
 
-TEST(Quantity, SuggestsTheNearestUnit) {
-  EXPECT_EQ(parse_quantity("496 Mpa", Dimension::pressure).error().suggestion, "\"496 MPa\"");
-  EXPECT_EQ(parse_quantity("5 mmm", Dimension::length).error().suggestion, "\"5 mm\"");
-  EXPECT_EQ(parse_quantity("5", Dimension::length).error().suggestion, "\"5 cm\"");
-  EXPECT_NE(parse_quantity("5", Dimension::length).error().found.find("without a unit"), std::string::npos);
-  EXPECT_NE(parse_quantity("5 furlong", Dimension::length).error().found.find("unknown unit"),
-            std::string::npos);
+TEST(Quantity, InAnUnknownUnitOrNoneIsRefusedWithAllUnitsAndNoOtherQuantity) {
+  for (const char* text : {"5", "5 mmm", "5 Mm", "5 furlong"}) {
+    const auto value = parse_quantity(text, Dimension::length);
+    ASSERT_FALSE(value) << text;
+    EXPECT_EQ(value.error().suggestion, "") << text;
+    for (const std::string& unit : units_of(Dimension::length))
+      EXPECT_NE(value.error().allowed.find(unit), std::string::npos) << unit;
+  }
+}
+
+TEST(Quantity, OfUnitsThatOnlyLookLikeOthersKeepsItsSize) {
+  EXPECT_NEAR(*parse_quantity("984 ft/s", Dimension::speed), 299.9232, 1e-12);
+  EXPECT_EQ(*parse_quantity("0.03 cm/us", Dimension::speed), 300.0);
+  EXPECT_EQ(*parse_quantity("2092 J/g", Dimension::specific_energy), 2.092e6);
+  EXPECT_NEAR(*parse_quantity("72 kpsi", Dimension::pressure), 72e3 * 6894.757293168361, 1e-6);
+  EXPECT_NEAR(*parse_quantity("6.1 in", Dimension::length), 0.15494, 1e-15);
+}
+
+TEST(Quantity, WithABlankWithinItsUnitIsRefused) {
+  EXPECT_FALSE(parse_quantity("496 M Pa", Dimension::pressure));
+  EXPECT_FALSE(parse_quantity("2.5 m m", Dimension::length));
+  EXPECT_FALSE(parse_quantity("0, 496 M Pa", Dimension::pressure));
 }
 
 TEST(Quantity, RefusesWhatIsNoFiniteNumber) {

@@ -151,7 +151,7 @@ TEST(ReadScene, FaultsNameLineKeyFoundAllowedAndTheNearest) {
     expect_error(error, line_of(text, fault.at), fault.key, fault.found, fault.allowed);
     EXPECT_EQ(error.suggestion.find(fault.suggestion), 0u) << error.message();
   }
-  EXPECT_EQ(error_of(with(small_scene, "[[body]]", "[[bodies]]")).suggestion, "body");
+  EXPECT_EQ(error_of(with(small_scene, "[[body]]", "[[bodies]]")).suggestion, "");
   EXPECT_EQ(error_of(with(small_scene, "material = \"charge\"\n", "")).key, "body.material");
   EXPECT_TRUE(parse_scene("numerics.cell_size = \"1 cm\"\n" + small_scene, "shell.toml"));
   EXPECT_TRUE(parse_scene("numerics.time_step_factor = 2\n" + small_scene, "shell.toml"));

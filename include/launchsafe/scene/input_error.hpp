@@ -79,9 +79,10 @@ inline constexpr std::size_t longest_quoted = 240, longest_allowed_quoted = 4000
 /// the first and the last.
 std::string quotable(std::string_view text, std::size_t longest);
 
-/// The candidate nearest to `word` in letters changed, added, dropped or swapped, case ignored; empty if none
-/// is near (more than a third of the letters differ, and more than two of them). Words of hundreds of letters
-/// are near to none.
+/// The candidate nearest to `word` in letters changed, added, dropped or swapped, case ignored, or the key
+/// that it is without its table. Empty if none is near (more than a third of the letters differ, or more than
+/// two of them, or the words differ in digits or by letters in front) or several are equally near. Words of
+/// hundreds of letters are near to none.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "a, b and 3 more": the first ones of several names.
