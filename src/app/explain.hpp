@@ -19,17 +19,12 @@ Json scene_json(const scene::Scene& scene, double update_rate);
 /// The same for people. `facts`: those for programs.
 std::string scene_text(const scene::Scene& scene, Json facts);
 
-/// Peaks, smoothing and roughness of a load, in SI.
+/// Peaks, end, exit and smoothing of a load, in SI.
 Json load_json(const scene::Scene& scene);
 
 /// Key, value, plausible range and acceptance (or null) of every value that is not plausible.
 Json plausibility_json(const scene::Scene& scene);
 
-/// The first modes of a shell beside the rings of a measured load, and which ring is near one; empty without
-/// rings.
-std::string rings_text(const scene::Load& load, const scene::Scene& shell);
-/// The same in SI, with all modes; null without rings.
-Json rings_json(const scene::Load& load, const scene::Scene& shell);
 /// What of a launch a load does not cover, for which no verdict stands; empty for none.
 std::string uncovered_text(const scene::Load& load);
 

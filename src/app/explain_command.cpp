@@ -220,8 +220,9 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (const std::string fault = contradiction(arguments); !fault.empty())
     console.refuse(fault + usage_hint("explain "));
   if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
+  std::error_code unknown;  // a name that is too long, say: reading it tells
   if (const std::string word = arguments.file.string();
-      !std::filesystem::exists(arguments.file) &&
+      !std::filesystem::exists(arguments.file, unknown) &&
       (scene::has_key(scene::describe_keys(), word) || scene::has_key(kinds::describe_study_keys(), word)))
     console.refuse(
         fmt::format("explain: found no file \"{0}\"; of keys tells: launchsafe explain --keys {0}", word));

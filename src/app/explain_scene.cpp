@@ -122,12 +122,10 @@ Json launch_told(const scene::Scene& scene) {
           {"acts", scene::chamber_text(scene, peak)},
           {"exit", scene::exit_text(scene)},
           {"end", scene::end_text(scene)},
-          {"measured", scene::measured_load_text(load)},
+          {"measured", scene::smoothing_text(load)},
           {"acceleration", scene::rigid_acceleration(scene, peak)},
           {"setback", scene::has_charge(scene) ? scene::pressure_text(scene::setback_pressure(scene)) : ""}};
 }
-
-std::string kilohertz(double frequency) { return fmt::format("{:.3g} kHz", 1e-3 * frequency); }
 
 /// The same in SI, and every line of the grid.
 Json grid_json(const scene::Scene& scene) {
@@ -173,39 +171,6 @@ run::Reach reach_here() { return {.memory = study::available_memory(), .keeps_sk
 
 }  // namespace
 
-std::string rings_text(const scene::Load& load, const scene::Scene& shell) {
-  const std::vector<scene::Ring> rings = scene::rings_of(load);
-  if (rings.empty()) return {};
-  constexpr std::size_t most_named = 3;
-  const std::vector<run::AxialMode> modes = run::axial_modes(shell);
-  Json facts{{"higher", modes.size() > most_named}};
-  for (std::size_t i = 0; i < std::min(modes.size(), most_named); ++i)
-    facts["modes"].push_back(kilohertz(modes[i].frequency));
-  for (const scene::Ring& ring : rings) {
-    const run::AxialMode* mode = run::mode_near(ring, modes);
-    facts["rings"].push_back({{"at", kilohertz(ring.frequency)},
-                              {"share", ring.amplitude / scene::PressureHistory(load).stated_peak()},
-                              {"mode", mode != nullptr ? kilohertz(mode->frequency) : ""}});
-  }
-  return told("rings.txt", facts);
-}
-
-Json rings_json(const scene::Load& load, const scene::Scene& shell) {
-  const std::vector<scene::Ring> rings = scene::rings_of(load);
-  if (rings.empty()) return nullptr;
-  Json modes_json = Json::array(), rings_json = modes_json;
-  const std::vector<run::AxialMode> modes = run::axial_modes(shell);
-  for (const run::AxialMode& mode : modes)
-    modes_json.push_back({{"frequency_hz", mode.frequency}, {"share_of_strongest", mode.amplitude}});
-  for (const scene::Ring& ring : rings) {
-    const run::AxialMode* mode = run::mode_near(ring, modes);
-    rings_json.push_back({{"frequency_hz", ring.frequency},
-                          {"amplitude_pa", ring.amplitude},
-                          {"near_mode_hz", mode != nullptr ? Json(mode->frequency) : nullptr}});
-  }
-  return {{"rings", rings_json}, {"axial_modes", modes_json}};
-}
-
 std::string uncovered_text(const scene::Load& load) {
   const std::vector<std::string> uncovered = run::uncovered_load(load);
   if (uncovered.empty()) return {};
@@ -225,7 +190,6 @@ std::string scene_text(const scene::Scene& scene, Json facts) {
                 {"sound", scene::longitudinal_speed(scene)},
                 {"countable", facts["steps"] < scene::most_counted},
                 {"intervals", indented(report::to_text(interval_table(scene)))},
-                {"rings", rings_text(scene.load, scene)},
                 {"uncovered", uncovered_text(scene.load)}});
   return told("explain.txt", facts);
 }
@@ -257,7 +221,6 @@ Json load_json(const scene::Scene& scene) {
           {"stated_peak_pa", history.stated_peak()},
           {"smoothing_s", load.smoothing},
           {"peak_lost_to_smoothing", scene::peak_lost_to_smoothing(load)},
-          {"roughness", scene::load_roughness(load)},
           {"uncovered", run::uncovered_load(load)}};
 }
 
@@ -281,7 +244,6 @@ Json scene_json(const scene::Scene& scene, double update_rate) {
   for (const scene::MaterialParticles& each : plan.by_material) particles[each.material] = each.particles;
   return {{"title", scene.title},
           {"load", load_json(scene)},
-          {"rings_of_the_record", rings_json(scene.load, scene)},
           {"interfaces", interfaces},
           {"physics", physics_json(plan)},
           {"particles", particles},

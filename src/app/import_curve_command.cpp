@@ -2,6 +2,8 @@
 #include "common_options.hpp"
 #include "explain.hpp"
 
+#include <set>
+
 namespace launchsafe::app {
 namespace {
 
@@ -10,7 +12,6 @@ struct ImportCurveArguments {
   std::optional<path> output;             ///< CSV file for the curve; none: nothing is written
   std::string pressure;                   ///< name of the column; empty: the only one
   std::optional<double> offset, trigger;  ///< Pa
-  std::optional<path> scene;              ///< of a shell whose modes are told beside rings
   std::string command;                    ///< the whole command, to be repeated in a shell
 };
 
@@ -36,7 +37,6 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
                                    {"offset", pressure_text(cleaned.offset)},
                                    {"given", arguments.offset.has_value()},
                                    {"quiet", cleaned.quiet_points},
-                                   {"noise", pressure_text(cleaned.noise)},
                                    {"trigger", pressure_text(cleaned.trigger)},
                                    {"start", time_text(cleaned.start)},
                                    {"before", cleaned.points_before},
@@ -48,9 +48,23 @@ std::string what_was_done(const ImportCurveArguments& arguments, const Import& i
                                    {"lowest", pressure_text(-cleaned.lowest)}});
 }
 
-std::vector<double> scaled(std::vector<double> values, double factor, double shift = 0.0) {
-  for (double& value : values) value = factor * (value - shift);
-  return values;
+/// The lowest and the highest point of each of so many parts: a picture resolves no more.
+constexpr std::size_t drawn_parts = 2000;
+
+/// A line in ms and MPa, from a time (s) and a pressure (Pa) on.
+report::Series drawn_line(const std::string& label, int colour, const scene::PressureCurve& curve,
+                          double start, double offset) {
+  report::Series series{.label = label, .style = report::Style::line, .colour = colour};
+  const auto begin = curve.pressure.begin();
+  const auto points = static_cast<std::ptrdiff_t>(curve.pressure.size());
+  const std::ptrdiff_t step = std::max<std::ptrdiff_t>(1, points / drawn_parts);
+  for (std::ptrdiff_t i = 0; i < points; i += step) {
+    const auto ends = std::minmax_element(begin + i, begin + std::min(i + step, points));
+    for (const auto& point : std::set{ends.first, ends.second})
+      series.add(1e3 * (curve.time[static_cast<std::size_t>(point - begin)] - start),
+                 1e-6 * (*point - offset));
+  }
+  return series;
 }
 
 report::Plot plot_of(const ImportCurveArguments& arguments, const Import& import) {
@@ -59,16 +73,8 @@ report::Plot plot_of(const ImportCurveArguments& arguments, const Import& import
   plot.title = "Chamber pressure of " + arguments.record.filename().string();
   plot.x.label = "time from the trigger [ms]";
   plot.y.label = "pressure above the offset [MPa]";
-  plot.series.push_back({.label = "record",
-                         .x = scaled(import.record.time, 1e3, cleaned.start),
-                         .y = scaled(import.record.pressure, 1e-6, cleaned.offset),
-                         .style = report::Style::line,
-                         .colour = 7});
-  plot.series.push_back({.label = "curve",
-                         .x = scaled(cleaned.curve.time, 1e3),
-                         .y = scaled(cleaned.curve.pressure, 1e-6),
-                         .style = report::Style::line,
-                         .colour = 0});
+  plot.series = {drawn_line("record", 7, import.record, cleaned.start, cleaned.offset),
+                 drawn_line("curve", 0, cleaned.curve, 0.0, 0.0)};
   return plot;
 }
 
@@ -79,14 +85,12 @@ Json json_of(const Import& import) {
           {"points_below_zero", cleaned.points_below_zero},
           {"lowest_MPa", 1e-6 * cleaned.lowest},
           {"offset_MPa", 1e-6 * cleaned.offset},
-          {"noise_MPa", 1e-6 * cleaned.noise},
           {"quiet_points", cleaned.quiet_points},
           {"trigger_MPa", 1e-6 * cleaned.trigger},
           {"start_ms", 1e3 * cleaned.start},
           {"peak_MPa", 1e-6 * cleaned.peak},
           {"peak_time_ms", 1e3 * cleaned.peak_time},
           {"end_ms", 1e3 * cleaned.curve.time.back()},
-          {"roughness", scene::load_roughness(import.load)},
           {"uncovered", run::uncovered_load(import.load)}};
 }
 
@@ -118,16 +122,11 @@ ExitCode perform(const ImportCurveArguments& arguments, Console& console) {
   Import import;
   import.record = console.value_of(scene::parse_gauge_record(text, file, arguments.pressure));
   import.cleaned = console.value_of(scene::clean(import.record, {arguments.offset, arguments.trigger}, file));
-  import.load = scene::load_of_curve(import.cleaned.curve);
-  std::optional<scene::SceneFile> shell;
-  if (arguments.scene) shell = console.value_of(scene::read_scene(*arguments.scene));
+  import.load.curve_time = import.cleaned.curve.time;
+  import.load.curve_pressure = import.cleaned.curve.pressure;
   const std::string done = what_was_done(arguments, import, store::sha256(text));
-  console.print_text(fmt::format("{}noise    {}\n", done, scene::measured_load_text(import.load)));
-  if (shell) console.print_text(rings_text(import.load, shell->scene));
-  console.print_text(uncovered_text(import.load));
-  Json json = json_of(import);
-  if (shell) json["rings_of_the_record"] = rings_json(import.load, shell->scene);
-  console.print_json(json);
+  console.print_text(done + uncovered_text(import.load));
+  console.print_json(json_of(import));
   if (arguments.output)
     write(arguments, import, done, console);
   else
@@ -144,7 +143,6 @@ void add_import_curve(CLI::App& app, CommandLine& line) {
   add(command, "--pressure", import.pressure);
   add_amount(command, "--offset", import.offset, parse_scene_quantity<Dimension::pressure>);
   add_amount(command, "--trigger", import.trigger, parse_positive<Dimension::pressure>);
-  add(command, "--scene", import.scene);
 }
 
 }  // namespace launchsafe::app

@@ -20,37 +20,49 @@ std::string scaled_length(double published, double factor) {
   return fmt::format("{:g}", std::round(2.0 * published * factor) / 2.0);
 }
 
-NamedTexts files_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve,
-                    const std::string& csv) {
+/// What the texts take from the arguments. `curve`: TOML text with the name of its file.
+Json values_of(const InitArguments& arguments, const std::optional<scene::PressureCurve>& curve) {
   // A gun that is scaled launches as fast, in a time that is scaled too.
   const double factor = arguments.calibre / published_calibre;
   const double duration = curve ? curve->time.back() : factor * published_exit;
   const scene::Load published;
   const auto milliseconds = [](double time) { return fmt::format("{:.4g}", 1e3 * time); };
-  Json values{{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
-              {"factor", fmt::format("{:.4g}", factor)},
-              {"charge_begin", scaled_length(118, factor)},
-              {"charge_end", scaled_length(678, factor)},
-              {"length", scaled_length(740, factor)},
-              {"bore", scaled_length(65, factor)},
-              {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
-              {"curve", curve.has_value()},
-              {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
-              {"peak_time", milliseconds(factor * published.peak_time)},
-              {"width", milliseconds(factor * published.width)},
-              {"exit", milliseconds(duration)},
-              {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
-  if (curve)
-    if (const auto window = scene::suggested_smoothing(scene::load_of_curve(*curve)))
-      values["smoothing"] = scene::time_text(*window);
+  return {{"calibre", fmt::format("{:g} mm", 1e3 * arguments.calibre)},
+          {"factor", fmt::format("{:.4g}", factor)},
+          {"charge_begin", scaled_length(118, factor)},
+          {"charge_end", scaled_length(678, factor)},
+          {"length", scaled_length(740, factor)},
+          {"bore", scaled_length(65, factor)},
+          {"outer", fmt::format("{:g}", 500 * arguments.calibre)},
+          {"curve", curve ? "\"pressure.csv\"" : ""},
+          {"peak", scene::pressure_text(arguments.peak.value_or(published.peak))},
+          {"peak_time", milliseconds(factor * published.peak_time)},
+          {"width", milliseconds(factor * published.width)},
+          {"exit", milliseconds(duration)},
+          {"early_time", fmt::format("{:.3g}", 0.55e3 * duration)}};
+}
+
+NamedTexts files_of(const Json& values) {
   NamedTexts files;
   for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml", "firings.toml"})
     files.push_back({name, told(name, values)});
   files.insert(files.end(), {{"calibration.json", shipped_calibration},
                              {"scene.schema.json", scene_schema().dump(1) + "\n"},
                              {"study.schema.json", study_schema().dump(1) + "\n"}});
-  if (curve) files.push_back({"pressure.csv", csv});
   return files;
+}
+
+/// Refuses what makes no scene, before anything is written.
+void check_scene(const InitArguments& arguments, Json values, Console& console) {
+  if (arguments.curve)
+    values["curve"] = scene::exact_toml({.kind = keys::KeyKind::text},
+                                        std::filesystem::absolute(*arguments.curve).string());
+  const auto scene = scene::parse_scene(told("scene.toml", values), arguments.output / "scene.toml");
+  if (scene) return;
+  scene::InputError error = scene.error();
+  error.file = arguments.curve ? arguments.curve->string() : "--peak";
+  error.line = error.column = 0;
+  console.refuse(error);
 }
 
 ExitCode perform(const InitArguments& arguments, Console& console) {
@@ -59,19 +71,14 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   if (arguments.curve) {
     csv = console.value_of(scene::read_text_file(*arguments.curve, scene::largest_curve));
     curve = console.value_of(scene::parse_pressure_curve(csv, arguments.curve->string()));
-    const auto& duration = *scene::find_key(scene::scene_keys(), "load.duration");
-    if (!duration.limits.contain(curve->time.back()))
-      console.refuse(scene::error_at({arguments.curve->string()}, {},
-                                     "a curve that ends at " + scene::time_text(curve->time.back()),
-                                     scene::allowed_text(duration)));
   }
-  const NamedTexts files = files_of(arguments, curve, csv);
+  const Json values = values_of(arguments, curve);
+  check_scene(arguments, values, console);
+  NamedTexts files = files_of(values);
+  if (curve) files.push_back({"pressure.csv", csv});
   const std::vector<std::string> said = write_where_absent(arguments.output, files, console);
   console.print_text(fmt::format("{}\n", fmt::join(said, "\n")));
   const path study = arguments.output / "critical_gap.toml";
-  // A fault of the files just written is the program's, and is told before anybody computes with them.
-  if (const auto read = kinds::read_study(study); !read)
-    console.fail("internal error: what init wrote cannot be read: " + read.error().message());
   return console.done(
       fmt::format(
           "\nThe shell is the published one, scaled: put the lengths of a drawing into {}.\nnext: {}\n",

@@ -173,7 +173,7 @@ std::string case_text(const scene::Scene& scene, const run::CaseResult& result, 
     masses.push_back(fmt::format("{} {:.6g}", each.material, each.mass));
   facts.update({{"exit", scene::exit_text(scene)},
                 {"end", scene::end_text(scene)},
-                {"measured", scene::measured_load_text(scene.load)},
+                {"measured", scene::smoothing_text(scene.load)},
                 {"completed", mechanics.status == run::RunStatus::completed},
                 {"limited", mechanics.limiters.acted()},
                 {"simulated", scene::time_text(mechanics.end_time)},

@@ -315,7 +315,7 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_model
   row["distance_cm"] = told(rounded_down(number_of(row, "distance_cm"), 3));
   // What else the reason says, but for what page one says of all rows.
   if (!with_models || text_of(row, "verdict") == "UNSAFE") row.erase("model_form");
-  for (const char* clause : {"limited", "noise", "ring", "model_form"})
+  for (const char* clause : {"limited", "model_form"})
     if (std::string text = text_of(row, clause); !text.empty()) row["beside"].push_back(std::move(text));
   // These tell what is extrapolated themselves.
   if (const std::string reason = text_of(row, "reason_code");

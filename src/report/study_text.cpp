@@ -183,7 +183,7 @@ std::string setup_text(const study::StudyFile& study) {
             {"scene", study.study.scene},
             {"accuracy", study.study.accuracy},
             {"setting", study.chosen_setting},
-            {"measured", scene::measured_load_text(study.scene.scene.load)},
+            {"measured", scene::smoothing_text(study.scene.scene.load)},
             {"kinetics", kinetics_json(study.scene)}};
   for (const auto& [key, value] : study.overrides)
     facts["overrides"].push_back({{"key", key}, {"value", value}});

@@ -25,7 +25,6 @@ template <auto said>
 std::string of_input(const study::GapVerdict& row) {
   return row.of_case == nullptr ? std::string{} : said(row.of_case->input);
 }
-std::string ring_text(const study::CaseStatements& input) { return input.ring; }
 
 /// The charge off the grid lines, in the scene of a study or in those of its cases, which may have meshes and
 /// bodies of their own.
@@ -147,7 +146,7 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       {share_of_uncertainty("inputs", "of inputs", "Of it: how well load, gap and others are known."),
        &GapVerdict::uncertainty, &Uncertainty::inputs},
       {for_programs(share_of_uncertainty("load_curve", "of load curve",
-                                         "Of the inputs: the noise of a measured pressure curve.")),
+                                         "Of the inputs: the peak of a measured pressure curve.")),
        &GapVerdict::uncertainty, &Uncertainty::load_curve},
       {share_of_uncertainty("model_form", "of model form", "Of it: what other models would say."),
        &GapVerdict::uncertainty, &Uncertainty::model_form},
@@ -162,8 +161,6 @@ Quantities<study::GapVerdict> verdict_quantities(const study::Study& study) {
       evidence_quantity("accepted", of_input<study::accepted_text>,
                         "What somebody accepts of that, and why."),
       evidence_quantity("limited", study::limiters_text, "Limiters that acted."),
-      evidence_quantity("noise", study::noise_text, "What the noise of a measured curve counts."),
-      evidence_quantity("ring", of_input<ring_text>, "That a measured curve rings."),
       evidence_quantity("model_form", study::models_text, "Models that could change the verdict."),
       evidence_quantity("extrapolated", study::extrapolated_text,
                         "What lies outside the domain of the calibration."),

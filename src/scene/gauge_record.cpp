@@ -7,22 +7,15 @@ namespace launchsafe::scene {
 namespace {
 
 constexpr std::size_t least_quiet_points = 10;
-constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.02;
-/// Of the peak: what a gauge resolves.
+// Shares of the peak.
+constexpr double rise_share = 0.02, trigger_share = 0.01, largest_share_below_zero = 0.05;
+/// What a gauge resolves.
 constexpr double resolution_share = 1e-3;
-constexpr double noise_of_trigger = 5.0, noise_below_zero = 10.0;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
-}
-
-/// From the median absolute deviation, which a few spikes do not move: 1.4826 of it is the standard deviation
-/// of normal noise.
-double deviation_about(double centre, std::vector<double> values) {
-  for (double& value : values) value = std::abs(value - centre);
-  return 1.4826 * median(std::move(values));
 }
 
 /// The first point of the launch: after the last one before the peak that lies below the level.
@@ -42,31 +35,29 @@ std::vector<double> quiet_points(const std::vector<double>& pressure) {
   return {pressure.begin(), pressure.begin() + static_cast<std::ptrdiff_t>(rise / 2)};
 }
 
-/// Sets what noise left below zero to 0.
+/// Sets what is below zero to 0.
 void remove_negative(CleanedRecord& cleaned, const std::string& file) {
-  const double allowed = std::max(noise_below_zero * cleaned.noise, largest_share_below_zero * cleaned.peak);
   for (double& pressure : cleaned.curve.pressure) {
     if (pressure >= 0.0) continue;
     ++cleaned.points_below_zero;
     cleaned.lowest = std::min(cleaned.lowest, pressure);
     pressure = 0.0;
   }
+  const double allowed = largest_share_below_zero * cleaned.peak;
   if (cleaned.lowest >= -allowed) return;
-  throw error_at({file}, "pressure",
-                 fmt::format("{} below the offset, which is no noise", pressure_text(-cleaned.lowest)),
+  throw error_at({file}, "pressure", pressure_text(-cleaned.lowest) + " below the offset",
                  fmt::format("pressures no further below zero than {}: another offset, or a record without a "
                              "drift of its gauge",
                              pressure_text(allowed)));
 }
 
-/// Offset and noise of the record, from the user or from its quiet part.
+/// Offset of the record, from the user or from its quiet part.
 void find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, CleanedRecord& cleaned,
                  const std::string& file) {
   const std::vector<double> quiet = quiet_points(record.pressure);
   if (quiet.size() >= least_quiet_points) {
     cleaned.quiet_points = quiet.size();
     cleaned.offset = median(quiet);
-    cleaned.noise = deviation_about(cleaned.offset, quiet);
   } else if (!cleaning.offset) {
     throw error_at(
         {file}, "pressure",
@@ -78,15 +69,13 @@ void find_offset(const PressureCurve& record, const GaugeCleaning& cleaning, Cle
   cleaned.offset = *cleaning.offset;
   if (cleaned.quiet_points == 0) return;
   const double peak = *std::ranges::max_element(record.pressure) - found;
-  const double allowed = std::max(cleaned.noise, resolution_share * peak);
+  const double allowed = resolution_share * peak;
   if (std::abs(cleaned.offset - found) <= allowed) return;
-  throw error_at(
-      {file}, "--offset",
-      fmt::format("an offset of {}, while the {} points before the rise show {}",
-                  pressure_text(cleaned.offset), cleaned.quiet_points, pressure_text(found)),
-      fmt::format("within {}, the noise of these points or {:g} % of the peak, of that; or no offset, "
-                  "and that is taken",
-                  pressure_text(allowed), 100.0 * resolution_share));
+  throw error_at({file}, "--offset",
+                 fmt::format("an offset of {}, while the {} points before the rise show {}",
+                             pressure_text(cleaned.offset), cleaned.quiet_points, pressure_text(found)),
+                 fmt::format("within {}, {:g} % of the peak, of that; or no offset, and that is taken",
+                             pressure_text(allowed), 100.0 * resolution_share));
 }
 
 CleanedRecord cleaned_record(const PressureCurve& record, const GaugeCleaning& cleaning,
@@ -97,8 +86,7 @@ CleanedRecord cleaned_record(const PressureCurve& record, const GaugeCleaning& c
   for (double& each : pressure) each -= cleaned.offset;
   const auto peak = std::ranges::max_element(pressure);
   cleaned.peak = *peak;
-  cleaned.trigger =
-      cleaning.trigger.value_or(std::max(trigger_share * cleaned.peak, noise_of_trigger * cleaned.noise));
+  cleaned.trigger = cleaning.trigger.value_or(trigger_share * cleaned.peak);
   if (!(cleaned.trigger > 0.0 && cleaned.trigger < cleaned.peak))
     throw error_at({file}, "pressure",
                    fmt::format("a largest pressure of {} above the offset, and a trigger of {}",

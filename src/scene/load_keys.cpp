@@ -244,7 +244,7 @@ std::vector<Key<Load>> load_keys() {
                  &Load::smoothing) |
           written_where([](const Load& load) { return load.smoothing != 0.0; }) |
           zero_or_plausibly(between(1e-6, 1e-3),
-                            "gauges ring and sample within a millisecond, and a longer average takes from "
+                            "gauges sample within a millisecond, and a longer average takes from "
                             "the pulse itself"),
       optional_number_key<Load>("muzzle_exit", Dimension::time, above_to(0, 1),
                                 "Time at which the shot leaves the barrel.", &Load::muzzle_exit) |

@@ -219,7 +219,7 @@ void add_point(std::string_view line, const Header& header, double lowest, Decim
                 fmt::format("a pressure of at least {}, at most {}",
                             lowest < 0.0 ? pressure_text(lowest) : "0 " + header.pressure.unit,
                             pressure_text(largest_load)),
-                pressure < lowest ? "launchsafe import-curve, for the offset and noise of a gauge" : "");
+                pressure < lowest ? "launchsafe import-curve, for the offset of a gauge" : "");
   if (std::abs(time) > largest_curve_time)
     throw fault(header.time, fmt::format("a time within {} of the start", time_text(largest_curve_time)));
   if (!curve.time.empty() && !(time - curve.time.back() > least_curve_interval))
@@ -227,6 +227,23 @@ void add_point(std::string_view line, const Header& header, double lowest, Decim
                                          time_text(curve.time.back()), time_text(least_curve_interval)));
   curve.time.push_back(time);
   curve.pressure.push_back(pressure);
+}
+
+/// No propellant takes a tenth of a second from a tenth of the largest pressure to all of it: a record in ms
+/// has been called one in s.
+void check_rise(const PressureCurve& curve, const Place& header) {
+  constexpr double longest_rise = 0.1, share_at_foot = 0.1;
+  const auto [lowest, largest] = std::ranges::minmax(curve.pressure);
+  const double level = lowest + share_at_foot * (largest - lowest);
+  double foot = curve.time.front(), rise = 0.0;
+  for (std::size_t i = 0; i < curve.time.size(); ++i) {
+    if (curve.pressure[i] <= level) foot = curve.time[i];
+    rise = curve.time[i] - foot;
+    if (curve.pressure[i] == largest) break;
+  }
+  if (rise <= longest_rise) return;
+  throw error_at(header, "time", fmt::format("a peak that rises in {:.3g} s", rise),
+                 fmt::format("a rise within {:g} s; the header's unit of time is wrong", longest_rise));
 }
 
 /// `gauge`: the pressure's column in a gauge's record; none for a curve that is a load.
@@ -240,16 +257,18 @@ PressureCurve parse(const std::string& text, const std::string& file, const std:
   PressureCurve curve;
   std::optional<Header> header;
   DecimalMark decimals;
-  Place place{file};
+  Place place{file}, place_of_header;
   while (!rest.empty()) {
     ++place.line;
     const std::string_view line = take_line(rest);
     const std::string_view content = without_blanks_around(line);
     if (content.empty() || content.starts_with('#')) continue;
-    if (header)
+    if (header) {
       add_point(line, *header, gauge ? -largest_load : 0.0, decimals, place, curve);
-    else
+    } else {
       header = read_header(line, place, gauge);
+      place_of_header = place;
+    }
   }
   if (!header) throw error_at({file, 1}, {}, "no header", allowed_header);
   if (curve.time.size() < 2)
@@ -257,6 +276,7 @@ PressureCurve parse(const std::string& text, const std::string& file, const std:
                    fmt::format("{} point{}", curve.time.size(), curve.time.size() == 1 ? "" : "s"),
                    "a curve of at least two points");
   decimals.check();
+  check_rise(curve, place_of_header);
   return curve;
 }
 

@@ -3,13 +3,9 @@
 #include "launchsafe/scene/load.hpp"
 #include "launchsafe/scene/quantity.hpp"
 
-// clang-format off
-#include <math.h>  // Boost 1.74's pchip.hpp calls ::isnan without including it, so this comes first.
-#include <boost/math/interpolators/pchip.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
-// clang-format on
 
 #include <cassert>
 #include <complex>
@@ -17,32 +13,74 @@
 namespace launchsafe::scene {
 namespace {
 
-/// Straight lines through the points of a curve too short for a spline.
-std::function<double(double)> straight_lines(std::vector<double> time, std::vector<double> pressure) {
-  return [time = std::move(time), pressure = std::move(pressure)](double t) {
-    const auto after = std::upper_bound(time.begin(), time.end() - 1, t);
-    const auto i = static_cast<std::size_t>(after - time.begin());
-    const double share = (t - time[i - 1]) / (time[i] - time[i - 1]);
-    return pressure[i - 1] + share * (pressure[i] - pressure[i - 1]);
-  };
-}
+/// Cubics through the points of a curve, monotone between neighbours (Fritsch and Butland); straight lines
+/// through fewer than four points.
+class Interpolant {
+ public:
+  Interpolant(std::vector<double> time, std::vector<double> pressure)
+      : time_(std::move(time)), pressure_(std::move(pressure)) {
+    const std::size_t last = time_.size() - 1;
+    if (last < 3) return;
+    slope_.assign(time_.size(), 0.0);
+    slope_.front() = chord(0);
+    slope_.back() = chord(last - 1);
+    for (std::size_t i = 1; i < last; ++i) {
+      const double before = chord(i - 1), after = chord(i);
+      const bool turns = !(before > 0.0 && after > 0.0) && !(before < 0.0 && after < 0.0);
+      if (turns) continue;
+      const double left = 2.0 * length(i) + length(i - 1), right = length(i) + 2.0 * length(i - 1);
+      slope_[i] = (left + right) / (left / before + right / after);
+    }
+  }
 
-std::function<double(double)> interpolant(std::vector<double> time, std::vector<double> pressure) {
-  if (time.size() < 4) return straight_lines(std::move(time), std::move(pressure));
-  return boost::math::interpolators::pchip<std::vector<double>>(std::move(time), std::move(pressure));
-}
+  const std::vector<double>& time() const { return time_; }
+
+  /// Index of the point at or before a time between the first point and the last.
+  std::size_t interval_of(double t) const {
+    // Gauges sample at equal intervals, so that the guess is right but for round-off.
+    const double intervals = static_cast<double>(time_.size() - 1);
+    const double guess = (t - time_.front()) / (time_.back() - time_.front()) * intervals;
+    auto i = static_cast<std::size_t>(std::clamp(guess, 0.0, intervals - 1.0));
+    if (t < time_[i] && i > 0) --i;
+    if (t >= time_[i + 1] && i + 2 < time_.size()) ++i;
+    if (t >= time_[i] && t < time_[i + 1]) return i;
+    return static_cast<std::size_t>(std::upper_bound(time_.begin() + 1, time_.end() - 1, t) - time_.begin()) -
+           1;
+  }
+
+  double operator()(double t) const { return at(interval_of(t), t); }
+
+  /// Integral (Pa s) from point i to a time before the next: Simpson's rule is exact for cubics.
+  double integral(std::size_t i, double t) const {
+    const double begin = time_[i];
+    return (t - begin) / 6.0 * (pressure_[i] + 4.0 * at(i, 0.5 * (begin + t)) + at(i, t));
+  }
+
+ private:
+  double length(std::size_t i) const { return time_[i + 1] - time_[i]; }
+  double chord(std::size_t i) const { return (pressure_[i + 1] - pressure_[i]) / length(i); }
+
+  double at(std::size_t i, double t) const {
+    const double since = t - time_[i], share = since / length(i);
+    if (slope_.empty()) return pressure_[i] + share * (pressure_[i + 1] - pressure_[i]);
+    return (1.0 - share) * (1.0 - share) * (pressure_[i] * (1.0 + 2.0 * share) + slope_[i] * since) +
+           share * share *
+               (pressure_[i + 1] * (3.0 - 2.0 * share) + length(i) * slope_[i + 1] * (share - 1.0));
+  }
+
+  std::vector<double> time_, pressure_, slope_;
+};
 
 /// A curve's moving average over a window (s), its ends mirrored, so that the impulse from the first point to
-/// the last stays what it was, and nothing is delayed. The integral over the window is exact: the curve is
-/// cubic between its points, which Simpson's rule integrates exactly.
+/// the last stays what it was, and nothing is delayed. The integral over the window is exact.
 class MovingAverage {
  public:
-  MovingAverage(std::vector<double> time, std::function<double(double)> curve, double window)
-      : time_(std::move(time)), curve_(std::move(curve)), window_(window), impulse_{0.0} {
-    assert(window >= least_smoothing_share * (time_.back() - time_.front()));
-    assert(window <= time_.back() - time_.front());
-    for (std::size_t i = 0; i + 1 < time_.size(); ++i)
-      impulse_.push_back(impulse_[i] + simpson(time_[i], time_[i + 1]));
+  MovingAverage(Interpolant curve, double window) : curve_(std::move(curve)), window_(window), impulse_{0.0} {
+    const std::vector<double>& time = curve_.time();
+    assert(window >= least_smoothing_share * (time.back() - time.front()));
+    assert(window <= time.back() - time.front());
+    for (std::size_t i = 0; i + 1 < time.size(); ++i)
+      impulse_.push_back(impulse_[i] + curve_.integral(i, time[i + 1]));
   }
 
   /// At a time between the first point and the last. A sum of pressures is none below 0 but by round-off.
@@ -51,27 +89,21 @@ class MovingAverage {
   }
 
  private:
-  double simpson(double begin, double end) const {
-    return (end - begin) / 6.0 * (curve_(begin) + 4.0 * curve_(0.5 * (begin + end)) + curve_(end));
-  }
-
   /// Integral (Pa s) from the first point to a time between the first and the last.
   double integral(double t) const {
-    const auto after = std::upper_bound(time_.begin() + 1, time_.end() - 1, t);
-    const auto i = static_cast<std::size_t>(after - time_.begin()) - 1;
-    return impulse_[i] + simpson(time_[i], t);
+    const std::size_t i = curve_.interval_of(t);
+    return impulse_[i] + curve_.integral(i, t);
   }
 
   /// The same of the curve continued by its mirror images; the window is at most twice as long as the curve.
   double mirrored(double t) const {
-    const double first = time_.front(), last = time_.back();
+    const double first = curve_.time().front(), last = curve_.time().back();
     if (t < first) return -integral(std::min(2.0 * first - t, last));
     if (t > last) return 2.0 * impulse_.back() - integral(std::max(2.0 * last - t, first));
     return integral(t);
   }
 
-  std::vector<double> time_;
-  std::function<double(double)> curve_;
+  Interpolant curve_;
   double window_;
   std::vector<double> impulse_;  ///< Pa s, from the first point to each
 };
@@ -86,12 +118,14 @@ std::vector<double> marks_between(const Load& load, double begin, double end, do
   };
   add(exit);
   if (load.curve_time.empty()) add(load.peak_time);
-  for (const double time : load.curve_time) {
-    add(time);
-    if (load.smoothing > 0.0) add(time - 0.5 * load.smoothing);
-    if (load.smoothing > 0.0) add(time + 0.5 * load.smoothing);
-  }
   std::ranges::sort(marks);
+  std::vector<double> shifts{0.0};
+  if (load.smoothing > 0.0) shifts.insert(shifts.end(), {-0.5 * load.smoothing, 0.5 * load.smoothing});
+  for (const double shift : shifts) {
+    const auto known = static_cast<std::ptrdiff_t>(marks.size());
+    for (const double time : load.curve_time) add(time + shift);
+    std::inplace_merge(marks.begin(), marks.begin() + known, marks.end());
+  }
   return marks;
 }
 
@@ -144,18 +178,26 @@ double end_in_the_barrel(const Load& load) {
 
 PressureHistory::PressureHistory(const Load& load) : load_(load) {
   if (load_.curve_time.size() >= 2) {
-    curve_ = interpolant(load_.curve_time, load_.curve_pressure);
+    Interpolant curve(load_.curve_time, load_.curve_pressure);
     const bool smoothed = load_.smoothing > 0.0;
-    if (smoothed) curve_ = MovingAverage(load_.curve_time, std::move(curve_), load_.smoothing);
+    if (smoothed)
+      curve_ = MovingAverage(std::move(curve), load_.smoothing);
+    else
+      curve_ = std::move(curve);
     if (load_.rescale_to_peak) {
       const auto marks = marks_between(load_, load_.curve_time.front(), load_.curve_time.back(), exit_);
       const double largest = largest_at(marks, curve_, smoothed).second;
       if (largest > 0.0) scale_ = load_.peak / largest;
     }
   }
-  const std::optional<double> exit = exit_time(load_);
-  if (!exit) return;
-  exit_ = *exit;
+  if (load_.muzzle_exit) {
+    exit_ = *load_.muzzle_exit;
+  } else if (load_.muzzle_travel && load_.mass_over_area > 0.0) {
+    const double goal = *load_.muzzle_travel * load_.mass_over_area;
+    const RigidMotion motion = drive(end_in_the_barrel(load_), goal);
+    if (motion.travel == goal) exit_ = motion.time;
+  }
+  if (!std::isfinite(exit_)) return;
   exit_pressure_ = in_the_barrel(exit_);
   pressure_outside_ = load_.curve_time.empty() ? load_.base : 0.0;
 }
@@ -178,7 +220,7 @@ double PressureHistory::in_the_barrel(double time) const {
 }
 
 std::vector<double> PressureHistory::marks() const {
-  return marks_between(load_, 0.0, end_time(load_), exit_);
+  return marks_between(load_, 0.0, load_.duration.value_or(launch_end()), exit_);
 }
 
 RigidMotion PressureHistory::drive(double until, std::optional<double> goal) const {
@@ -228,7 +270,7 @@ RigidMotion PressureHistory::drive(double until, std::optional<double> goal) con
 
 std::pair<double, double> PressureHistory::largest() const {
   if (load_.curve_time.empty()) {
-    const double time = std::min({load_.peak_time, end_time(load_), exit_});
+    const double time = std::min({load_.peak_time, load_.duration.value_or(launch_end()), exit_});
     return {time, at(time)};
   }
   return largest_at(
@@ -240,18 +282,21 @@ double PressureHistory::stated_peak() const {
   return scale_ * *std::ranges::max_element(load_.curve_pressure);
 }
 
+double PressureHistory::launch_end() const {
+  if (!exit()) return end_in_the_barrel(load_);
+  const double height = stated_peak() - pressure_outside_;
+  const double share = height > 0.0 ? (exit_pressure_ - pressure_outside_) / height : 0.0;
+  return exit_ + load_.exit_decay * std::log(std::max(1.0, share / share_when_over));
+}
+
 std::optional<double> exit_time(const Load& load) {
-  if (load.muzzle_exit || !load.muzzle_travel || !(load.mass_over_area > 0.0)) return load.muzzle_exit;
-  const Load barrel = without_exit(load);
-  const double goal = *load.muzzle_travel * load.mass_over_area;
-  const RigidMotion motion = PressureHistory(barrel).drive(end_in_the_barrel(barrel), goal);
-  return motion.travel == goal ? std::optional(motion.time) : std::nullopt;
+  if (load.muzzle_exit || !load.muzzle_travel) return load.muzzle_exit;
+  return PressureHistory(load).exit();
 }
 
 double launch_end(const Load& load) {
-  const std::optional<double> exit = exit_time(load);
-  if (!exit) return end_in_the_barrel(load);
-  return *exit + load.exit_decay * std::log(std::max(1.0, share_left(load, *exit) / share_when_over));
+  const bool is_told = !load.muzzle_exit && !load.muzzle_travel;
+  return is_told ? end_in_the_barrel(load) : PressureHistory(load).launch_end();
 }
 
 double end_time(const Load& load) { return load.duration ? *load.duration : launch_end(load); }
@@ -325,6 +370,40 @@ std::string launch_sentence(const Scene& scene) {
   const std::string exit = exit_text(scene);
   return exit.empty() ? "The load drives the shell to " + end_text(scene) + "."
                       : "The shot leaves the barrel with " + exit + ".";
+}
+
+double peak_lost_to_smoothing(const Load& load) {
+  if (load.curve_time.size() < 2 || !(load.smoothing > 0.0)) return 0.0;
+  Load whole = without_exit(load);
+  whole.duration.reset();
+  const PressureHistory history(whole);
+  const double before = history.stated_peak();
+  return before > 0.0 ? std::max(0.0, 1.0 - history.peak() / before) : 0.0;
+}
+
+double peak_missed_between_points(const Load& load) {
+  const auto &time = load.curve_time, &pressure = load.curve_pressure;
+  if (time.size() < 4 || load.rescale_to_peak) return 0.0;
+  const auto top = static_cast<std::size_t>(std::ranges::max_element(pressure) - pressure.begin());
+  double missed = 0.0;
+  for (std::size_t i = std::max<std::size_t>(top, 2) - 1; i <= std::min(top, time.size() - 3); ++i) {
+    // Where the chords of the intervals before and after meet, s after the point i.
+    const double rise = (pressure[i] - pressure[i - 1]) / (time[i] - time[i - 1]);
+    const double fall = (pressure[i + 2] - pressure[i + 1]) / (time[i + 2] - time[i + 1]);
+    const double length = time[i + 1] - time[i];
+    const double meet = (pressure[i + 1] - pressure[i] - fall * length) / (rise - fall);
+    if (meet > 0.0 && meet < length)
+      missed = std::max(missed, (pressure[i] + rise * meet) / pressure[top] - 1.0);
+  }
+  return missed;
+}
+
+std::string smoothing_text(const Load& load) {
+  if (!(load.smoothing > 0.0)) return {};
+  const double before = PressureHistory(load).stated_peak(), lost = peak_lost_to_smoothing(load);
+  return fmt::format("averaged over {}, which takes {:.3g} % from the peak: {} instead of {}",
+                     time_text(load.smoothing), 100.0 * lost, pressure_text(before * (1.0 - lost)),
+                     pressure_text(before));
 }
 
 }  // namespace launchsafe::scene

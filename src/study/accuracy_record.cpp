@@ -85,11 +85,11 @@ double rise_of(const AccuracyRecord& record) {
 
 // How far a record is carried; argued in the header.
 constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0, hottest = 1.2;
-constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1, most_roughness_added = 0.01;
+constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1;
 /// What is no difference: round-off of units.
 constexpr double round_off = 1e-9;
 
-/// s, over even instants alone: what is shorter is roughness.
+/// s, over even instants alone: what is shorter is noise.
 double rise_time_of(const scene::PressureHistory& history, double duration, double peak) {
   constexpr int parts = 4 * (static_cast<int>(shape_instants) - 1);
   const double step = duration / parts;
@@ -185,9 +185,6 @@ std::string why_not_carried(const AccuracyRecord& record, const scene::Scene& sc
   if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off))
     return fmt::format("its load rises in {:.3g} ms, and {:.3g} ms are less than a part in {:g} of that",
                        1e3 * recorded.rise_time, 1e3 * launch.rise_time, steepest);
-  if (!(launch.roughness <= recorded.roughness + most_roughness_added))
-    return fmt::format("the roughness of its load is {:.2g}, and {:.2g} is more by over {:g}",
-                       recorded.roughness, launch.roughness, most_roughness_added);
   if (!(over.temperature <= hottest * allowed))
     return fmt::format("it was made at {:.4g} K, and {:.4g} K are hotter by more than a fifth",
                        record.scene.initial_temperature, scene.initial_temperature);
@@ -333,7 +330,6 @@ RecordedLaunch launch_of(const scene::Scene& scene) {
     launch.shape.push_back(launch.peak_pressure > 0.0 ? std::min(pressure / launch.peak_pressure, 1.0) : 0.0);
   }
   launch.rise_time = rise_time_of(history, launch.duration, launch.peak_pressure);
-  launch.roughness = scene::load_roughness(scene.load);
   launch.air_heating = air_heating_of(scene, launch.peak_pressure);
   return launch;
 }

@@ -154,11 +154,9 @@ AssumedShares assumed_shares(const Study& study, const StudyCase& input, double 
           !std::isfinite(study.model_form_uncertainty) && stated_model_form_share(study, input, recorded)};
 }
 
-LoadCurveErrors load_curve_errors(const scene::Load& load) {
-  const double roughness = scene::load_roughness(load);
+double load_curve_share(const scene::Load& load) {
   const double kept = 1.0 - scene::peak_lost_to_smoothing(load);
-  return {roughness / (1.0 + roughness) + scene::work_lost_to_smoothing(load),
-          std::pow((1.0 + scene::peak_missed_between_points(load)) / kept, heat_exponent) - 1.0};
+  return std::pow((1.0 + scene::peak_missed_between_points(load)) / kept, heat_exponent) - 1.0;
 }
 
 AcceptancesOfStudy acceptances_of(const StudyFile& study) {

@@ -38,12 +38,12 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
 
 /// What all rows of a case are judged by.
 struct OfAllRows {
-  LoadCurveErrors load_curve;
+  double load_curve = 0;             ///< share of the rises: see load_curve_share
   std::vector<RaisedLaunch> raised;  ///< towards ignition
 };
 
 OfAllRows of_all_rows(const Study& study, const CaseOutcome& outcome) {
-  return {load_curve_errors(outcome.input.scene.scene.load),
+  return {load_curve_share(outcome.input.scene.scene.load),
           raised_launches(study, outcome, End::towards_ignition)};
 }
 
@@ -81,7 +81,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const OfAllRows&
   const Rises rises{outcome.heated_without_gap - initial, row.heated - outcome.heated_without_gap};
   row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises, outcome.heat_factor);
   row.uncertainty.input = input_share(study, outcome, all, row);
-  row.uncertainty.load_curve = all.load_curve.in_kelvin(rises);
+  row.uncertainty.load_curve = all.load_curve * (rises.friction + rises.air);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding =
       friction_share(outcome) +
@@ -196,11 +196,9 @@ std::vector<std::string> validity_warnings_of(const CaseOutcome& outcome) {
 CaseEvidence evidence_of(const Study& study, const CaseOutcome& outcome) {
   constexpr double unasked = math::infinity;
   const bool asks = study.kind.gives_verdicts && outcome.completed() && has_trace(outcome);
-  CaseStatements input = statements_of(study, outcome.input);
-  if (study.in_detail) input.ring = run::ring_text(outcome.input.scene.scene);
   return {outcome.failure, outcome.result.mechanics.limiters, validity_warnings_of(outcome),
           asks ? outcome.heated_without_gap - outcome.input.scene.scene.initial_temperature : unasked,
-          std::move(input)};
+          statements_of(study, outcome.input)};
 }
 
 void find_critical_gaps(const Study& study, CaseOutcome& outcome) {

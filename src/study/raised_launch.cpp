@@ -98,10 +98,9 @@ struct Causes {
   }
 
   void add_load_curve() {
-    const LoadCurveErrors errors = load_curve_errors(outcome.input.scene.scene.load);
-    const double friction = 1.0 + errors.of_friction + errors.of_both, air = 1.0 + errors.of_both;
-    add(ShareKind::load_curve,
-        towards() ? heated_more(skin, friction, air) : heated_more(skin, 1.0 / friction, 1.0 / air), trace);
+    const double factor = 1.0 + load_curve_share(outcome.input.scene.scene.load);
+    const double heat = towards() ? factor : 1.0 / factor;
+    add(ShareKind::load_curve, heated_more(skin, heat, heat), trace);
   }
 
   /// Heat and opening that the temperatures leave out: there is nothing to take away at the other end.

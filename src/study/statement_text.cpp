@@ -120,12 +120,6 @@ std::string limiters_text(const GapVerdict& row) {
   return row.of_case == nullptr ? std::string{} : run::to_string(row.of_case->limited);
 }
 
-std::string noise_text(const GapVerdict& row) {
-  constexpr double least_told = 0.1;  // K
-  if (!(row.uncertainty.load_curve >= least_told)) return {};
-  return fmt::format("errors of the measured curve count {:.2g} K", row.uncertainty.load_curve);
-}
-
 std::string models_text(const GapVerdict& row) {
   if (row.models.empty()) return {};
   return fmt::format("{}\"{}\"",
@@ -170,8 +164,6 @@ std::string reason_text(const GapVerdict& row) {
   const CaseEvidence& of_case = *row.of_case;
   const std::string limiters = limiters_text(row);
   add(limiters.empty() ? limiters : "limiters acted: " + limiters);
-  add(noise_text(row));
-  add(of_case.input.ring);
   add(models_text(row));
   add(extrapolated_text(row));
   if (of_case.input.demonstration) add("a demonstration, with an invented shell or invented firings");

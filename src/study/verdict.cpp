@@ -21,18 +21,6 @@ std::optional<scene::Implausible> pressure_beyond_models(const Study& study, con
                   scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
 }
 
-/// A ring of the record that smoothing takes away heats, and may ignite, where it is pressure: that it is not
-/// somebody has to say.
-std::optional<scene::Implausible> ring_smoothed_away(const scene::Scene& scene) {
-  const auto ring = scene::smoothed_ring(scene.load);
-  if (!ring) return std::nullopt;
-  return scene::implausible(
-      scene.accepted, {.kind = keys::KeyKind::number, .dimension = scene::Dimension::time}, "load.smoothing",
-      keys::Value(scene.load.smoothing),
-      fmt::format("\"0 ms\", because it takes a ring of {:.2g} kHz away, which may be pressure",
-                  1e-3 * ring->frequency));
-}
-
 /// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
 /// peak pressure and the temperature, which were held against them.
 bool no_firing_speaks_of(const scene::Implausible& foreign) {
@@ -43,7 +31,6 @@ std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCa
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
-  if (auto ring = ring_smoothed_away(input.scene.scene)) values.push_back(std::move(*ring));
   for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch)) {
     // One that firings gave its value, about a plausible one: another value is foreign to them.
     if (!study.calibration.firings || scene::role_of(each.key).part != keys::Part::calibrated)
@@ -163,7 +150,6 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   CaseStatements all;
   all.uncovered_load = run::uncovered_load(scene.load);
   all.optimistic = optimistic_by_input(study, scene, launch);
-  all.ring = scene::ring_text(scene.load);
   all.closes = input.closing.has_value();
   if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
   // No stress case of a stability study may pass because its input is called implausible.

@@ -1,9 +1,11 @@
 // Files that would hang, crash or mislead the program that reads them.
 #include "program.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <functional>
 #include <ostream>
 
@@ -103,13 +105,44 @@ class CurveProgram : public Program {
   }
 };
 
-TEST_F(CurveProgram, SaysWhatIsNoiseAndWhatSmoothingTakes) {
+/// A pulse of 20 ms behind 40 ms of silence, in points 1 ms apart, under a header.
+std::string sparse_curve(const std::string& header) {
+  std::string curve = header + "\n";
+  for (int i = -40; i <= 20; ++i)
+    curve +=
+        fmt::format("{},{}\n", i, i <= 0 ? 0.0 : 50.0 * std::pow(i / 4.0 * std::exp(1.0 - i / 4.0), 3.0));
+  return curve;
+}
+
+TEST_F(CurveProgram, TakesARecordOfAKilohertz) {
+  EXPECT_EQ(explained(sparse_curve("time_ms,pressure_MPa")).code, 0);
+  write("study.toml", "kind = \"critical-gap\"\nscene = \"scene.toml\"\nearly_time = \"0.1 ms\"\n");
+  EXPECT_EQ(run({"import-curve", "curve.csv"}).code, 0);
+  EXPECT_EQ(run({"run", "scene.toml"}).code, 0);
+  EXPECT_EQ(run({"study", "study.toml", "--dry-run"}).code, 0);
+}
+
+TEST_F(CurveProgram, RefusesARecordInSecondsThatWasMeantInMillisecondsWithOneMessage) {
+  explained(sparse_curve("time_s,pressure_MPa"));
+  write("study.toml", "kind = \"critical-gap\"\nscene = \"scene.toml\"\n");
+  for (const auto& arguments :
+       std::vector<std::vector<std::string>>{{"import-curve", "curve.csv", "-o", "out.csv"},
+                                             {"explain", "scene.toml"},
+                                             {"run", "scene.toml", "-o", "out"},
+                                             {"study", "study.toml", "-o", "out"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments.front() << outcome.err;
+    EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
+    EXPECT_TRUE(outcome.says("curve.csv:1: time: ")) << outcome.err;
+    EXPECT_FALSE(exists("out"));
+  }
+}
+
+TEST_F(CurveProgram, SaysWhatSmoothingTakesFromThePeak) {
   std::string curve = "time_us,pressure_MPa\n";
   for (int i = 0; i <= 50; ++i)
     curve += std::to_string(3 * i) + "," + std::to_string(40 + (i % 2 == 0 ? 4 : -4) * (i % 3)) + "\n";
-  const Outcome rough = explained(curve);
-  EXPECT_EQ(rough.code, 0) << rough.err;
-  EXPECT_NE(rough.out.find("roughness"), std::string::npos) << rough.out;
+  EXPECT_EQ(explained(curve).code, 0);
   const Outcome smooth = explained(curve, "smoothing = \"12 us\"");
   EXPECT_EQ(smooth.code, 0) << smooth.err;
   EXPECT_NE(smooth.out.find("averaged over 12 µs"), std::string::npos) << smooth.out;

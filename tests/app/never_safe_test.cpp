@@ -8,10 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -135,28 +133,6 @@ TEST_F(NeverSafe, TheUnchangedStudyIsSafe) {
 TEST_F(NeverSafe, AMeasuredCurveThatIsSimulatedWholeIsSafe) {
   const Outcome outcome = run_edited(with_curve(sound_curve));
   expect_both_safe(outcome, verdicts("SAFE"));
-}
-
-/// The sound curve every 0.02 ms with a sine of 3.2 kHz and 1.5 % of its peak.
-std::string ringing_curve() {
-  std::string text = "time_ms,pressure_MPa\n";
-  for (int i = 0; i <= 1150; ++i) {
-    const double time = 0.02 * i, pressure = 496.0 * std::exp(-std::pow(std::abs(time - 11.5) / 3.4, 2.0));
-    const double ring = pressure > 20.0 ? 7.44 * std::sin(2.0 * std::numbers::pi * 3.2 * time) : 0.0;
-    text += fmt::format("{},{}\n", time, std::max(0.0, pressure + ring));
-  }
-  return text;
-}
-
-TEST_F(NeverSafe, TheReasonOfAVerdictNamesARecordThatRings) {
-  run_edited(with_curve(ringing_curve()));
-  const std::string verdicts = read("out/verdicts.csv");
-  EXPECT_NE(verdicts.find("the record pressure.csv rings at 3.2 kHz"), std::string::npos) << verdicts;
-  EXPECT_NE(verdicts.find("the shell swings along its axis at 3.4"), std::string::npos) << verdicts;
-  const std::string explained = run({"explain", "shell.toml"}).out;
-  const std::string imported = run({"import-curve", "pressure.csv", "--scene", "shell.toml"}).out;
-  for (const std::string& told : {explained, imported})
-    EXPECT_NE(told.find("of the peak is near the mode at 3.4"), std::string::npos) << told;
 }
 
 TEST_F(NeverSafe, ALoadThatTheRangeTableContradictsIsRefused) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace launchsafe::app {
@@ -64,21 +65,33 @@ TEST_F(OwnShell, IsThreeCommandsAwayFromARecord) {
   EXPECT_EQ(nlohmann::json::parse(explained.out)["implausible"].size(), 0u) << explained.out;
 }
 
-// Noise that is averaged outside the scene would be no uncertainty of any verdict.
-TEST_F(OwnShell, AveragesARoughCurveInTheSceneWhereItCountsAsUncertainty) {
-  write_gauge(20.0);
-  ASSERT_EQ(run({"import-curve", "gauge.csv", "-o", "pressure.csv"}).code, 0);
-  ASSERT_EQ(run({"init", "--calibre", "105 mm", "--curve", "pressure.csv", "-o", "shell"}).code, 0);
-  EXPECT_NE(read("shell/scene.toml").find("\nsmoothing = \""), std::string::npos) << read("shell/scene.toml");
-  EXPECT_EQ(run({"import-curve", "gauge.csv", "--filter", "0.2 ms"}).code, 2);
+TEST_F(OwnShell, IsNotInitialisedFromWhatIsNoLaunch) {
+  write("seconds.csv", "time_s,pressure_MPa\n0,0\n1,100\n2,400\n3,0\n");
+  write("microseconds.csv", "time_us,pressure_MPa\n0,0\n4,400\n12,0\n");
+  write("before.csv", "time_ms,pressure_MPa\n-8,0\n-4,400\n-1,0\n");
+  for (const std::vector<std::string>& launch :
+       std::vector<std::vector<std::string>>{{"--curve", "seconds.csv"},
+                                             {"--curve", "microseconds.csv"},
+                                             {"--curve", "before.csv"},
+                                             {"--peak", "1 Pa"}}) {
+    const Outcome refused = run({"init", "--calibre", "105 mm", launch[0], launch[1], "-o", "shell"});
+    EXPECT_EQ(refused.code, 2) << launch[1] << refused.err;
+    EXPECT_EQ(refused.lines_of_error(), 1) << refused.err;
+    EXPECT_TRUE(refused.says(launch[0] == "--curve" ? launch[1] + ":" : "--peak: ")) << refused.err;
+    EXPECT_FALSE(exists("shell"));
+  }
 }
 
-TEST_F(OwnShell, IsNotInitialisedFromACurveThatIsNoLaunch) {
-  write("seconds.csv", "time_s,pressure_MPa\n0,0\n1,100\n2,400\n3,0\n");
-  const Outcome refused = run({"init", "--calibre", "105 mm", "--curve", "seconds.csv", "-o", "shell"});
-  EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(refused.says("seconds.csv: found a curve that ends at 3 s; allowed: a time")) << refused.err;
-  EXPECT_FALSE(exists("shell"));
+TEST_F(OwnShell, OfARecordOfManyPointsAPictureOfFewIsDrawn) {
+  std::string record = "time_us,pressure_MPa\n";
+  for (int i = -20'000; i < 180'000; ++i)
+    record +=
+        fmt::format("{:.1f},{:.2f}\n", 0.1 * i, 300.0 * std::exp(-std::pow((0.1 * i - 8000.0) / 2000.0, 2)));
+  write("long.csv", record);
+  const Outcome imported = run({"import-curve", "long.csv", "-o", "curve.csv"});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_GT(std::ranges::count(read("curve.csv"), '\n'), 100'000);
+  EXPECT_LT(read("curve.svg").size(), 400'000u);
 }
 
 TEST_F(OwnShell, IsInitialisedForEveryCalibreWithoutImplausibleValues) {

@@ -80,9 +80,6 @@ void check_history(const scene::PressureCurve& curve) {
       fuzz::require(pressure >= 0.0 && pressure <= stated * (1.0 + 1e-6) + 1e-3,
                     "the load is a pressure up to its peak", fmt::format("{} of {}", pressure, stated));
     }
-    const double roughness = scene::load_roughness(load);
-    fuzz::require(std::isfinite(roughness) && roughness >= 0.0, "roughness is a number",
-                  fmt::format("{}", roughness));
   }
 }
 

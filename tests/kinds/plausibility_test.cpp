@@ -10,10 +10,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 
 namespace {
 
@@ -106,29 +104,6 @@ TEST(StudyPlausibility, AnImplausibleValueIsIndeterminateUntilItIsAccepted) {
     EXPECT_TRUE(says(accepted.reason, "accepted: " + key)) << accepted.reason;
     EXPECT_TRUE(says(accepted.reason, "because it was measured so")) << accepted.reason;
   }
-}
-
-// Of the 155 mm shell such a ring ignites the charge without a gap, where it is pressure.
-TEST(StudyPlausibility, ARingThatSmoothingTakesAwayIsIndeterminateUntilSomebodySaysThatItIsTheGauges) {
-  const std::string file = ::testing::TempDir() + "plausibility_ring.csv";
-  std::ofstream curve(file);
-  curve << "time_ms,pressure_MPa\n";
-  for (int i = 0; i <= 2500; ++i) {
-    const double time = 0.01 * i;  // ms
-    const double ring = 1.0 + 0.0045 * std::sin(2.0 * std::numbers::pi * 9.6 * time);
-    curve << time << "," << 496.0 * ring * std::exp(-std::pow(std::abs(time - 11.4) / 2.93, 1.37)) << "\n";
-  }
-  curve.close();
-  const std::string overrides = "load.curve = \"" + file + "\"\nload.smoothing = \"0.1042 ms\"\n";
-  const Told warned = judgement_in(run_safe_study("", overrides));
-  EXPECT_EQ(warned.verdict, Verdict::indeterminate);
-  EXPECT_TRUE(says(warned.reason, "load.smoothing = 0.1042 ms")) << warned.reason;
-  EXPECT_TRUE(says(warned.reason, "a ring of 9.6 kHz")) << warned.reason;
-  const std::string reasons = accept_all(study_of(safe_study("", overrides)), "the mount of the gauge rings");
-  const Told accepted = judgement_in(run_safe_study(reasons, overrides));
-  EXPECT_TRUE(
-      says(accepted.reason, "accepted: load.smoothing = 0.1042 ms, because the mount of the gauge rings"))
-      << accepted.reason;
 }
 
 TEST(StudyPlausibility, AStatedUncertaintyMustBePlausibleToo) {

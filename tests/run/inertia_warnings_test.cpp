@@ -2,7 +2,6 @@
 #include "run/sound_run.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace launchsafe::run {
 namespace {
@@ -94,27 +93,16 @@ TEST(ValidityWarnings, SelectiveInertiaUnderALoadThatRisesFast) {
   EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
 }
 
-TEST(ValidityWarnings, ScaledInertiaUnderAMeasuredCurveThatRings) {
-  const auto warnings_with = [](double ring, double all, double selective) {
-    scene::Scene scene = shipped_scene();
-    scene.interfaces.clear();
-    for (int k = 0; k <= 2300; ++k) {
-      const double time = 1e-5 * k, bell = std::exp(-std::pow((time - 11.4e-3) / 3.3e-3, 2));
-      scene.load.curve_time.push_back(time);
-      scene.load.curve_pressure.push_back(496e6 * bell *
-                                          (1.0 + ring * std::sin(2.0 * std::numbers::pi * 2400.0 * time)));
-    }
-    scene.numerics.inertial_scaling = all;
-    scene.numerics.selective_inertia = selective;
-    return validity_warnings(scene, sound_run());
-  };
-  EXPECT_TRUE(warnings_with(0.0, 1.0, 1.0).empty());
-  EXPECT_TRUE(warnings_with(0.015, 1.0, 1.0).empty());
-  EXPECT_TRUE(warnings_with(0.0, 4.0, 1.0).empty());
-  expect_one(warnings_with(0.015, 4.0, 1.0), "numerics.inertial_scaling = 1 for this one");
-  // Of any curve: nothing was measured of those that do not ring.
-  expect_one(warnings_with(0.0, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
-  expect_one(warnings_with(0.015, 1.0, 4.0), "numerics.selective_inertia = 1 for this one");
+TEST(ValidityWarnings, SelectiveInertiaUnderAMeasuredCurve) {
+  scene::Scene scene = shipped_scene();
+  scene.interfaces.clear();
+  for (int k = 0; k <= 2300; ++k) {
+    scene.load.curve_time.push_back(1e-5 * k);
+    scene.load.curve_pressure.push_back(496e6 * std::exp(-std::pow((1e-5 * k - 11.4e-3) / 3.3e-3, 2)));
+  }
+  EXPECT_TRUE(validity_warnings(scene, sound_run()).empty());
+  scene.numerics.selective_inertia = 4.0;
+  expect_one(validity_warnings(scene, sound_run()), "numerics.selective_inertia = 1 for this one");
 }
 
 }  // namespace

@@ -130,6 +130,25 @@ TEST(PressureCurve, TimesFarFromTheStartAreRefused) {
   expect_fault("time_s,pressure_MPa\n-2e6,0\n1,5\n", 2, "time", "-2e6 s", "within 1e+06 s");
 }
 
+TEST(PressureCurve, APeakThatRisesInSecondsIsRefusedAtItsHeader) {
+  const std::string points = "-2,0.4\n0,0.4\n1.5,12\n4,300\n9,40\n20,0.4\n";
+  EXPECT_TRUE(parse_pressure_curve("time_ms,pressure_MPa\n" + points, "curve.csv"));
+  const std::string in_seconds = "# a gauge\ntime_s,pressure_MPa\n" + points;
+  for (const auto& read :
+       {parse_pressure_curve(in_seconds, "curve.csv"), parse_gauge_record(in_seconds, "curve.csv", "")}) {
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().line, 2);
+    EXPECT_EQ(read.error().key, "time");
+    EXPECT_NE(read.error().found.find(" 2.5 s"), std::string::npos) << read.error().found;
+  }
+}
+
+// A gauge that goes on for a minute saw a launch all the same.
+TEST(PressureCurve, AQuietMinuteAroundTheLaunchIsRead) {
+  EXPECT_TRUE(
+      parse_gauge_record("time_s,pressure_MPa\n-30,1\n0,1\n0.004,300\n0.01,50\n30,1\n", "curve.csv", ""));
+}
+
 TEST(PressureCurve, OnePointIsRefused) {
   expect_fault("time_ms,pressure_MPa\n0,0.1\n", 2, "time", "1 point", "at least two points");
   expect_fault("time_ms,pressure_MPa\n", 1, "time", "0 points", "at least two points");

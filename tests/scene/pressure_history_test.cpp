@@ -1,4 +1,5 @@
-// Smoothing of measured curves.
+// Smoothing of measured curves, and what it and their points leave open of the peak.
+#include "launchsafe/scene/load.hpp"
 #include "scene/scene_text.hpp"
 
 #include <gtest/gtest.h>
@@ -123,6 +124,25 @@ TEST(Smoothing, BelongsToAMeasuredCurveNoShorterThanItself) {
                "a window from 1 ns");
   EXPECT_FALSE(parse_scene(text(curve_keys + "\"-1 ms\""), "shell.toml"));
   EXPECT_TRUE(parse_scene(text("\nsmoothing = \"0 ms\""), "shell.toml"));
+}
+
+// Expected are the peak of the pulse, 496 MPa, and no more than what a fine curve can miss of it.
+TEST(PeakBetweenPoints, IsNoHigherThanWhatIsSaidToBeMissed) {
+  const PressureHistory shape{smooth_pulse()};
+  for (const double interval : {2e-3, 1e-3, 0.5e-3, 0.2e-3, 20e-6}) {
+    for (const double shift : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      Load load;
+      for (double time = shift * interval; time < 18e-3; time += interval) {
+        load.curve_time.push_back(time);
+        load.curve_pressure.push_back(shape.at(time));
+      }
+      const double most = (1.0 + peak_missed_between_points(load)) * std::ranges::max(load.curve_pressure);
+      EXPECT_GE(most, 496e6 * (1.0 - 1e-9)) << interval << " " << shift;
+      EXPECT_LE(most, 496e6 * (1.0 + 0.12 * interval / 1e-3)) << interval << " " << shift;
+      load.rescale_to_peak = true;
+      EXPECT_EQ(peak_missed_between_points(load), 0.0) << "its peak is stated";
+    }
+  }
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(ReadScene, LaunchesTakeLongerStepsWhereThatWasMeasured) {
   EXPECT_EQ(with("coupling", "two-way"), 1.0);
   EXPECT_EQ(with("frame", "lab"), 1.0);
   EXPECT_EQ(with("numerics.inertial_scaling", "4"), 1.0);
-  // A measured curve may ring. One that rises or falls within 0.3 ms is too fast besides.
+  // A measured curve has true inertia. One that rises or falls within 0.3 ms is too fast besides.
   const auto is_fast = [](const char* times) {
     const auto curve = parse_scene(std::string("load.curve_time = \"") + times +
                                        "\"\nload.curve_pressure = \"0, 200, 20 MPa\"\n" +

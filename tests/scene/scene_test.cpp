@@ -154,7 +154,7 @@ TEST(PressureHistory, DrivesAsFarAndFastAsItsIntegralsOfAnyShape) {
   }
 }
 
-// A ring of which every period has six points.
+// A sine of which every period has six points.
 TEST(PressureHistory, DrivesByEveryPointOfAMeasuredCurve) {
   Load load;
   for (int i = 0; i <= 9000; ++i) {

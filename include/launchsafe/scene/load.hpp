@@ -1,5 +1,5 @@
-// Of a load: its measured curve, which surfaces of the shell it acts on, when its launch is over, and how
-// much of a measured one is noise.
+// A load: its measured curve, which surfaces of the shell it acts on, when its launch is over, and what
+// smoothing takes from a measured one.
 #pragma once
 
 #include "launchsafe/scene/input_error.hpp"
@@ -10,8 +10,7 @@
 namespace launchsafe::scene {
 
 // --- measured chamber pressure from a CSV file: two columns under a header that names the units; and from
-// what a pressure gauge recorded to a curve that a scene takes: its offset, the start of the launch, its
-// noise ---
+// what a pressure gauge recorded to a curve that a scene takes: its offset and the start of the launch ---
 
 /// Pa; no load may be larger, whether it comes from a file or stands in a scene.
 inline constexpr double largest_load = 10e9;
@@ -30,7 +29,7 @@ struct PressureCurve {
 /// tab or else a comma, separates them everywhere. Cells may be in quotation marks. Between semicolons or
 /// tabs, or in quotation marks, numbers may have decimal commas, then all of them. Lines that start with #
 /// are left out; lines end with LF, CRLF or CR; a byte-order mark of UTF-8 is passed over. At most
-/// `largest_curve` bytes.
+/// `largest_curve` bytes. A peak that takes more than 0.1 s to rise is an error.
 Expected<PressureCurve> read_pressure_curve(const std::filesystem::path& file);
 
 /// The same from text; `file` is only named in errors.
@@ -50,28 +49,25 @@ struct GaugeCleaning {
 
 /// A cleaned curve, and what was done.
 struct CleanedRecord {
-  PressureCurve curve;            ///< its time is 0 where the launch begins
-  double offset = 0.0;            ///< Pa, that was taken away
-  double noise = 0.0;             ///< Pa, standard deviation of what is before the launch; 0 where unknown
-  std::size_t quiet_points = 0;   ///< before the launch, that offset and noise are of
-  double trigger = 0.0;           ///< Pa
-  double start = 0.0;             ///< s, of the record, that is 0 now
-  std::size_t points_before = 0;  ///< left out
-  std::size_t points_below_zero = 0;   ///< noise about zero, set to 0
+  PressureCurve curve;                 ///< its time is 0 where the launch begins
+  double offset = 0.0;                 ///< Pa, that was taken away
+  std::size_t quiet_points = 0;        ///< before the launch, whose median the offset is
+  double trigger = 0.0;                ///< Pa
+  double start = 0.0;                  ///< s, of the record, that is 0 now
+  std::size_t points_before = 0;       ///< left out
+  std::size_t points_below_zero = 0;   ///< set to 0
   double lowest = 0.0;                 ///< Pa, of these
   double peak = 0.0, peak_time = 0.0;  ///< Pa and s, of the curve
 };
 
-/// Takes the offset away, lets time begin at the trigger, and sets what noise left below zero to 0. All other
-/// noise stays: what an average takes from a load counts as uncertainty where the scene averages
-/// (load.smoothing), and would be stated nowhere if it were taken here.
+/// Takes the offset away, lets time begin at the trigger, and sets pressures below zero to 0. Noise stays:
+/// what an average takes from a load counts as uncertainty where the scene averages (load.smoothing).
 ///
 /// The offset is the median of the points before the rise, which is where 2 % of the range is last passed
 /// before the largest pressure; without at least ten such points it has to be given. The trigger is 1 % of
-/// the peak, or five standard deviations of the noise where that is more. Errors, in the sense of the record:
-/// no quiet points and no offset; an offset that differs from that of the quiet points by more than their
-/// noise and a thousandth of the peak; a trigger that is never passed; a pressure further below zero than ten
-/// standard deviations of the noise and 2 % of the peak, which is no noise.
+/// the peak. Errors, in the sense of the record: no quiet points and no offset; an offset that differs from
+/// that of the quiet points by more than a thousandth of the peak; a trigger that is never passed; a pressure
+/// further below zero than 5 % of the peak.
 Expected<CleanedRecord> clean(const PressureCurve& record, const GaugeCleaning& cleaning,
                               const std::string& file);
 
@@ -150,31 +146,11 @@ std::string end_text(const Scene& scene);
 /// 796 m/s ..."
 std::string launch_sentence(const Scene& scene);
 
-// --- how much of a measured load's swings is noise, and what smoothing does about it ---
+// --- what smoothing takes from a measured curve ---
 
 /// The shortest window of smoothing, as a share of the curve's length: averages over shorter ones would be
 /// round-off, and no curve has points so near to each other.
 inline constexpr double least_smoothing_share = 1e-6;
-
-/// Roughness from which on the friction heat of a load is off by more than a kelvin or so.
-inline constexpr double least_roughness = 0.01;
-
-/// The same load averaged over another window (s).
-Load averaged(Load load, double window);
-/// The whole of a measured curve as a load.
-Load load_of_curve(const PressureCurve& curve);
-
-/// The integral of p |dp| over the simulated time, of the history that is simulated, over that of the same
-/// curve without noise, minus 1; 0 for the analytic load. Where strain follows pressure, as it does in a
-/// launch, friction on the total strain rate heats with this integral, so that a share roughness / (1 +
-/// roughness) of the rise is false.
-///
-/// Without noise means without swings that are smaller than eight standard deviations of the measured points
-/// about a cubic through their four neighbours, or than a hundredth of the peak: humps and steps that are
-/// larger, or take more points than these, are pressure. A swing that is left out wrongly adds less than
-/// twice the threshold over the peak. The extremes of strong noise stay in, so that the integral without
-/// noise is too large, by some 5 % for noise of 1 % of the peak, by a quarter for 5 %.
-double load_roughness(const Load& load);
 
 /// Share of the largest pressure of a measured curve that its smoothing takes away; 0 without smoothing.
 double peak_lost_to_smoothing(const Load& load);
@@ -183,38 +159,7 @@ double peak_lost_to_smoothing(const Load& load);
 /// bends one way there lies below the chords beside. 0 for fewer than four points, of which nothing follows.
 double peak_missed_between_points(const Load& load);
 
-/// What smoothing takes out of the integral of p |dp| besides noise, over what it leaves: swings of a
-/// measured curve that stand above its noise are pressure, and heat. 0 without smoothing.
-double work_lost_to_smoothing(const Load& load);
-
-/// The shortest window (s) of some that leaves a measured curve with less than `least_roughness`; nothing
-/// where the curve is not rough, no window helps, or a curve of more than 100 000 points would take long to
-/// try.
-std::optional<double> suggested_smoothing(const Load& load);
-
-/// Swings of a measured curve about one frequency: of the gauge, its mount or the gas.
-struct Ring {
-  double frequency = 0;  ///< 1/s
-  double amplitude = 0;  ///< Pa, of a sine with their power within a twentieth of the frequency
-};
-/// What the simulated part of a curve has beside its average over 1.25 ms (a tenth of a shorter part) is
-/// searched, by its discrete Fourier transform, for frequencies that have more than white noise and the pulse
-/// itself, and more than those around them, the strongest first. None count below 0.05 % of the peak: on the
-/// 155 mm shell a ring of 0.19 % of the pressure ignites the charge without a gap at 9.8 kHz, where the shell
-/// swings along, and at 9.4 kHz it heats by half a kelvin. Sought are frequencies from 0.9 kHz to 2048 in
-/// that part, or half the rate of the points.
-std::vector<Ring> rings_of(const Load& load);
-/// The strongest of them.
-std::optional<Ring> ring_of(const Load& load);
-/// The strongest swings of which smoothing takes more than a tenth away and that are no white noise, also
-/// where many frequencies have as much. Whether they are the gauge's own or pressure no curve tells.
-std::optional<Ring> smoothed_ring(const Load& load);
-/// For people: "the record pressure.csv rings at 3.2 kHz with 1.5 % of its peak, which heats as pressure
-/// does"; empty for none.
-std::string ring_text(const Load& load);
-
-/// What is to be known of a measured curve, for people: what smoothing takes from it, and its roughness;
-/// empty for the analytic load.
-std::string measured_load_text(const Load& load);
+/// For people: what smoothing takes from the peak of a measured curve; empty without smoothing.
+std::string smoothing_text(const Load& load);
 
 }  // namespace launchsafe::scene

@@ -256,8 +256,7 @@ bool changes_too_fast_for_selective_inertia(const Scene& scene);
 /// measured against true inertia (reports/accuracy), else 1. Where its gap closes it is 2: T max is then that
 /// of true inertia within 0.3 K where the charge is free from the start and within 2 % of its rise where it
 /// rings, and 4 lowers it by 3 K. A measured curve has true inertia: more of it moves the shell's own
-/// frequencies, and a ring of 1.5 % at 2.4 kHz that ignites the 155 mm shell without a gap leaves it at 416 K
-/// with 4.
+/// frequencies, near which swings of the curve may lie.
 double usual_selective_inertia(const Scene& scene);
 
 /// The scene with everything that cannot influence the mechanical run, its trace or its snapshots at its

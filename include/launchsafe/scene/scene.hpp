@@ -374,6 +374,10 @@ class PressureHistory {
   /// Largest pressure of the whole load as stated, Pa, whatever the end: `load.peak` of the analytic
   /// shape, the largest point of a measured curve before smoothing, in the scale of `at`.
   double stated_peak() const;
+  /// When the shot leaves the barrel, s; nothing where it does not.
+  std::optional<double> exit() const { return std::isfinite(exit_) ? std::optional(exit_) : std::nullopt; }
+  /// When the launch is over, s, whatever `Load::duration` says: see scene::launch_end.
+  double launch_end() const;
   /// Times from 0 to the end of the simulation, both included, at which the curvature of a measured curve
   /// changes: what it does is seen at these. For the analytic shape only the ends, its peak, and the exit.
   std::vector<double> marks() const;

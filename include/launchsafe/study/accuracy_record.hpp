@@ -30,7 +30,6 @@ struct RecordedLaunch {
   double duration = 0;        ///< s
   std::vector<double> shape;  ///< pressure over its peak at `shape_instants` even instants of the duration
   double rise_time = 0;       ///< s, > 0: the peak over the largest rate of rise, at most the duration
-  double roughness = 0;       ///< of the load, dimensionless, >= 0: see `scene::load_roughness`
   /// K/(s m), per metre of gap: the rate at which air compressed by the peak pressure heats the cold skin.
   double air_heating = 0;
 };
@@ -135,8 +134,7 @@ std::string why_foreign(const AccuracyRecord& record, const scene::Scene& scene)
 /// of T max (see StudyCase::rise_of_uncertainty). A record says nothing beyond 1.25 times the peak pressure,
 /// as the recorded wall may just not have yielded; beyond three times the crack radius, in metres or in flaw
 /// sizes, the localisation, or the rate at which the air of the widest gap heats the skin; and of a load that
-/// lasts longer, rises faster, differs in shape or is rougher by more than what accuracy_record.cpp allows (a
-/// roughness of 0.01 is a hundredth of the friction heat).
+/// lasts longer, rises faster or differs in shape by more than what accuracy_record.cpp allows.
 ///
 /// Another initial temperature moves T max rigidly, as the heat of friction does not depend on it and air
 /// heats by its density times its rise, which does not either. The mechanics knows it by the steel alone,

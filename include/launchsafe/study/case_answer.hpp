@@ -67,15 +67,9 @@ AssumedShares assumed_shares(const Study& study, const StudyCase& input, double 
 /// K, as a study states it for its own scene; it grows with the pressure as the heat does.
 double stated_input_share(const Study& study, const StudyCase& input);
 
-/// What the measured curve of a load may have wrong, as shares of the rises; 0 for an analytic load.
-struct LoadCurveErrors {
-  double of_friction = 0;  ///< the noise of a gauge heats by friction; swings that smoothing took out did
-  double of_both = 0;      ///< what smoothing took from the peak, and what its points may have missed
-  double in_kelvin(const Rises& rises) const {
-    return rises.friction * of_friction + (rises.friction + rises.air) * of_both;
-  }
-};
-LoadCurveErrors load_curve_errors(const scene::Load& load);
+/// Share of the rises by which a measured curve may heat more: its smoothing took from the peak, and its
+/// points may have missed it. 0 for an analytic load.
+double load_curve_share(const scene::Load& load);
 
 /// What all cases of a study rest on, each once.
 struct AcceptancesOfStudy {

@@ -17,9 +17,6 @@ struct CaseStatements {
   /// Why no ignition shows nothing, whatever the case accepts, by the input alone; a study without verdicts
   /// knows films only. Empty: it may show something.
   std::string optimistic;
-  std::string ring;  ///< that a measured curve rings, for people; empty for none; in detail with
-                     ///< a mode of the shell (run::ring_text)
-
   bool closes = false;  ///< gaps are to be looked at as they close, too
 
   // The rest is empty for a study without verdicts.
@@ -62,7 +59,7 @@ struct Uncertainty {
   double numerical = 0;    ///< of mesh, step and scaling: from an accuracy study, stated, or assumed
   double fit = 0;          ///< of the calibrated constants, carried to this case
   double input = 0;        ///< of what is not known of the launch: its random causes together
-  double load_curve = 0;   ///< of a measured curve: see LoadCurveErrors
+  double load_curve = 0;   ///< of a measured curve: see load_curve_share
   double model_form = 0;   ///< by which other models of the launch move towards ignition
   /// Of a base on which the charge slides: all heat of friction, and the gap that opens there or by cooling.
   double sliding = 0;
@@ -318,8 +315,6 @@ std::string unaccepted_text(const CaseStatements& input);
 /// What is not plausible, or foreign, and why it is meant.
 std::string accepted_text(const CaseStatements& input);
 std::string limiters_text(const GapVerdict& row);
-/// What the noise of a measured curve counts.
-std::string noise_text(const GapVerdict& row);
 /// Models that could change the verdict.
 std::string models_text(const GapVerdict& row);
 /// What lies outside the calibration's domain.
