@@ -139,15 +139,12 @@ std::string contradiction(const ExplainArguments& explain) {
 std::string forecast_text(const study::StudyFile& file, const Forecast& forecast, Json facts,
                           const path& folder, std::optional<std::time_t> begin) {
   const scene::Scene& scene = file.scene.scene;
-  const bool closes = scene.surface.model == scene::GapModel::closing;
-  const bool from_checkpoints = scene.surface.air_model == scene::AirModel::reservoir && !closes;
   // Those of a large study fill no terminal.
   const auto listed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(20, forecast.runs.size()));
   facts.update({{"scene", file.study.scene},
                 {"folder", folder.string()},
                 {"judges_gaps", file.study.kind.judges_gaps},
-                {"closes", closes},
-                {"combustion", from_checkpoints ? scene::time_text(scene.combustion.duration) : ""},
+                {"combustion", scene::time_text(scene.combustion.duration)},
                 {"some_left_out", facts["stored"] != 0 || facts["refused"] != 0},
                 {"list", report::to_text(run_table({forecast.runs.begin(), forecast.runs.begin() + listed}),
                                          width_of_output())}});

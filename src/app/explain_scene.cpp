@@ -86,22 +86,6 @@ Json intervals_json(const std::vector<scene::GridInterval>& intervals) {
   return json;
 }
 
-/// A charge that shrank away from its base as it cooled, held at its nose; empty for what does not part.
-std::string cooling_text(const scene::Scene& scene) {
-  const bool parts = scene.surface.opens_by_cooling || scene.surface.model == scene::GapModel::closing;
-  if (!scene::has_charge(scene) || !parts) return {};
-  const scene::Extent charge = scene::charge_extent(scene);
-  const double rate = scene::opening_by_cooling(scene), length = charge.x_end - charge.x_begin;
-  std::string text =
-      fmt::format("expands by {} more than its shell and parts from the base by {:.3g} µm a kelvin below ",
-                  scene::format_quantity(rate / length, scene::Dimension::expansion), 1e6 * rate);
-  if (!scene.surface.opens_by_cooling) return text + "the temperature at which it filled the shell";
-  const double gap = scene::gap_by_cooling(scene);
-  return text + fmt::format("{:.6g} K: {} at {:.6g} K", *scene.surface.opens_by_cooling,
-                            gap > 0.0 ? "a gap of " + scene::length_text(gap) : "no gap",
-                            scene.initial_temperature);
-}
-
 /// What is launched, and by what, for people.
 Json launch_told(const scene::Scene& scene) {
   const scene::Load& load = scene.load;
@@ -116,7 +100,6 @@ Json launch_told(const scene::Scene& scene) {
           {"axisymmetric", scene.symmetry == scene::Symmetry::axisymmetric},
           {"initial_temperature",
            scene::format_quantity(scene.initial_temperature, scene::Dimension::temperature)},
-          {"cooled", cooling_text(scene)},
           {"shape", load.curve_time.empty() ? scene::word_of(load.shape) : measured},
           {"peak", scene::pressure_text(peak)},
           {"acts", scene::chamber_text(scene, peak)},

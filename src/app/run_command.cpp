@@ -15,10 +15,10 @@ struct RunArguments {
   std::optional<double> longest_run;  ///< s, predicted; a longer one is refused
 };
 
-report::Table air_table(const scene::Scene& scene, const run::CaseResult& result) {
+report::Table air_table(const run::CaseResult& result) {
   std::vector<report::AuditedGap> gaps;
   for (const run::GapResult& gap : result.gaps) gaps.push_back({"", gap.gap, gap.air});
-  return report::air_energy_table(scene.surface.air_model, gaps);
+  return report::air_energy_table(gaps);
 }
 
 /// One gap of a run, with the names of places.
@@ -104,10 +104,6 @@ report::Table gap_table(const scene::Scene& scene, const run::CaseResult& result
   table.notes.push_back(
       "T max is that of the hottest station; stations tile the charge's bottom, S1 at the wall, and verdicts "
       "use them. At a point beside the wall the stress is singular, and does not settle as cells shrink.");
-  const auto does_not_close = [](const run::GapResult& gap) { return !gap.closing; };
-  if (scene.surface.model == scene::GapModel::closing && std::ranges::any_of(result.gaps, does_not_close))
-    table.notes.push_back(
-        "A gap no wider than the faces are rough does not close: its launch is that without a gap.");
   return table;
 }
 
@@ -136,8 +132,7 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
               {"gaps", Json::array()}};
   for (const GapRow& row : rows_of(result)) object["gaps"].push_back(gap_json(row));
   object["combustion"] = report::json_rows(report::combustion_table(scene, result));
-  object["air_energy"] = report::json_rows(air_table(scene, result));
-  object["closing"] = report::json_rows(report::closing_table(result));
+  object["air_energy"] = report::json_rows(air_table(result));
   if (!mechanics.monitor.empty()) object["energy"] = energy_json(mechanics.monitor.back().energy);
   object["interfaces"] = report::json_rows(report::interface_table(mechanics));
   for (const run::Limiter& each : run::limiters)
@@ -154,11 +149,8 @@ Json case_json(const scene::Scene& scene, const run::CaseResult& result) {
 /// The gaps, what burnt in them, and the faces that slide.
 std::vector<report::Table> tables_of(const scene::Scene& scene, const run::CaseResult& result) {
   std::vector<report::Table> tables;
-  if (!result.gaps.empty()) {
-    const bool closes = scene.surface.model == scene::GapModel::closing;
-    tables = {gap_table(scene, result), closes ? report::closing_table(result) : air_table(scene, result),
-              report::combustion_table(scene, result)};
-  }
+  if (!result.gaps.empty())
+    tables = {gap_table(scene, result), air_table(result), report::combustion_table(scene, result)};
   tables.push_back(report::interface_table(result.mechanics));
   std::erase_if(tables, [](const report::Table& table) { return table.rows.empty(); });
   return tables;

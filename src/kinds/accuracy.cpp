@@ -63,14 +63,10 @@ void find_errors(const AccuracyReference& reference, AccuracyRow& row) {
   row.error_at_times = errors_against(reference.at_times, row.at_times);
 }
 
-/// What the skin of the first gap was in detail: of one that closes that of its launch, else without
-/// reaction, since after ignition all are alike.
-void add_first_gap(const Study& study, const Scene& scene, const run::CaseResult& result, AccuracyRow& row) {
-  const BottomTrace& trace = result.mechanics.trace;
-  const auto skin = !result.gaps.empty()
-                        ? result.gaps.front().skin
-                        : surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace,
-                                                  study.gaps.front());
+/// What the skin of the first gap was in detail, without reaction, since after ignition all are alike.
+void add_first_gap(const Study& study, const Scene& scene, const BottomTrace& trace, AccuracyRow& row) {
+  const auto skin =
+      surface::integrate_skin(study::without_reaction(surface::skin_model(scene)), trace, study.gaps.front());
   for (const double time : settings_of<AccuracySettings>(study).times)
     row.at_times.push_back(surface::maximum_at_time(skin, trace, time).temperature);
   row.points = study::station_temperatures(skin, trace);
@@ -78,7 +74,7 @@ void add_first_gap(const Study& study, const Scene& scene, const run::CaseResult
 
 /// What a run came to and what it cost, without comparing it.
 AccuracyRow measure(const Study& study, const StudyCase& input, const std::vector<FinishedRun>& runs) {
-  const Scene scene = closing_scene(input);
+  const Scene& scene = input.scene.scene;
   AccuracyRow row;
   row.setting.label = input.label;
   row.setting.setting = study::setting_of(scene);
@@ -96,7 +92,7 @@ AccuracyRow measure(const Study& study, const StudyCase& input, const std::vecto
     if (row.validity_warnings.empty())
       row.validity_warnings =
           fmt::format("{}", fmt::join(run::validity_warnings(scene, run.result.mechanics), "; "));
-  add_first_gap(study, scene, runs.front().result, row);
+  add_first_gap(study, scene, mechanics.trace, row);
   row.bottom = {mechanics.trace.time, mechanics.trace.bottom_pressure};
   row.peak_pressure = *std::ranges::max_element(row.bottom.pressure);
   return row;
@@ -134,7 +130,7 @@ void tell_apart(VariantAccuracy& variant, std::size_t meshes) {
     row.setting.reference = i < meshes;
     // Where it differs from the study's scene in more than a setting.
     row.other_model = std::ranges::any_of(
-        study::differences(closing_scene(study.cases[i]), study.scene.scene),
+        study::differences(study.cases[i].scene.scene, study.scene.scene),
         [](const study::Difference& each) { return !study::belongs_to_setting(each.key); });
     row.baseline = !row.other_model && study::same_setting(row.setting.setting, own);
   }
@@ -195,12 +191,8 @@ void compare(VariantAccuracy& variant) {
   fill_settings(inert, variant.rows);
   for (const AccuracyRow& mesh : finest_first) {
     if (is_usual(mesh.setting)) continue;
-    if (variant.study.scene.scene.surface.model == GapModel::closing)
-      variant.no_reference = fmt::format(
-          "on the reference mesh {} a gap that closes ignites; compare thinner ones", mesh.setting.label);
-    else
-      variant.no_reference = fmt::format("the reference mesh {} has no temperature, or one above {:.0f} K",
-                                         mesh.setting.label, study::highest_recorded_temperature);
+    variant.no_reference = fmt::format("the reference mesh {} has no temperature, or one above {:.0f} K",
+                                       mesh.setting.label, study::highest_recorded_temperature);
     return;
   }
   variant.record = record_of(variant);

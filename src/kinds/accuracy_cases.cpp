@@ -15,7 +15,7 @@ void read_axis(const Leaf& leaf, std::size_t block, StudyFile& study) {
   const Place place = scene::place_of(*leaf.node, study.file);
   const std::string key = fmt::format("settings.{}.{}", block, leaf.name);
   study.places[key] = place;
-  if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling")
+  if (leaf.name == "gap.thickness")
     refuse_at(study, key, leaf.name + " as a setting",
               "numerics keys, frame, friction.closure, ...; the gaps are the study's");
   const KeyDescription description = taken(scene::describe_key(study.scene, leaf.name, place), "settings");
@@ -78,7 +78,6 @@ void add_case(StudyFile& study, const std::vector<Change>& changes, KnownScenes&
   if (!known.insert(scene::to_toml(scene.scene)).second) return;
   StudyCase made = study::case_of(label_of(study, changes), std::move(scene));
   made.own_conditions = true;
-  if (made.closing) made.scene.scene.surface.gaps = study.study.gaps;
   study.cases.add(std::move(made));
 }
 
@@ -224,10 +223,7 @@ std::vector<Failure> accuracy_failures(const AccuracyResult& result) {
 
 Kind accuracy_kind() {
   return {
-      .traits = {.name = "accuracy",
-                 .gives_verdicts = false,
-                 .bounds_critical_gaps = false,
-                 .closing_gaps = study::ClosingGaps::compared},
+      .traits = {.name = "accuracy", .gives_verdicts = false, .bounds_critical_gaps = false},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), own_keys(accuracy_keys)}),
       .tables = {{"settings", {}}, {variant_key, {}}},
       .make_cases = make_accuracy_cases,

@@ -54,7 +54,7 @@ struct VariantMaker {
     const toml::node* set = table.get("set");
     if (!set || !set->is_table()) return;
     for (const Leaf& leaf : study::leaves_as_written(*set->as_table()))
-      if (leaf.name == "gap.thickness" || leaf.name == "gap.opens_by_cooling")
+      if (leaf.name == "gap.thickness")
         throw error_at(scene::place_of(*leaf.node, study.file), "vary.variants.set." + leaf.name,
                        "gaps of a variant", "the study's gaps, which all variants share");
   }

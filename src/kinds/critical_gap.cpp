@@ -134,49 +134,6 @@ struct FollowingRuns {
   }
 };
 
-/// Launches of gaps that close, which a tracker expects before they come: as many as may at the most.
-struct ClosingLaunches {
-  ProgressTracker& tracker;
-  std::ptrdiff_t of_case = 0, left = 0;
-  double cost = 0;  ///< particle updates of each
-
-  /// Of so many cases like the first.
-  ClosingLaunches(const StudyFile& study, std::ptrdiff_t cases, ProgressTracker& its) : tracker(its) {
-    const StudyCase first = study.cases.front();
-    if (!first.closing) return;
-    of_case = std::ptrdiff_t(most_closing_launches(study.study, first));
-    cost = cost_of(study::skin_run(closing_scene(first), study.study.largest_gap, {}));
-    expect(cases * of_case);
-  }
-
-  void expect(std::ptrdiff_t launches) {
-    tracker.expect(launches - left, static_cast<double>(launches - left) * cost);
-    left = launches;
-  }
-};
-
-/// Performs them for those of the cases (or answers) that ask for them; `take` takes what they say of each.
-template <class Case, class Take>
-void run_closing_gaps(const std::vector<Case>& cases, CriticalGapResult& result, const StudyOptions& options,
-                      ClosingLaunches launches, Take take) {
-  std::vector<std::size_t> closing;
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    if (cases[i].completed() && result.study.cases[i].closing) closing.push_back(i);
-  std::ptrdiff_t open = std::ssize(closing);
-  launches.tracker.cases_ended(-open, {});
-  launches.tracker.begin(study::Phase::closing_gaps);
-  const study::RunBatch run = [&](std::vector<PlannedRun> runs, std::ptrdiff_t still_open, const auto& done) {
-    if (!stop_requested(options)) launches.tracker.cases_ended(open - still_open, {});
-    open = still_open;
-    // They take the places of those that were expected.
-    launches.expect(std::clamp<std::ptrdiff_t>(launches.left - std::ssize(runs), 0, open * launches.of_case));
-    run_each(std::move(runs), options, launches.tracker, result.timing, done);
-  };
-  auto answers = find_closing_gaps(result.study, closing, run);
-  launches.tracker.begin(study::Phase::report);
-  for (std::size_t i = 0; i < closing.size(); ++i) take(closing[i], std::move(answers[i]));
-}
-
 void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
   const bool confirm = study.confirmations_per_case > 0;
@@ -189,7 +146,6 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
       longer[i] = std::move(runs[i].runs.back());
       runs[i].runs.pop_back();
     }
-  const ClosingLaunches closing(study, std::ptrdiff_t(study.cases.size()), tracker);
   double foreseen = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) foreseen += following_cost(study, runs[i], longer[i]);
   tracker.expect(0, foreseen);
@@ -214,8 +170,7 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   run_each(std::move(following.runs), options, tracker, result.timing,
            [&](std::size_t i, const FinishedRun& finished) { following.takers[i](finished); });
   for (CaseOutcome& outcome : result.details) outcome.result.mechanics.checkpoints.reset();
-  run_closing_gaps(result.details, result, options, closing,
-                   [&](std::size_t i, auto found) { result.details[i].closing = std::move(found); });
+  tracker.begin(study::Phase::report);
   for (CaseOutcome& outcome : result.details) {
     apply_confirmations(study.study, outcome);
     conclude(study.study, outcome);
@@ -223,16 +178,10 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
   }
 }
 
-/// Of many cases the answers, and where gaps close their bounds without the worst corner.
+/// Of many cases the answers alone.
 void run_many(CriticalGapResult& result, const StudyOptions& options) {
   ProgressTracker tracker(options.progress);
-  const auto cases = std::ptrdiff_t(result.study.cases.size()) / options.shard.count;
-  const ClosingLaunches closing(result.study, cases, tracker);
   result.answers = answer_cases(result.study, options, result.timing, tracker);
-  if (result.study.scene.scene.surface.model != GapModel::closing) return;
-  run_closing_gaps(result.answers, result, options, closing, [&](std::size_t i, auto found) {
-    take_closing(result.study.cases[i], std::move(found), result.answers[i]);
-  });
 }
 
 const std::vector<Key<CriticalGapSettings>> critical_gap_keys{
@@ -312,14 +261,14 @@ CriticalGapResult run_critical_gap(const StudyFile& study, const StudyOptions& o
 
 Kind critical_gap_kind() {
   return {
-      .traits = {.name = "critical-gap", .keeps_answers = true, .closing_gaps = study::ClosingGaps::beside},
+      .traits = {.name = "critical-gap", .keeps_answers = true},
       .keys = joined({reference_keys(), gaps_keys(), own_keys(critical_gap_keys), judging_keys(),
                       calibration_record_keys(), uncertainty_keys(), raised_load_keys()}),
       .tables = {reference_table(), cited_limit_table(), vary_table()},
       .varies = {.values = true},
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
-      .files = {"closing.svg", "temperature.svg", "critical_gap*.svg", "surrogate.json", "ask.html"},
+      .files = {"temperature.svg", "critical_gap*.svg", "surrogate.json", "ask.html"},
       .results = critical_gap_results,
   };
 }

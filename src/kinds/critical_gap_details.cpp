@@ -170,8 +170,7 @@ Table air_energy_table(const CriticalGapResult& result) {
     for (const GapVerdict& row : outcome.verdicts) gaps.push_back({label, row.gap, row.air});
   }
   if (gaps.empty()) return {.columns = report::air_energy_columns()};
-  const scene::Surface& surface = result.study.scene.scene.surface;
-  return air_energy_table(surface.air_model, gaps, surface.model == GapModel::closing);
+  return report::air_energy_table(gaps);
 }
 
 Table longer_launch_table(const CriticalGapResult& result) {
@@ -292,9 +291,6 @@ std::string limiter_remark(const CriticalGapResult& result) {
 }
 
 void add_details(const CriticalGapResult& result, Report& report) {
-  for (ReportTable& table : closing_tables(result)) report.add(std::move(table));
-  if (auto plot = closing_plot(result))
-    report.draw({"closing.svg", std::move(*plot), "T max where the gap closes"});
   for (ReportTable& table : detail_tables(result)) report.add(std::move(table));
   report.say(undecided_text(result));
 }
@@ -313,7 +309,6 @@ std::vector<ReportTable> detail_results() {
   std::vector<ReportTable> all{{coupled_run_table({}), "", "coupled_runs"}};
   std::ranges::move(detail_tables({}), std::back_inserter(all));
   all.push_back({run_table(CriticalGapResult()), "", "runs"});
-  std::ranges::move(closing_results(), std::back_inserter(all));
   return all;
 }
 

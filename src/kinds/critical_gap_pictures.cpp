@@ -255,8 +255,8 @@ struct GapLines {
     return static_cast<std::size_t>(std::ranges::count_if(line, [](double y) { return std::isfinite(y); }));
   }
 
-  /// "Critical gap by a reservoir of air falls from 0.046 cm at 400 MPa to 0.018 cm at 550 MPa, initial
-  /// temperature 336 K": the lowest of the lines that have most values.
+  /// "Critical gap falls from 0.046 cm at 400 MPa to 0.018 cm at 550 MPa, initial temperature 336 K": the
+  /// lowest of the lines that have most values.
   std::string finding(const Alike& all) const {
     const std::size_t best = study::places_by(values.size(), [&](std::size_t i) {
                                double sum = 0.0;
@@ -276,9 +276,8 @@ struct GapLines {
     const auto text = [&](double gap, double x) {
       return report::significant(gap, 2) + " cm at " + numbers_text(along.key, {x});
     };
-    // Also where the study looks at gaps that close: they have bounds of their own.
-    return fmt::format("Critical gap by a reservoir of air {} from {} to {}{}", how,
-                       text(known.front(), at.front()), text(known.back(), at.back()),
+    return fmt::format("Critical gap {} from {} to {}{}", how, text(known.front(), at.front()),
+                       text(known.back(), at.back()),
                        across == nullptr ? "" : ", " + across->key.heading + " " + text_of(drawn_with));
   }
 };

@@ -107,7 +107,6 @@ Row facts_of(const CriticalGapResult& result) {
     facts["axes"].push_back(
         fmt::format("{} ({})", keys[i].heading, values_text(keys[i], study.axes[i].values)));
   facts["gaps"] = study.gaps.size();
-  facts["by_cooling"] = study.gaps_by_cooling;
   if (!study.gaps.empty()) {
     const auto [least, most] = std::ranges::minmax(study.gaps);
     facts.update({{"least_cm", shown_gap(least)}, {"most_cm", shown_gap(most)}});
@@ -138,7 +137,6 @@ std::string answer_in_detail(const CriticalGapResult& result) {
   for (const CaseOutcome& outcome : result.details) {
     Row row = json_of(report::bounded_gap_quantities(), outcome.critical);
     row.update({{"why", text_of(outcome.critical.reason)},
-                {"by_reservoir", !outcome.input.closing},
                 {"accepted", outcome.evidence && !study::accepted_text(outcome.evidence->input).empty()},
                 {"confirmed", !outcome.confirmations.empty()},
                 {"largest_safe_cm", report::number(shown_gap(study::largest_safe_gap(outcome.verdicts)))}});
@@ -212,7 +210,6 @@ Table axis_effect_table(const CriticalGapResult& result) {
 std::string answer(const CriticalGapResult& result) {
   if (!result.details.empty()) return answer_in_detail(result);
   std::vector<std::string> lines = said("critical_gap.answer", facts_of(result));
-  std::ranges::move(closing_answer(result), std::back_inserter(lines));
   lines.push_back(limited_text(result.answers, "case"));
   return answer_of(std::move(lines), result.study);
 }
@@ -238,9 +235,6 @@ Report report_of(const CriticalGapResult& result) {
     report.files = surrogate_files(record, result.study);
   }
   report.add({axis_effect_table(result), "", "axis_effects", Shown::page});
-  if (Table bounds = closing_bound_table(result); !bounds.rows.empty())
-    report.add({std::move(bounds), "closing_bounds.csv", "closing_bounds",
-                in_detail ? Shown::page_and_terminal : Shown::file});
   if (in_detail) add_details(result, report);
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));
   report.say(report::uncertainty_remark(result.study) +

@@ -29,9 +29,8 @@ Quantities<AnsweredCase> outer_gap_quantities(const Study& study) {
   if (gaps.empty()) return {};
   const auto at = [&](auto gap, const char* name) {
     const auto place = static_cast<std::size_t>(gap - gaps.begin());
-    const std::string where = study.gaps_by_cooling ? "the gap by cooling" : centimetres(*gap);
     return report::Quantity<AnsweredCase>(
-        name, "T max at " + where, fixed(1, kelvin),
+        name, "T max at " + centimetres(*gap), fixed(1, kelvin),
         "Highest temperature at that gap; of one that ignites the burning skin's.",
         [place](const AnsweredCase& row) {
           const auto& verdicts = row.answer->verdicts;
@@ -96,8 +95,7 @@ const Column largest_safe_gap =
     for_programs(Column{"largest_safe_gap", "largest SAFE gap", significant(6, centimetre),
                         "Largest computed gap that, with all smaller ones, is SAFE."});
 
-/// `closes`: with what its gap does where it closes. A study in detail has that in a table of its own.
-Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail, bool closes) {
+Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail) {
   Column assumed{"assumed_shares", "assumed", text(),
                  "What the bounds rest on and nothing says of the case."};
   Quantities<JudgedCase> confirmed{
@@ -112,8 +110,6 @@ Quantities<JudgedCase> judged_case_quantities(const Study& study, bool in_detail
                  : Quantities<JudgedCase>{{for_people(Column{"verdicts", "verdicts [cm]", text(),
                                                              "Up to which gap a verdict holds."}),
                                            &AnsweredCase::answer, &CaseAnswer::verdicts, verdict_ranges}},
-       closes && !in_detail ? of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer)
-                            : Quantities<JudgedCase>{},
        {{in_detail ? for_programs(assumed) : assumed,
          [study](const JudgedCase& row) {
            return assumed_shares(study, row.input(), row.answer->critical.value).text();
@@ -133,8 +129,7 @@ std::string air_energy_note(const CriticalGapResult& result, const std::vector<S
       if (worst.empty() || row.air.ratio() > worst.front().air.ratio())
         worst = {{name_of(keys, result.study.cases[i]), row.gap, row.air}};
     }
-  const scene::Surface& surface = result.study.scene.scene.surface;
-  return air_energy_statement(surface.air_model, worst, surface.model == GapModel::closing);
+  return report::air_energy_statement(worst);
 }
 
 /// What the published temperature at the early time was used for.
@@ -199,16 +194,14 @@ Table verdict_table(const CriticalGapResult& result) {
 
 Table critical_gap_table(const CriticalGapResult& result) {
   const bool in_detail = !result.details.empty();
-  const bool closes = result.study.scene.scene.surface.model == GapModel::closing;
   const auto rows = of_each(answered(result.study, result.answers), [&](const AnsweredCase& each) {
     return JudgedCase{each, in_detail ? &result.details[each.index] : nullptr};
   });
   Table table = table_of(in_detail ? "Critical gap" : "Critical gaps",
-                         judged_case_quantities(result.study.study, in_detail, closes), rows);
+                         judged_case_quantities(result.study.study, in_detail), rows);
   if (!in_detail)
-    table.notes =
-        said("critical_gap.note.cases",
-             {{"air", air_energy_note(result, report::shown_axes(result.study.study))}, {"closes", closes}});
+    table.notes = said("critical_gap.note.cases",
+                       {{"air", air_energy_note(result, report::shown_axes(result.study.study))}});
   return table;
 }
 
@@ -240,9 +233,8 @@ Table comparison_table(const CriticalGapResult& result) {
 std::vector<ReportTable> critical_gap_results() {
   StudyFile file;
   file.study.gaps = {0.0, 0.4e-3};
-  const auto cases = joined<JudgedCase>({judged_case_quantities(file.study, true, false),
-                                         of_part<JudgedCase>(closing_gap_quantities(), &AnsweredCase::answer),
-                                         of_part<JudgedCase>(run_quantities(file.study))});
+  const auto cases = joined<JudgedCase>(
+      {judged_case_quantities(file.study, true), of_part<JudgedCase>(run_quantities(file.study))});
   std::vector<ReportTable> tables{
       {table_of({}, judged_gap_quantities(file), {}), "verdicts.csv", "verdicts"},
       {table_of({}, comparison_quantities(file.study.early_time), {}), "", "comparison"},

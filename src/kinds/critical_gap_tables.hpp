@@ -15,21 +15,12 @@ std::string confirmation_text(const CaseOutcome& outcome);
 Table comparison_table(const CriticalGapResult& result);
 Table coupled_run_table(const CriticalGapResult& result);
 
-/// T max (of cases in detail) and the critical gap where the gap closes, and a picture of one case in detail;
-/// nothing where no gap does.
-std::vector<ReportTable> closing_tables(const CriticalGapResult& result);
-Table closing_bound_table(const CriticalGapResult& result);
-std::optional<Plot> closing_plot(const CriticalGapResult& result);
-/// Both nominal bounds of a case, in words; in how many cases each ignites.
-Quantities<CaseAnswer> closing_gap_quantities();
-std::vector<std::string> closing_answer(const CriticalGapResult& result);
-
 /// Adds to the page of a study in detail what stands beside its answers, and which gaps stay undecided; then
 /// how its runs went, and what they took.
 void add_details(const CriticalGapResult& result, Report& report);
 void add_runs(const CriticalGapResult& result, Report& report);
 /// What these tables hold.
-std::vector<ReportTable> closing_results(), detail_results();
+std::vector<ReportTable> detail_results();
 /// What must be said where limiters acted in cases of a study in detail.
 std::string limiter_remark(const CriticalGapResult& result);
 

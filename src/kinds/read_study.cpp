@@ -12,17 +12,13 @@ void apply_overrides(const OverrideTable& overrides, StudyFile& study) {
   const std::string written = fmt::format("a table, written [{}], of scene keys", overrides.name);
   const auto changes = taken(changes_in(overrides, study.file, written, study.scene));
   for (const Change& each : changes) study.overrides[each.name] = text_of(study.scene, each);
-  const bool may_close = study.study.kind.closing_gaps != study::ClosingGaps::refused;
-  study.scene = taken(with_changes(study.scene, changes, may_close));
+  study.scene = taken(with_changes(study.scene, changes));
 }
 
 void check_scene(const StudyFile& study) {
   const Scene& scene = study.scene.scene;
   if (!scene::has_charge(scene))
     refuse_at(study, "scene", "a scene without a charge", "a scene with a charge");
-  if (scene.surface.model == GapModel::closing &&
-      study.study.kind.closing_gaps == study::ClosingGaps::refused)
-    refuse_at(study, "scene", "a scene whose gap closes", study::only_reservoir);
   if (!study.study.kind.own_scenes && study.study.early_time > scene::end_time(scene.load))
     refuse_at(study, "early_time", format_quantity(study.study.early_time, Dimension::time),
               "a time within the load's duration, " +

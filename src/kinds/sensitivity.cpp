@@ -98,8 +98,6 @@ void make_saltelli(StudyFile& study) {
   });
 }
 
-bool is_closing(const StudyFile& study) { return study.scene.scene.surface.model == GapModel::closing; }
-
 /// Errors are asked of a fit, and leave it room for more samples.
 void check_asked_errors(const StudyFile& study) {
   const auto& own = settings_of<SensitivitySettings>(study);
@@ -107,9 +105,6 @@ void check_asked_errors(const StudyFile& study) {
     if (study.places.contains(key) && !is_by_fit(study.study))
       refuse_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
   const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
-  if (is_closing(study) && !std::isnan(own.critical_gap_error))
-    refuse_at(study, "error_of_critical_gap", "a gap that closes, each of which is a launch of its own",
-              "error_of_temperature");
   if (asks && own.most_samples < own.samples)
     refuse_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
               fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
@@ -143,10 +138,6 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
     refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
               fmt::format("gaps = \"{}\"", format_quantity(gaps.back(), Dimension::length)));
   }
-  // Each draw is launched at that gap where it closes.
-  if (is_closing(study))
-    study.scene =
-        taken(scene::with_keys(study.scene, {{"gap.thickness", gaps, place_of_key(study, "gaps")}}));
   check_asked_errors(study);
   if (is_by_fit(study.study)) return make_chaos_samples(study);
   make_saltelli(study);
@@ -194,8 +185,7 @@ Kind sensitivity_kind() {
       .traits = {.name = "sensitivity",
                  .gives_verdicts = false,
                  .bounds_critical_gaps = false,
-                 .keeps_answers = true,
-                 .closing_gaps = study::ClosingGaps::compared},
+                 .keeps_answers = true},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
                       own_keys(sensitivity_keys)}),
       .tables = {vary_table(), correlation_table()},
@@ -277,8 +267,7 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       [](SensitivityResult& result) {
         for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,
                                   SensitivityOutput::margin})
-          if (output != SensitivityOutput::critical_gap || !is_closing(result.study))
-            result.outputs.push_back(sensitivity_of(result, output));
+          result.outputs.push_back(sensitivity_of(result, output));
       });
 }
 

@@ -15,9 +15,6 @@ struct StressRun {
   std::vector<Finding> findings;   ///< of a launch that was stopped, or of the gaps' own launches
 };
 
-/// Of the heat and work of a closing gap's air.
-constexpr double most_made_in_air = 1e-6;
-
 std::string joined_text(const Sentences& parts) { return fmt::format("{}", fmt::join(parts, "; ")); }
 
 bool was_computed(const CaseAnswer& answer) {
@@ -62,39 +59,16 @@ Finding judge_burn(const StressCase& asked, const Scene& scene, double gap, cons
   return {outcome, joined_text(all)};
 }
 
-/// Of a launch in which a gap closes.
-Finding judge_closing(const StressCase& asked, const Scene& scene, double gap,
-                      const run::CaseResult& result) {
-  const run::GapResult& closed = result.gaps.front();
-  Sentences violations = violations_of({scene, result.mechanics, {gap}}, asked);
-  if (!std::isfinite(closed.at_stations.temperature))
-    violations.emplace_back("a temperature is not a number");
-  if (closed.skin.energy_residual > most_made_in_air)
-    violations.push_back(fmt::format("the air made or lost a share {:.2g}", closed.skin.energy_residual));
-  Sentences all = run::validity_warnings(scene, result.mechanics);
-  const Outcome outcome = !all.empty()         ? Outcome::degraded
-                          : violations.empty() ? Outcome::held
-                                               : Outcome::wrong;
-  all.insert(all.begin(), violations.begin(), violations.end());
-  all.push_back(fmt::format("T max {:.1f} K", closed.at_stations.temperature));
-  if (closed.closing)
-    all.back() +=
-        fmt::format(", down to {:.3g} µm at up to {:.3g} MPa", 1e6 * closed.closing->smallest_opening,
-                    1e-6 * closed.closing->largest_gas_pressure);
-  return {outcome, joined_text(all)};
-}
-
 /// Of the launch of one gap alone.
 Finding judge_gap(const StressCase& asked, const StudyCase& input, double gap,
                   const run::CaseResult& result) {
   const MechanicsResult& mechanics = result.mechanics;
   Finding finding{Outcome::caught, run::to_string(mechanics.status) + ", " + mechanics.reason};
   if (mechanics.status == run::RunStatus::completed)
-    finding = (input.closing ? judge_closing : judge_burn)(asked, input.scene.scene, gap, result);
+    finding = judge_burn(asked, input.scene.scene, gap, result);
   else if (mechanics.reason.empty())
     finding = {Outcome::wrong, "broke off without a reason"};
-  finding.text = fmt::format("{} {:.6g} cm: {}", input.closing ? "closing from" : "through ignition at",
-                             100.0 * gap, finding.text);
+  finding.text = fmt::format("through ignition at {:.6g} cm: {}", 100.0 * gap, finding.text);
   return finding;
 }
 
@@ -107,7 +81,7 @@ Sentences reserves_of(const Scene& scene, const MechanicsResult& mechanics, cons
   return reserves;
 }
 
-/// `runs`: the launch, then those through the ignition of gaps or in which they close. How far one came that
+/// `runs`: the launch, then those through the ignition of gaps. How far one came that
 /// was cut off depends on the machine, and says nothing of the computation: that leaves the case without a
 /// finding.
 StressRun run_from(const StudyFile& study, std::size_t index, std::vector<FinishedRun>& runs) {

@@ -62,7 +62,7 @@ Changed with_keys(SceneFile start, const std::vector<OverrideTable>& all, const 
     }
     changes.insert(changes.end(), later->begin(), later->end());
   }
-  return with_changes(start, changes, true);
+  return with_changes(start, changes);
 }
 
 /// The scene that a case starts from: the study's, or its own under the study's overrides, whose refusal is
@@ -108,8 +108,7 @@ void read_runs(CaseReader& reader, const SceneFile& scene) {
   SceneFile own = scene;
   std::vector<double>& gaps = own.scene.surface.gaps;
   launch.gaps = gaps != study.scene.scene.surface.gaps ? gaps : study.study.gaps;
-  const bool closes = own.scene.surface.model == GapModel::closing;
-  if (own.scene.coupling == scene::Coupling::two_way || closes) gaps = launch.gaps;
+  if (own.scene.coupling == scene::Coupling::two_way) gaps = launch.gaps;
   launch.run = add_run(reader, launch.label(), std::move(own));
   const bool of_case = reader.table.contains("against");
   const toml::node* against = (of_case ? reader.table : reader.group).get("against");
@@ -123,7 +122,6 @@ void read_runs(CaseReader& reader, const SceneFile& scene) {
       taken(with_keys(scene, {{of_case ? "group.cases.against" : "group.against", against}}, study.file));
   // A safe computation of the launch alone.
   safe.scene.coupling = scene::Coupling::one_way;
-  safe.scene.surface.model = GapModel::reservoir;
   launch.against = add_run(reader, launch.label() + ", against", std::move(safe));
 }
 
@@ -196,7 +194,6 @@ Kind stability_kind() {
       .traits = {.name = "stability",
                  .gives_verdicts = false,
                  .own_scenes = true,
-                 .closing_gaps = study::ClosingGaps::launched,
                  .goes_through_ignition = true},
       .keys = joined({gaps_keys(), judging_keys()}),
       .tables = {study_table_of("group", case_keys)},

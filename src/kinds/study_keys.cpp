@@ -151,10 +151,9 @@ StudyKeys gaps_keys() {
 
 StudyKeys search_keys() {
   return {
-      study_number(
-          "tolerance", Dimension::length, between(1e-9, 1e-3),
-          "Largest width of the bracket of the critical gap; by a reservoir of air 0.0001 cm at most.",
-          &Study::tolerance) |
+      study_number("tolerance", Dimension::length, between(1e-9, 1e-3),
+                   "Largest width of the bracket of the critical gap; 0.0001 cm at most.",
+                   &Study::tolerance) |
           plausibly(between(1e-9, 2e-4),
                     "a wider bracket says little of gaps that are tenths of a millimetre"),
       study_number("largest_gap", Dimension::length, above_to(0, study::widest_search),

@@ -19,7 +19,7 @@ using report::centimetres, report::Column, report::digits_of, report::in_words, 
     report::ReportTable, report::Row, report::Series, report::Shown, report::shown_gap, report::shown_value,
     report::ShownKey, report::Style, report::Table, report::table_of;
 using run::MechanicsResult;
-using scene::format_quantity, scene::GapModel, scene::Load, scene::Scene;
+using scene::format_quantity, scene::Load, scene::Scene;
 using study::Axis, study::CalibrationRecord, study::RunOutcome, study::Verdict;
 using study::CaseAnswer, study::CaseOutcome, study::CriticalGap, study::CriticalGapKind, study::FinishedRun,
     study::GapVerdict, study::not_a_number, study::of_each, study::Reference, study::RunSummary, study::Study,

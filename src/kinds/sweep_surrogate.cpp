@@ -209,12 +209,6 @@ std::vector<report::TextFile> surrogate_files(const SurrogateRecord& record, con
 
 void check_sweep_surrogate(const StudyFile& study) {
   const std::vector<Axis>& axes = study.study.axes;
-  if (study.study.gaps_by_cooling)
-    refuse_at(study, "surrogate", "true with gap.opens_by_cooling", "surrogate = false, or gap.thickness");
-  // A fit over what the reservoir says would answer for gaps of which it is not the model.
-  if (study.scene.scene.surface.model != GapModel::reservoir)
-    refuse_at(study, "surrogate", "true for a gap that closes",
-              "surrogate = false, or gap.model = \"reservoir\"");
   if (axes.empty())
     refuse_at(study, "surrogate", "nothing that varies", "a [[vary]] for every input of the fit");
   std::size_t all = 1, fitted = 1;

@@ -125,17 +125,6 @@ std::vector<Key<Charge>> heat_keys() {
                  "Coefficient mu_d of the friction that heats the charge.", &Charge::sliding_friction) |
           plausibly(between(0.1, 0.8), "solids rub with 0.1 to 0.8, and 0 would leave this heat out",
                     Role{ActsOn::trace}),
-      number_key("thermal_expansion", Dimension::expansion, between(0, 1e-3), Standing::assumed,
-                 "Linear thermal expansion; see gap.opens_by_cooling.", &Charge::thermal_expansion) |
-          plausibly(between(45e-6, 1e-4), "explosives that are cast or pressed have 45 to 90 µm/(m K)",
-                    Role{ActsOn::surface, Part::free}) |
-          usually("54.6 µm/(m K), as Composition B has it"),
-      number_key("melting_temperature", Dimension::temperature, between(200, 2e3), Standing::literature,
-                 "Temperature at which it melts; see gap.melts.", &Charge::melting_temperature) |
-          always_plausible("no verdict rests on melting", Role{ActsOn::surface, Part::free}),
-      number_key("heat_of_melting", Dimension::specific_energy, between(0, 1e6), Standing::assumed,
-                 "Heat that melting takes; see gap.melts.", &Charge::heat_of_melting) |
-          always_plausible("no verdict rests on melting", Role{ActsOn::surface, Part::free}),
   };
 }
 

@@ -76,14 +76,8 @@ std::vector<Key<JohnsonCookParameters>> strength_keys() {
 }  // namespace
 
 std::vector<Key<Steel>> Steel::parameters() {
-  Key<Steel> expansion =
-      number_key("steel.thermal_expansion", Dimension::expansion, between(0, 1e-3), Standing::assumed,
-                 "Linear thermal expansion; see gap.opens_by_cooling.", &Steel::thermal_expansion) |
-      plausibly(between(9e-6, 18e-6), "steels have 10 to 17 µm/(m K)",
-                Role{ActsOn::surface, keys::Part::free});
   return keys::joined({keys_of_part("steel.", &Steel::eos, pressure_keys()),
-                       keys_of_part("steel.", &Steel::strength, strength_keys()),
-                       {std::move(expansion) | usually("11.7 µm/(m K), as low-alloy steels have it")}});
+                       keys_of_part("steel.", &Steel::strength, strength_keys())});
 }
 
 }  // namespace launchsafe::materials

@@ -55,7 +55,7 @@ void Contact::make_fields(const std::vector<Nodes>& nodes) {
   std::stable_sort(members_.begin(), members_.end(),
                    [](const Member& a, const Member& b) { return a.nodes < b.nodes; });
   for (Field* field : {&inertia_, &mass_, &mobility_, &unconstrained_, &velocity_, &free_velocity_,
-                       &particle_velocity_, &exchanged_velocity_, &start_, &before_, &impulse_})
+                       &particle_velocity_, &before_, &impulse_})
     field->resize(points_);
   for (std::size_t p = 0; p < points_; ++p) unconstrained_.x(p) = unconstrained_.r(p) = 1.0;
   for (const Member& m : members_) {
@@ -109,10 +109,6 @@ void Contact::add_face(const scene::Scene& scene, const scene::GridLines& lines,
   face.other = face_side(lines, nodes, ties, other, opposite(side));
   Row row;
   row.friction = law.friction.value_or(0.0);
-  row.bonded = law.tension_strength || law.shear_strength;
-  row.tension_strength = law.tension_strength.value_or(std::numeric_limits<double>::infinity());
-  row.shear_strength = law.shear_strength.value_or(std::numeric_limits<double>::infinity());
-  has_bonds_ = has_bonds_ || row.bonded;
   rows_.resize(rows_.size() + face.own.indices.size(), row);
   faces_.push_back(std::move(face));
 }
@@ -143,15 +139,14 @@ void Contact::pair_face(Face& face, const std::vector<Nodes>& nodes) {
 void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired, Row& row) {
   row.area = paired.area;
   row.begin = row.end = static_cast<std::uint32_t>(shares_.size());
-  row.gap = row.parted - row.floor;
+  row.gap = 0.0;
   // A node tied to the other body, as at the corner where sliding faces end at bonded ones, does not move
   // against it: the tie holds its part of the face. Its row would turn round-off of places into any impulse.
   const bool tied = std::any_of(paired.other.begin(), paired.other.end(), [&](const PairShare& each) {
     return face.other.points[each.node] == face.own.points[node];
   });
   if (!(paired.area > 0.0) || tied) {
-    row.normal = row.slide = row.from_gas = row.normal_inertia = row.slide_inertia = 0.0;
-    row.free_normal_inertia = row.free_slide_inertia = 0.0;
+    row.normal = row.slide = row.normal_inertia = row.slide_inertia = 0.0;
     return;
   }
   // Where a node is held along r, by symmetry or by the barrel, the face runs along a line of the grid.
@@ -177,27 +172,22 @@ void Contact::set_row(const Face& face, std::size_t node, const PairRow& paired,
         shares_[s].share += sign * each.share;
         return;
       }
-    shares_.push_back({point, sign * each.share, 0.0, 0.0, 0.0});
+    shares_.push_back({point, sign * each.share, 0.0, 0.0});
   };
   for (const PairShare& each : paired.own) take(face.own, each, -1.0);
   for (const PairShare& each : paired.other) take(face.other, each, 1.0);
   row.end = static_cast<std::uint32_t>(shares_.size());
-  double normal = 0.0, slide = 0.0, free_normal = 0.0, free_slide = 0.0;
+  double normal = 0.0, slide = 0.0;
   const double nx = row.normal_x * row.normal_x, nr = row.normal_r * row.normal_r;
   for (std::size_t s = row.begin; s < row.end; ++s) {
     Share& each = shares_[s];
     each.give_x = each.share * mobility_.x(each.point);
     each.give_r = each.share * mobility_.r(each.point);
-    each.free_r = each.share / inertia_.r(each.point);
-    free_normal += each.share * (nx * each.give_x + nr * each.free_r);
-    free_slide += each.share * (nr * each.give_x + nx * each.free_r);
     normal += each.share * (nx * each.give_x + nr * each.give_r);
     slide += each.share * (nr * each.give_x + nx * each.give_r);
   }
   const double least = least_mobility * mobility_.x(face.own.points[node]);
   const auto inertia = [least](double mobility) { return mobility > least ? 1.0 / mobility : 0.0; };
-  row.free_normal_inertia = inertia(free_normal);
-  row.free_slide_inertia = inertia(free_slide);
   row.normal_inertia = inertia(normal);
   row.slide_inertia = inertia(slide);
 }

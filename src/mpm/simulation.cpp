@@ -50,10 +50,6 @@ void Simulation::continue_from(const Simulation& other) {
   pressure_ = load_.at(time_);
   energy_ = other.energy_;
   balance_ = other.balance_;
-  if (other.centres_kicks_) centre_kicks();
-  dt_before_ = other.dt_before_;
-  kick_before_ = other.kick_before_;
-  bulk_gained_before_ = other.bulk_gained_before_;
   events_ = other.events_;
 }
 
@@ -90,28 +86,14 @@ double Simulation::acceleration_under(double pressure) const {
   return scene_.frame == scene::Frame::co_moving ? pressure * loaded_area_ / total_mass_ : 0.0;
 }
 
-void Simulation::centre_kicks() {
-  centres_kicks_ = true;
-  for_each_body([](ParticleFields& p) { p.counts_unturned_stress = true; });
-}
-
 void Simulation::step(double dt) {
   balance_ = energy_;
   const double damping_time = scene_.numerics.damping_time;
   // The acceleration is taken when the pressure is, so that the two balance.
-  const double kick = centres_kicks_ && dt_before_ > 0.0 ? 0.5 * (dt_before_ + dt) : dt;
-  // Where kicks are not centred, nothing is counted.
-  const StepInput input{dt,
-                        centres_kicks_ ? dt_before_ : 0.0,
-                        kick,
-                        kick_before_,
-                        pressure_,
-                        acceleration_under(pressure_),
+  const StepInput input{dt, pressure_, acceleration_under(pressure_),
                         damping_time > 0.0 ? std::exp(-dt / damping_time) : 1.0,
                         scene_.numerics.pic_fraction};
   const StepTotals totals = with(form_, [&](auto& form) { return form.step(input); });
-  dt_before_ = dt;
-  kick_before_ = kick;
   time_ += dt;
   pressure_ = load_.at(time_);
   add_to_energy(totals, input);
@@ -139,9 +121,6 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   energy_.crack += sum(p.crack);
   energy_.damping += sum(n.lost_before) + sum(n.damping) + sum(p.pic_loss);
   balance_.damping += sum(n.lost_before);
-  const double change = sum(n.step_change) + totals.contact.step_change - change_of_bulk(bulk, begin);
-  energy_.step_change += change;
-  balance_.step_change += change;
   for (EnergyTotals* energy : {&energy_, &balance_}) {
     energy->damping += totals.contact.way_back_loss;
     energy->contact += totals.contact.loss;
@@ -151,16 +130,6 @@ void Simulation::add_to_energy(const StepTotals& totals, const StepInput& begin)
   events_.crack_at_bound += sum(p.crack_at_bound);
   events_.off_grid += sum(p.off_grid);
   events_.distorted += sum(p.distorted);
-}
-
-/// J, as TotalLagrangian::change_of_step for the motion of all bodies as one mass.
-double Simulation::change_of_bulk(const BulkMotion& bulk, const StepInput& step) {
-  const double gained = bulk.momentum / step.damping_factor - bulk.old_momentum;
-  const double change =
-      0.5 * bulk.old_momentum / bulk.inertia *
-      (step.share_beyond(step.kick) * gained + step.share_beyond(step.kick_before) * bulk_gained_before_);
-  bulk_gained_before_ = gained;
-  return change;
 }
 
 double Simulation::axial_momentum() const {

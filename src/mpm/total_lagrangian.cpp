@@ -214,36 +214,11 @@ double TotalLagrangian::chamber_flow() const {
   return flow;
 }
 
-/// J. Where steps differ, a force acts on velocities for the mean of two of them, but does its work over each
-/// by half: with the change D of momentum in a step that forces make, the velocity v that the last step moved
-/// by, and the parts of D beyond what the last step's length makes, centred kinetic energy gains
-/// (part D + part_old D_old) v/2 more than that work. It is of second order in the step, and what the ringing
-/// nodes' energy in leapfrog, which hangs on the step, changes by.
-Pack TotalLagrangian::change_of_step(const Nodes& n, int row, const StepInput& input) const {
-  const Pack half(0.5 * input.share_beyond(input.kick) * input.kick),
-      half_before(0.5 * input.share_beyond(input.kick_before));
-  Pack change(0.0);
-  const std::size_t begin = n.index(0, row);
-  for (std::size_t i = begin; i < begin + n.stride; i += math::pack_width) {
-    const Pack before_x = load(n.velocity_x, i), before_r = load(n.velocity_r, i);
-    const Pack push_x =
-        (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * load(n.inverse_inertia_x, i) +
-        input.acceleration * load(n.mass_share, i);
-    const Pack push_r =
-        (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * load(n.inverse_inertia_r, i);
-    const Pack gained_x = load(n.velocity_increment_x, i) + damped_before_ * before_x;
-    const Pack gained_r = load(n.velocity_increment_r, i) + damped_before_ * before_r;
-    change += load(n.inertia_x, i) * (half * push_x + half_before * gained_x) * before_x +
-              load(n.inertia_r, i) * (half * push_r + half_before * gained_r) * before_r;
-  }
-  return change;
-}
-
 /// Moves a row of nodes. The losses keep the leapfrog balance of centred kinetic energy with mean forces
 /// exact: with the change D of velocity in a step, the velocity v that the step moved by, and the momentum p
 /// summed from the particles, the transfer to particles and back dissipates (D_old + D_new) (m v_old - p)/2.
 void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTotals& totals) const {
-  const double dt = input.dt, kick = input.kick, damped = 1.0 / input.damping_factor - 1.0;
+  const double dt = input.dt, damped = 1.0 / input.damping_factor - 1.0;
   totals = {};
   const std::size_t begin = n.index(0, row);
   for (std::size_t i = begin; i < begin + n.stride; i += math::pack_width) {
@@ -257,8 +232,8 @@ void TotalLagrangian::move_row(Nodes& n, int row, const StepInput& input, NodeTo
     const Pack push_x =
         (load(n.inside.force_x, i) + load(n.outside.force_x, i)) * inverse_x + input.acceleration * share;
     const Pack push_r = (load(n.inside.force_r, i) + load(n.outside.force_r, i)) * inverse_r;
-    const Pack new_x = (old_x + kick * push_x) * input.damping_factor;
-    const Pack new_r = load(n.radially_free, i) * (old_r + kick * push_r) * input.damping_factor;
+    const Pack new_x = (old_x + dt * push_x) * input.damping_factor;
+    const Pack new_r = load(n.radially_free, i) * (old_r + dt * push_r) * input.damping_factor;
     const Pack velocity_increment_x = new_x - old_x, velocity_increment_r = new_r - old_r;
     store(n.velocity_x, i, new_x);
     store(n.velocity_r, i, new_r);
@@ -311,13 +286,9 @@ void TotalLagrangian::apply_contact(const StepInput& input) {
 /// that results do not depend on the number of threads.
 void TotalLagrangian::run_phases(const StepInput& input) {
   const auto nodes = [&](std::size_t share) {
-    for (const Rows& rows : node_rows_[share]) {
-      Nodes& n = nodes_[rows.body];
-      NodeTotals& totals = node_totals_[rows.body][static_cast<std::size_t>(rows.begin)];
-      const Pack change = input.changes() ? change_of_step(n, rows.begin, input) : Pack(0.0);
-      move_row(n, rows.begin, input, totals);
-      totals.step_change = change;
-    }
+    for (const Rows& rows : node_rows_[share])
+      move_row(nodes_[rows.body], rows.begin, input,
+               node_totals_[rows.body][static_cast<std::size_t>(rows.begin)]);
   };
   const auto particles = [&](std::size_t share) {
     for (const Rows& rows : particle_rows_[share]) advance_rows(rows, input);

@@ -48,20 +48,14 @@ void add_shown(const DrawnCase& drawn, const std::vector<run::Snapshot>& snapsho
   }
 }
 
-/// The mechanics shown are those of the launch that all gaps share: a gap that closes has its own.
-std::string words_for_bottom(const DrawnCase& drawn) {
-  return drawn.scene.surface.model == scene::GapModel::closing ? "charge's bottom without a gap"
-                                                               : "charge's bottom";
-}
-
 std::vector<CasePicture> pressure_pictures(const DrawnCase& drawn) {
   const trace::BottomTrace& trace = drawn.result.mechanics.trace;
   const auto highest = [](const std::vector<double>& pressure) {
     return in_words(std::ranges::max(pressure), significant(3, megapascal));
   };
   Plot plot = load_plot(drawn);
-  plot.title = fmt::format("The chamber reaches {}, the {} {}", highest(trace.chamber_pressure),
-                           words_for_bottom(drawn), highest(trace.bottom_pressure));
+  plot.title = fmt::format("The chamber reaches {}, the charge's bottom {}", highest(trace.chamber_pressure),
+                           highest(trace.bottom_pressure));
   return {{"pressure.svg", std::move(plot)}};
 }
 
@@ -131,7 +125,7 @@ Plot load_plot(const DrawnCase& drawn) {
   Plot plot = time_plot(drawn, {}, quantity::pressure.label());
   plot.named_in_place = true;
   plot.series = {time_series("chamber", trace.time, trace.chamber_pressure, quantity::pressure),
-                 time_series(words_for_bottom(drawn), trace.time, trace.bottom_pressure, quantity::pressure)};
+                 time_series("charge's bottom", trace.time, trace.bottom_pressure, quantity::pressure)};
   // Of stations no line has these colours, beside which they are drawn.
   plot.series[0].colour = 5, plot.series[1].colour = 4;
   return plot;

@@ -156,11 +156,6 @@ bool has_air(const DrawnCase& drawn, const run::GapResult& gap) {
          samples_before_ignition(gap.skin) > 0;
 }
 
-bool has_closed(const DrawnCase&, const run::GapResult& gap) {
-  return gap.closing && gap.closing->time.size() > 1 &&
-         gap.skin.air_temperature.size() == gap.closing->time.size();
-}
-
 /// Air temperatures until ignition, one line for gaps that have the same.
 Plot air_plot(const DrawnCase& drawn) {
   constexpr double same = 0.05;  // K
@@ -327,42 +322,11 @@ std::vector<CasePicture> profile_pictures(const DrawnCase& drawn) {
   return pictures;
 }
 
-/// Of gaps that close, against time: what they are at, and what their air has.
-std::vector<CasePicture> closing_pictures(const DrawnCase& drawn) {
-  const Column opening{"opening", "mean opening", significant(4, micrometre), "Mean opening of the gap."};
-  const Column temperature = headed("mean air temperature", quantity::skin_temperature);
-  std::vector<CasePicture> pictures;
-  for (const run::GapResult* gap : gaps_with(has_closed, drawn)) {
-    const run::ClosingHistory& closing = *gap->closing;
-    const auto panel = [&](const char* what, const Column& quantity, const std::vector<double>& values) {
-      Plot plot = gap_plot(drawn, *gap, what, quantity.label());
-      plot.series = {time_series("", closing.time, values, quantity)};
-      if (std::isfinite(closing.contact_time))
-        plot.vertical_lines.push_back(
-            {shown_value(closing.contact_time, drawn_time().form),
-             "first contact at " + in_words(closing.contact_time, drawn_time().form)});
-      return plot;
-    };
-    Plot plot = titled_plot(drawn, "The closing gap and its air, gap " + centimetres(gap->gap));
-    plot.panels = {panel("Opening", opening, closing.opening),
-                   panel("Pressure of the air", quantity::pressure, closing.gas_pressure),
-                   panel("Temperature of the air", temperature, gap->skin.air_temperature)};
-    plot.panels[0].y.scale = plot.panels[1].y.scale = Scale::logarithmic;
-    pictures.push_back(picture_of_gap("air", *gap, std::move(plot)));
-  }
-  return pictures;
-}
-
 std::string lacks_air(const DrawnCase& drawn) {
-  if (drawn.scene.surface.model == scene::GapModel::closing)
-    return gaps_with(has_closed, drawn).empty() ? "none of its gaps closed" : "";
   return gaps_with(has_air, drawn).empty() ? "it holds no gap with air" : "";
 }
 
-std::vector<CasePicture> air_pictures(const DrawnCase& drawn) {
-  if (drawn.scene.surface.model == scene::GapModel::closing) return closing_pictures(drawn);
-  return {{"air.svg", air_plot(drawn)}};
-}
+std::vector<CasePicture> air_pictures(const DrawnCase& drawn) { return {{"air.svg", air_plot(drawn)}}; }
 
 }  // namespace
 
@@ -389,8 +353,7 @@ const PictureKind histories_kind{"histories", "skin temperature of the stations 
 const PictureKind profile_kind{"profile",
                                "skin temperature along the bottom, of all gaps, at the end or at given times",
                                lacks_skins, profile_pictures};
-const PictureKind air_kind{"air", "air temperature against time; opening and pressure too where a gap closes",
-                           lacks_air, air_pictures};
+const PictureKind air_kind{"air", "air temperature against time", lacks_air, air_pictures};
 const PictureKind combustion_kind{"combustion", "burnt mass, pressure and reaction degree after ignition",
                                   [](const DrawnCase& drawn) -> std::string {
                                     return gaps_with(has_combustion, drawn).empty()

@@ -313,9 +313,7 @@ CellPlot field_plot(const DrawnCase& drawn, const Field& field, const ShownSnaps
   plot.ring_label = words_of(field, highest->value);
   if (skin == nullptr) {
     plot.title = subject_of(drawn, field, shown) + finding_of(drawn, field, plot, own);
-    if (!shown.gap && !drawn.result.gaps.empty())
-      plot.subtitle += drawn.scene.surface.model == scene::GapModel::closing ? "; without a gap"
-                                                                             : "; the same for every gap";
+    if (!shown.gap && !drawn.result.gaps.empty()) plot.subtitle += "; the same for every gap";
   }
   plot.subtitle +=
       fmt::format("; ring: highest in the {}, x {}, r {} mm", scale_groups(drawn, field).front().name,

@@ -71,23 +71,11 @@ Quantities<FaceRow> face_quantities() {
           {"slid", "slid up to", significant(3, millimetre), "Longest way slid.",
            largest(&run::InterfaceResult::slid)},
           {"open", "open up to", significant(3, millimetre), "Widest opening.",
-           largest(&run::InterfaceResult::largest_gap)},
-          {"bonded", "bonded nodes", fixed(0, percent), "Nodes whose bond holds at the end.",
-           [](const FaceRow& row) {
-             const auto& bonded = row.faces->bonded;
-             return std::accumulate(bonded.begin(), bonded.end(), 0.0) / static_cast<double>(bonded.size());
-           }}};
+           largest(&run::InterfaceResult::largest_gap)}};
 }
 
-/// A gap that burnt, or closed.
+/// A gap that burnt.
 using OneGap = const run::GapResult*;
-template <class Part>
-std::vector<OneGap> gaps_with(const run::CaseResult& result, Part run::GapResult::*part) {
-  std::vector<OneGap> gaps;
-  for (const run::GapResult& gap : result.gaps)
-    if (gap.*part) gaps.push_back(&gap);
-  return gaps;
-}
 
 using run::CombustionHistory;
 const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
@@ -117,47 +105,6 @@ const Quantities<OneGap> combustion_quantities = keys::joined<OneGap>(
              {quantity::wall_time, &CombustionHistory::wall_time}},
          &run::GapResult::combustion)});
 
-using run::ClosingHistory, surface::FilmEnergy;
-const Quantities<OneGap> closing_quantities = keys::joined<OneGap>(
-    {{{quantity::gap, &run::GapResult::gap}},
-     of_part<OneGap>(
-         Quantities<ClosingHistory>{
-             {"contact_time", "contact", keys::significant(4, millisecond), "When the faces first met.",
-              &ClosingHistory::contact_time},
-             {"approach_speed", "approach", keys::significant(3, metre_per_second),
-              "Largest speed at which the faces came together until then.", &ClosingHistory::approach_speed},
-             {"contacts", "contacts", keys::significant(6), "How often the faces met.",
-              &ClosingHistory::contacts},
-             {"smallest_opening", "smallest opening", keys::significant(3, micrometre), "Anywhere.",
-              &ClosingHistory::smallest_opening},
-             {"air_pressure_max", "p air", keys::significant(4, megapascal),
-              "Highest pressure of the air at the opening that a step ends with; floors under 1 um make it a "
-              "matter of the step.",
-              &ClosingHistory::largest_gas_pressure},
-             {"air_temperature_max", "T air", keys::significant(4, kelvin),
-              "Highest temperature of the air, mean over its mass at one place.",
-              &ClosingHistory::largest_gas_temperature},
-             {"bottom_pressure_at_contact", "p at contact", keys::significant(4, megapascal),
-              "Mean pressure of the charge's bottom when the faces first met, over a twentieth of the time "
-              "that sound takes through the charge, as the next two.",
-              &ClosingHistory::pressure_at_contact},
-             {quantity::bottom_pressure_max, &ClosingHistory::largest_pressure},
-             {"bottom_pressure_rise_max", "steepest rise",
-              keys::significant(3, keys::megapascal_per_millisecond), "Steepest rise of that pressure.",
-              &ClosingHistory::steepest_rise},
-             {"work_on_air", "work on air", keys::significant(4, kilojoule_per_area),
-              "Work of the faces on the air beyond the surrounding pressure, mean over the bottom.",
-              &ClosingHistory::work_on_gas},
-             {"heat_to_base", "to base", keys::significant(4, kilojoule_per_area),
-              "Heat that the base gained, mean over the bottom.", &ClosingHistory::energy, &FilmEnergy::base},
-             {"friction_heat", "friction", keys::significant(4, kilojoule_per_area),
-              "Heat of friction in the charge, as deep as it is resolved.", &ClosingHistory::energy,
-              &FilmEnergy::friction},
-             {"heat_to_charge", "in charge", keys::significant(4, kilojoule_per_area),
-              "Heat that the charge gained, with that of friction.", &ClosingHistory::energy,
-              &FilmEnergy::charge}},
-         &run::GapResult::closing)});
-
 Quantities<AuditedGap> air_quantities(bool labelled) {
   const Quantities<AuditedGap> names{{quantity::case_name, &AuditedGap::label}};
   return keys::joined<AuditedGap>(
@@ -165,13 +112,7 @@ Quantities<AuditedGap> air_quantities(bool labelled) {
        {{quantity::gap, &AuditedGap::gap},
         {quantity::skin_took, &AuditedGap::air, &surface::AirEnergy::taken},
         {quantity::compression_supplies, &AuditedGap::air, &surface::AirEnergy::supplied},
-        {quantity::taken_over_supplied, &AuditedGap::air, &surface::AirEnergy::ratio},
-        {"adiabat_stores", "stored on the adiabat", keys::significant(3, kilojoule_per_area),
-         "Heat that the air stores under adiabatic compression to the highest pressure.", &AuditedGap::air,
-         &surface::AirEnergy::stored},
-        {"isothermal_work", "isothermal work", keys::significant(3, kilojoule_per_area),
-         "Work of isothermal compression to the highest pressure.", &AuditedGap::air,
-         &surface::AirEnergy::isothermal}}});
+        {quantity::taken_over_supplied, &AuditedGap::air, &surface::AirEnergy::ratio}}});
 }
 
 /// "runs away by itself in 341 ms from 519 K and in 29.3 ms from 550 K": adiabatic, specific heat in J/(kg
@@ -210,20 +151,16 @@ Table interface_table(const run::MechanicsResult& mechanics) {
 }
 
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result) {
-  const std::vector<OneGap> burnt = gaps_with(result, &run::GapResult::combustion);
+  std::vector<OneGap> burnt;
+  for (const run::GapResult& gap : result.gaps)
+    if (gap.combustion) burnt.push_back(&gap);
   Table table = table_of("After ignition, with two-way coupling", combustion_quantities, burnt);
   if (!burnt.empty()) table.notes = noted("combustion", {{"kinetics", flame_kinetics_note(scene)}});
   return table;
 }
 
-Table closing_table(const run::CaseResult& result) {
-  const std::vector<OneGap> closed = gaps_with(result, &run::GapResult::closing);
-  return table_of("How the gap closed", closing_quantities, closed,
-                  closed.empty() ? std::vector<std::string>{} : noted("closing"));
-}
-
-std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
-  Row facts{{"film", model == scene::AirModel::film}, {"closing", closing}};
+std::string air_energy_statement(const std::vector<AuditedGap>& gaps) {
+  Row facts = Row::object();
   // Where the skin took most against what can be supplied.
   double most = -HUGE_VAL;
   for (const AuditedGap& gap : gaps) {
@@ -239,11 +176,11 @@ std::string air_energy_statement(scene::AirModel model, const std::vector<Audite
   return noted("air", facts).front();
 }
 
-Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing) {
+Table air_energy_table(const std::vector<AuditedGap>& gaps) {
   if (gaps.empty()) return {};
   const bool labelled = std::ranges::any_of(gaps, [](const AuditedGap& gap) { return !gap.label.empty(); });
   Table table = table_of("The energy of the air", air_quantities(labelled), gaps, noted("air_energy"));
-  table.notes.push_back(air_energy_statement(model, gaps, closing));
+  table.notes.push_back(air_energy_statement(gaps));
   return table;
 }
 

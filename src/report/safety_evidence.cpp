@@ -47,21 +47,15 @@ void read_files(StudyEvidence& study) {
       if (file.name == text_of(picture, "file")) picture["svg"] = std::move(file.text);
 }
 
-bool closes(const StudyEvidence& study) {
-  return study.scene.scene.surface.model == scene::GapModel::closing;
-}
-
-/// The accuracy of launches whose gap closes, or what they depend on, says nothing of the reservoir.
 std::string told_by(const StudyEvidence& study) {
   const auto first_has = [&](const char* table, const char* key) {
     const Row& rows = study.rows(table);
     return !rows.empty() && rows.front().contains(key);
   };
   // A study of a few launches tells how each of them ran.
-  if (study.study.contains("verdicts"))
-    return !study.study.contains("runs") ? tells::sweep : closes(study) ? tells::closing : tells::launch;
-  if (first_has("settings", "temperature_bound_K")) return closes(study) ? tells::nothing : tells::accuracy;
-  if (study.study.contains("indices")) return closes(study) ? tells::nothing : tells::sensitivity;
+  if (study.study.contains("verdicts")) return study.study.contains("runs") ? tells::launch : tells::sweep;
+  if (first_has("settings", "temperature_bound_K")) return tells::accuracy;
+  if (study.study.contains("indices")) return tells::sensitivity;
   if (first_has("cases", "invariants")) return tells::stability;
   return first_has("cases", "variant") ? tells::models : tells::nothing;
 }
@@ -160,8 +154,7 @@ bool have_one_bound(const CaseEvidence& a, const CaseEvidence& b) {
 bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
   // Of many cases most are told apart by their peaks.
   if (!study::same_number(a.value("load.peak"), b.value("load.peak"))) return false;
-  return std::ranges::none_of(
-      study::differences(study::closing_scene(a.input()), study::closing_scene(b.input())), is_of_launch);
+  return std::ranges::none_of(study::differences(a.input().scene.scene, b.input().scene.scene), is_of_launch);
 }
 
 /// Refuses studies that judge the same launch, with the same numerics, by different lower bounds of its
@@ -189,28 +182,6 @@ void check_agreement(const SafetyEvidence& evidence) {
       }
       earlier.push_back(std::move(each));
     }
-}
-
-/// What is SAFE under air that is a reservoir stays so only where a study of the same gaps closing calls them
-/// and all thinner ones SAFE too.
-void hold_against_closing_gaps(SafetyEvidence& evidence) {
-  const StudyEvidence* closing = held_against(evidence);
-  if (closing == nullptr) return;
-  const Row& judged = closing->rows("verdicts");
-  const double largest = largest_gap_under({}, {judged.begin(), judged.end()}).value_or(-1.0);
-  Row& study = std::ranges::find(evidence.studies, tells::launch, &StudyEvidence::tells)->study;
-  for (Row& row : study["verdicts"]) {
-    for (const Row& both : closing->rows("closing"))
-      if (found_in(both, "gap_cm") == row["gap_cm"])
-        row["temperature_max_corner_K"] = found_in(both, "temperature_max_corner_K");
-    if (text_of(row, "verdict") != "SAFE" || number_of(row, "gap_cm") <= largest) continue;
-    row["verdict"] = "INDETERMINATE";
-    row[quantity::reason_code.key()] = to_string(study::ReasonCode::closing_corner);
-    row["reason"] = row["cause"] = "not SAFE where the gap closes: " + closing->label;
-  }
-  for (Row& row : study["cases"])
-    if (number_of(row, "largest_safe_gap_cm") > largest)
-      row["largest_safe_gap_cm"] = largest < 0.0 ? Row() : Row(largest);
 }
 
 // --- the stored runs of the main study ---
@@ -282,15 +253,6 @@ std::vector<CaseEvidence> cases_of(const StudyEvidence& study) {
   return cases;
 }
 
-const StudyEvidence* held_against(const SafetyEvidence& evidence) {
-  const StudyEvidence* launch = evidence.find(tells::launch);
-  if (launch == nullptr || closes(*launch)) return nullptr;
-  if (const StudyEvidence* closing = evidence.find(tells::closing)) return closing;
-  for (const StudyEvidence& study : evidence.studies)
-    if (study.tells == tells::sweep && closes(study)) return &study;
-  return nullptr;
-}
-
 double own_value(const StudyEvidence& study, const std::string& key) {
   return key == "load.peak" ? scene::PressureHistory(study.scene.scene.load).stated_peak()
                             : study::number_in(study.scene, key);
@@ -335,14 +297,9 @@ store::Result<SafetyEvidence> read_safety_evidence(const std::vector<std::filesy
   SafetyEvidence evidence;
   for (const std::filesystem::path& folder : folders)
     evidence.studies.push_back(read_study(folder, evidence.studies.size()));
-  // A launch whose gap closes stands beside one whose air is a reservoir, where there is one.
-  if (evidence.find(tells::launch) == nullptr)
-    for (StudyEvidence& study : evidence.studies)
-      if (study.tells == tells::closing) study.tells = tells::launch;
   compare_studies(evidence);
   check_agreement(evidence);
   read_stored_runs(evidence);
-  hold_against_closing_gaps(evidence);
   return evidence;
 } catch (const store::Error& error) {
   return error;

@@ -84,8 +84,6 @@ Row scene_facts(const StudyEvidence& study) {
             {"flaw_mm", in(millimetre, strength.flaw_size)},
             {"temperature_K", scene.initial_temperature},
             {"ignition_K", scene.charge().kinetics.ignition_temperature},
-            {"film", scene.surface.air_model == scene::AirModel::film},
-            {"closes", scene.surface.model == scene::GapModel::closing},
             {"stations", scene::stations_of(scene).size()},
             {"station_width_mm", in(millimetre, scene.surface.station_width)},
             {"station_depth_mm", in(millimetre, scene.surface.station_depth)},
@@ -334,19 +332,6 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
   });
 }
 
-/// K: the hottest of gaps whose worst corner ignites, with all but the instant of release at its worst;
-/// nothing where no gap tells.
-Row hottest_but_for_release(const Row& shares, double ignition) {
-  double hottest = -HUGE_VAL;
-  for (const Row& row : shares) {
-    double temperature = number_of(row, "own_terms_K");
-    for (const char* share : {"of_base_K", "of_roughness_K", "of_air_flow_K"})
-      temperature += number_of(row, share);
-    if (number_of(row, "corner_K") > ignition) hottest = std::fmax(hottest, temperature);
-  }
-  return std::isfinite(hottest) ? Row(hottest) : Row();
-}
-
 // --- what the report says ---
 
 /// What the study answers over all cases, and what a criterion recommends.
@@ -418,10 +403,9 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
     if (&study == &main) facts["main"] = std::move(tables);
   }
   facts["scene"] = scene_facts(main);
-  for (const std::string& name : {tells::launch, tells::sweep, tells::models, tells::accuracy,
-                                  tells::sensitivity, tells::stability, tells::closing})
-    if (!facts.contains(name) && !(name == tells::closing && facts["scene"]["closes"]))
-      facts["missing"] = true;
+  for (const std::string& name :
+       {tells::launch, tells::sweep, tells::models, tells::accuracy, tells::sensitivity, tells::stability})
+    if (!facts.contains(name)) facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
   const StudyEvidence* drawn = evidence.find(tells::sensitivity);
@@ -437,11 +421,6 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
   if (of_launch) add_launch(evidence, cases, all);
   if (const StudyEvidence* accuracy = evidence.find(tells::accuracy))
     facts["setting"] = setting_of(main, *accuracy);
-  if (const StudyEvidence* closing = held_against(evidence)) {
-    facts["held_against"] = closing->label;
-    facts["closing"]["held_K"] =
-        hottest_but_for_release(closing->rows("closing_shares"), number_of(facts["scene"], "ignition_K"));
-  }
   const auto rows = [&](const char* of) { return selected({"", "", of}, facts); };
   std::set<std::string> models;  // under which ignition is not excluded
   for (const Row* row : rows("main.verdicts except verdict UNSAFE with model_form"))

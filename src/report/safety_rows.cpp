@@ -42,7 +42,7 @@ study::StudyFile planned_study(const StudyEvidence& study) {
       file.scene = std::move(*same);
   }
   // What its records say is not in the folder.
-  file.study.kind = {.gives_verdicts = false, .closing_gaps = study::ClosingGaps::beside};
+  file.study.kind = {.gives_verdicts = false};
   const auto numbers = [&](const toml::table& table, const char* name, KeyKind kind, Dimension dimension) {
     scene::Value read = std::vector<double>();
     if (const toml::node* node = table.get(name))
@@ -65,31 +65,6 @@ study::StudyFile planned_study(const StudyEvidence& study) {
 
 /// m.
 double gap_in(const Row& row, const std::string& key) { return number_of(row, key) / shown_gap(1.0); }
-
-/// What gaps that close say of a case; nothing where the study has no table of them.
-std::vector<study::ClosingAnswer> closing_answers(const CaseEvidence& judged, const study::StudyCase& input) {
-  if (!input.closing || judged.study->rows("closing").empty()) return {};
-  const std::size_t wanted = study::closing_bounds(input).back().terms.size();
-  std::vector<study::ClosingAnswer> answers;
-  for (const char* name : {"conducting", "insulated", "corner"}) {
-    study::ClosingAnswer& answer = answers.emplace_back();
-    answer.name = name;
-    for (const Row& row : judged.study->rows("closing")) {
-      study::ClosingPoint point;
-      point.gap = gap_in(row, "gap_cm");
-      point.maximum_temperature = number_of(row, "temperature_max_" + answer.name + "_K");
-      point.at_most = point.maximum_temperature + number_of(row, answer.name + "_numerical_K");
-      point.ignited = point.maximum_temperature >= input.scene.scene.charge().kinetics.ignition_temperature;
-      // An earlier program looked for the corner on fewer terms.
-      const bool is_whole = number_of(row, "corner_launches") >= static_cast<double>(wanted);
-      if (text_of(row, "case") != judged.label || (answer.is_worst_corner() && !point.ignited && !is_whole))
-        continue;
-      if (point.ignited && !(answer.upper <= point.gap)) answer.upper = point.gap;
-      answer.points.push_back(std::move(point));
-    }
-  }
-  return answers;
-}
 
 /// The verdict row of a gap (m), not judged; `evidence`: what all rows of its case rest on.
 GapVerdict verdict_in(const Row& row, double gap, double ignition_temperature, study::CaseEvidence evidence) {
@@ -191,17 +166,15 @@ void hold_case(const CaseEvidence& judged, const Row& launch) {
   const scene::Scene& scene = input.scene.scene;
   if (judged.in_detail()) hold_run(judged, input);
   const CriticalGap critical = held_gap(judged);
-  const auto closing = closing_answers(judged, input);
   study::CaseEvidence evidence;
   if (judged.completed()) evidence.failure.clear();
   evidence.input = study::statements_of(study.planned.study, input);
   evidence.validity_warnings = evidence.input.uncovered_load;
   std::vector<GapVerdict> rows;
-  for (const double gap : gaps_of(study.planned.study, input)) {
+  for (const double gap : study.planned.study.gaps) {
     const Row& row = *judged.verdicts[rows.size()];
     GapVerdict& made =
         rows.emplace_back(verdict_in(row, gap, scene.charge().kinetics.ignition_temperature, evidence));
-    study::take_closing_evidence(closing, scene, made);
     made.judgement = study::judge(made, critical);
     const std::string verdict = text_of(row, "verdict"), least = to_string(made.judgement.verdict);
     const bool warns_more = verdict == "UNSAFE" || (verdict == "INDETERMINATE" && least == "SAFE");

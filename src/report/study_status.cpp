@@ -149,14 +149,11 @@ std::string progress_line(const study::Progress& progress, std::time_t now, std:
       progress.cases_failed > 0 ? fmt::format(", {} failed", progress.cases_failed) : "";
   const std::string begin =
       progress.phase == study::Phase::launches ? "" : study::to_string(progress.phase) + ": ";
-  // Of gaps that close no case ends before the last launch of all.
-  const std::string done = progress.phase == study::Phase::closing_gaps
-                               ? fmt::format("{} of {} launches", progress.done, progress.total)
-                               : fmt::format("{} of {} cases", progress.cases_done, progress.cases);
   // "0.3 %", "42 %"; 99 % at most: a study that works has not done all.
   const double done_percent = std::clamp(100.0 * progress.fraction, 0.0, 99.0);
   const std::string counts =
-      fmt::format("{}{:.{}f} %, {} done{}", begin, done_percent, done_percent < 9.95 ? 1 : 0, done, failed);
+      fmt::format("{}{:.{}f} %, {} of {} cases done{}", begin, done_percent, done_percent < 9.95 ? 1 : 0,
+                  progress.cases_done, progress.cases, failed);
   const std::string left = left_text(progress, now);
   // What matters least goes first where the terminal is narrow.
   const std::string rate = rate_text(progress.cases_per_second);

@@ -5,7 +5,7 @@
 namespace launchsafe::report {
 namespace {
 
-constexpr int blue = 0, vermilion = 1, green = 2, purple = 3, orange = 4, black = 6;
+constexpr int blue = 0, vermilion = 1, green = 2, orange = 4, black = 6;
 
 bool ignites(const Row& verdict) { return !text_of(verdict, "ignition_cause").empty(); }
 
@@ -35,30 +35,22 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
   return look;
 }
 
-/// What T max and the critical gap of a launch are by; those of gaps that close have pictures of their own.
-constexpr const char* by_reservoir = " by a reservoir of air";
-
-/// "No computed gap is SAFE: where it closes it may ignite from 0 cm on", or "SAFE up to 0.01 cm; critical
-/// gap by a reservoir of air 0.038 +0.010 −0.011 cm".
-std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe,
-                       const Series& corner_ignitions) {
+/// "SAFE up to 0.01 cm; critical gap 0.038 +0.010 −0.011 cm".
+std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe) {
   const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
-  if (!largest && !corner_ignitions.x.empty())
-    return fmt::format("No computed gap is SAFE: where it closes it may ignite from {} cm on",
-                       significant(std::ranges::min(corner_ignitions.x), 6));
   return fmt::format(
-      "{}; critical gap{} {}",
+      "{}; critical gap {}",
       largest ? fmt::format("{}{} up to {} cm", safe, safe.find(',') == std::string::npos ? "" : ",",
                             significant(*largest, 6))
               : "No computed gap is SAFE",
-      by_reservoir, text_of(critical, "critical_gap_with_bounds"));
+      text_of(critical, "critical_gap_with_bounds"));
 }
 
-/// "SAFE by a reservoir of air": what the word rests on, which stands beside it wherever a picture goes.
-std::string safe_words(const Row& tables, const std::string& by_whose_air, bool is_green) {
-  if (is_green) return "SAFE" + by_whose_air;
+/// What the word rests on, which stands beside it wherever a picture goes.
+std::string safe_words(const Row& tables, bool is_green) {
+  if (is_green) return "SAFE";
   const bool invented = !found_in(tables, "demonstration").is_null();
-  return fmt::format("SAFE{}, {}", by_whose_air, invented ? "in a demonstration" : "as somebody accepts");
+  return invented ? "SAFE, in a demonstration" : "SAFE, as somebody accepts";
 }
 
 /// With its bounds; where these go far beyond all other gaps the axis ends before, and words say where they
@@ -86,24 +78,11 @@ void add_critical_gap(const Row& critical, Plot& plot) {
 Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
   const double initial = scene.initial_temperature, ignition = scene.charge().kinetics.ignition_temperature;
   const Row &verdicts = found_in(tables, "verdicts"), &critical = found_in(tables, "cases").front();
-  const auto corner_of = [&](bool ignited, Series look) {
-    Row rows = verdicts;
-    std::erase_if(rows.get_ref<Row::array_t&>(), [&](const Row& row) {
-      return (number_of(row, "temperature_max_corner_K") > ignition) != ignited;
-    });
-    return points_of(rows, "temperature_max_corner_K", std::move(look));
-  };
-  const Series corner =
-      corner_of(false, {.label = "worst corner where it closes", .colour = purple, .mark = Mark::diamond});
-  const Series corner_ignitions = corner_of(
-      true, {.label = "worst corner where it closes: ignites", .colour = vermilion, .mark = Mark::diamond});
-  const bool held_against_closing =
-      scene.surface.model == scene::GapModel::closing || !corner.x.empty() || !corner_ignitions.x.empty();
   const bool is_green =
       found_in(tables, "demonstration").is_null() &&
       std::ranges::all_of(verdicts, [](const Row& row) { return text_of(row, "accepted").empty(); });
-  const std::string safe = safe_words(tables, held_against_closing ? "" : by_reservoir, is_green);
-  Plot plot{.title = finding_of(verdicts, critical, safe, corner_ignitions),
+  const std::string safe = safe_words(tables, is_green);
+  Plot plot{.title = finding_of(verdicts, critical, safe),
             .x = {.label = quantity::gap.label()},
             .y = {.label = quantity::temperature_max.label()},
             .width = 1100,
@@ -116,7 +95,6 @@ Plot verdict_plot(const Row& tables, const scene::Scene& scene) {
                   judged_series(verdicts, "INDETERMINATE", "INDETERMINATE", orange, initial),
                   points_of(ignited, "temperature_max_K",
                             {.label = "UNSAFE: ignites", .colour = vermilion, .mark = Mark::cross}),
-                  corner_ignitions, corner,
                   points_of(found_in(tables, "comparison"), "temperature_max_published_K",
                             {.label = "published, " + scene::time_text(scene::read_time(scene.load)),
                             .colour = black,

@@ -337,8 +337,7 @@ std::string uncertainty_remark(const study::StudyFile& file) {
             {"least_percent", percent_of(study::least_load_ratio - 1.0)},
             {"most_percent", percent_of(study::largest_load_ratio - 1.0)},
             {"pulse_spread_percent", percent_of(study::assumed_pulse_spread)},
-            {"temperature_spread_K", study::assumed_temperature_spread},
-            {"gaps_by_cooling", study.gaps_by_cooling}};
+            {"temperature_spread_K", study::assumed_temperature_spread}};
   if (std::isfinite(study.input_uncertainty)) facts["inputs_K"] = study.input_uncertainty;
   add_model_form(file, facts);
   return fmt::format("{}", fmt::join(noted("uncertainty", facts), " "));

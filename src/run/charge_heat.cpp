@@ -121,7 +121,6 @@ void TraceRecorder::accumulate(const mpm::Simulation& simulation, double dt) {
   bottom_pressure_ = bottom;
   chamber_pressure_ = chamber;
   heat_stations();
-  steps_ += 1.0;
 }
 
 void TraceRecorder::sample(const mpm::Simulation& simulation) {
@@ -131,7 +130,6 @@ void TraceRecorder::sample(const mpm::Simulation& simulation) {
   trace_.bottom_pressure.push_back(bottom_pressure_);
   trace_.mean_chamber_pressure.push_back(length > 0.0 ? chamber_integral_ / length : chamber_pressure_);
   trace_.mean_bottom_pressure.push_back(length > 0.0 ? bottom_integral_ / length : bottom_pressure_);
-  trace_.steps.push_back(steps_);
   for (std::size_t closure = 0; closure < trace::traced_closures; ++closure)
     for (std::size_t station = 0; station < trace_.stations.size(); ++station)
       trace_.friction[closure].push_back(friction(closure, station));
@@ -157,7 +155,6 @@ SteppedSkin::SteppedSkin(const scene::Scene& scene, double gap, const TraceRecor
       closure_(static_cast<std::size_t>(scene.surface.friction)) {
   after_ignition_.kinetics.ignition_temperature = model_.kinetics.burnt_temperature;
   history_.gap = gap;
-  air_gap_ = scene.surface.model == scene::GapModel::closing ? 0.0 : gap;
   const std::size_t stations = recorder.trace().stations.size();
   points_.assign(stations, surface::SkinPoint{model_.initial_temperature});
   unburnt_ = points_;
@@ -185,9 +182,9 @@ void SteppedSkin::advance(const mpm::Simulation& simulation, const TraceRecorder
     const double friction = heating(recorder, s, dt);
     surface::SkinPoint &point = points_[s], &unburnt = unburnt_[s];
     const bool had_ignited = point.ignited;
-    point = surface::advance_skin(model_, air_gap_, point, dt, begin, end, friction);
+    point = surface::advance_skin(model_, history_.gap, point, dt, begin, end, friction);
     unburnt = had_ignited
-                  ? surface::advance_skin(after_ignition_, air_gap_, unburnt, dt, begin, end, friction)
+                  ? surface::advance_skin(after_ignition_, history_.gap, unburnt, dt, begin, end, friction)
                   : point;
     if (had_ignited || !point.ignited) continue;
     unburnt.temperature = std::min(model_.kinetics.ignition_temperature, model_.kinetics.burnt_temperature);

@@ -44,7 +44,6 @@ struct SeenByRecorder {
   double bottom_pressure_ = 0, chamber_pressure_ = 0;             ///< Pa, at the present state
   double bottom_integral_ = 0, chamber_integral_ = 0;             ///< Pa s, over the present interval
   double interval_begin_ = 0;                                     ///< s
-  double steps_ = 0;
 };
 
 /// Stations tile the charge's bottom by the width that the scene states, down to the depth that it states;
@@ -88,7 +87,7 @@ class TraceRecorder : SeenByRecorder {
   double floor_ = 0;                        ///< Pa: the air's initial pressure
 };
 
-/// Under the reservoir. A station that ignites is at T2 from then on; with two-way coupling its unburnt part
+/// A station that ignites is at T2 from then on; with two-way coupling its unburnt part
 /// is followed on: it is heated as before, reacts by the Arrhenius law, and has burnt as a whole at T2.
 class SteppedSkin {
  public:
@@ -126,7 +125,6 @@ class SteppedSkin {
   surface::SkinHistory history_;
   std::vector<surface::SkinPoint> points_, unburnt_;  ///< by station
   std::vector<double> friction_;
-  double air_gap_ = 0;  ///< m; a gap that would close and is not wider than its roughness has no air
   double air_pressure_ = 0;
 };
 

@@ -34,12 +34,6 @@ const char* key_of_memory(const Cost& cost, double skins) {
   return largest == cost.snapshots ? "output.snapshots" : "numerics.cell_size";
 }
 
-/// Of what a gap is run for by itself.
-double work_of_gap(const scene::Scene& scene, const scene::Plan& plan) {
-  constexpr double with_columns = 1.3;
-  return scene.surface.model == scene::GapModel::closing ? with_columns * plan.work : plan.coupled_work;
-}
-
 }  // namespace
 
 Cost cost_of(const scene::Scene& scene) {
@@ -56,7 +50,7 @@ Cost cost_of(const scene::Scene& scene) {
   // Of every gap time, air and skins.
   const double skins = bytes_per_number * gaps * samples * (2.0 + stations);
   return {.work = plan.work,
-          .coupled = work_of_gap(scene, plan) * gaps,
+          .coupled = plan.coupled_work * gaps,
           .particles = plan.memory,
           .trace = copies * trace,
           .kept_trace = trace,

@@ -15,7 +15,7 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
   result.gap = skin.gap;
   result.at_stations = surface::maximum_at_stations(skin, trace);
   result.at_points = surface::maximum_at_observation_points(skin, trace);
-  if (!scene::closes(model.surface, skin.gap)) result.air = surface::audit_air(model, trace, skin);
+  result.air = surface::audit_air(model, trace, skin);
   result.skin = std::move(skin);
   return result;
 }
@@ -24,9 +24,7 @@ GapResult gap_result(const surface::SkinModel& model, surface::SkinHistory skin,
 CaseResult finished(Runner& runner, const scene::Scene& scene) {
   CaseResult result;
   result.mechanics = runner.run();
-  std::optional<ClosingHistory> closing = runner.take_closing();
   result.gaps.push_back(gap_result(surface::skin_model(scene), runner.take_skin(), result.mechanics.trace));
-  result.gaps.back().closing = std::move(closing);
   result.gaps.back().combustion = runner.take_combustion(result.mechanics);
   result.gaps.back().with_mechanics = true;
   return result;
@@ -161,13 +159,6 @@ CaseResult run_case(const scene::Scene& scene, const RunOptions& options) {
   own.launch = &result.mechanics;
   if (!scene::has_charge(scene)) return result;
   for (const double gap : scene.surface.gaps) {
-    if (scene::closes(scene.surface, gap)) {
-      CaseResult closed = run_with_skin(scene, gap, options);
-      result.gaps.push_back(std::move(closed.gaps.front()));
-      if (closed.mechanics.status != RunStatus::completed)
-        note_broken_off(result, gap, closed.mechanics, "while the gap closes from");
-      continue;
-    }
     result.gaps.push_back(evaluate_gap(scene, result.mechanics.trace, gap));
     GapResult& traced = result.gaps.back();
     if (!burns || !traced.skin.ignition || result.mechanics.status != RunStatus::completed) continue;
@@ -202,20 +193,8 @@ CaseResult run_with_skin(const scene::Scene& scene, double gap, const RunOptions
     own.checkpoints = true;
     return continue_with_skin(scene, gap, run_mechanics(scene, own), options);
   }
-  if (scene::closes(scene.surface, gap) || scene.surface.air_model == scene::AirModel::reservoir) {
-    Runner runner(scene, options, gap);
-    return finished(runner, scene);
-  }
-  // A film has a profile of its own at each station: they are integrated on a trace with a sample every few
-  // steps.
-  scene::Scene fine = scene;
-  fine.output.trace_interval = 8.0 * mpm::Simulation(scene).stable_time_step();
-  CaseResult result;
-  result.mechanics = run_mechanics(fine, options);
-  result.gaps.push_back(evaluate_gap(fine, result.mechanics.trace, gap));
-  result.gaps.back().with_mechanics = true;
-  add_skins(fine, result);
-  return result;
+  Runner runner(scene, options, gap);
+  return finished(runner, scene);
 }
 
 }  // namespace launchsafe::run

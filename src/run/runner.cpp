@@ -63,10 +63,7 @@ Runner::Runner(const scene::Scene& scene, const RunOptions& options, std::option
       recorder_(simulation_, simulation_.scene()),
       heat_(simulation_),
       skin_gap_(skin_gap) {
-  if (skin_gap && scene::closes(scene.surface, *skin_gap))
-    closing_.emplace(simulation_, recorder_, *skin_gap);
-  else if (skin_gap)
-    surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
+  if (skin_gap) surface_.emplace(simulation_.scene(), *skin_gap, recorder_);
   couples_back_ = skin_gap && scene.coupling == scene::Coupling::two_way;
   result_.particles = simulation_.particles();
   simulation_.for_each_body([&](const mpm::ParticleFields& p) {
@@ -133,7 +130,6 @@ MechanicsResult Runner::run() {
     // The last step ends on the duration; the one before shares what is left, so that neither is tiny.
     double longest = time_step_;
     if (burning_) longest = std::min(longest, burning_->longest_step());
-    if (closing_) longest = std::min(longest, closing_->longest_step());
     const double remaining = end_ - simulation_.time();
     const double dt = remaining <= longest ? remaining : std::min(longest, 0.5 * remaining);
     check_step(dt);
@@ -205,13 +201,8 @@ void Runner::advance(double dt) {
   const double time = simulation_.time();
   const bool last = finished();
   const bool samples = time >= next_sample_ || last;
-  held_.advance(simulation_);
-  if (closing_) closing_->advance(simulation_, recorder_, dt, samples);
-  if (closing_ && closing_->failed())
-    return stop_now(RunStatus::non_finite, "the air in the gap has no volume or no finite temperature");
   if (samples) {
     recorder_.sample(simulation_);
-    if (closing_) closing_->record(recorder_);
     if (surface_) surface_->record(recorder_);
     if (burning_) burning_->record(simulation_, recorder_, *surface_);
     heat_.advance_to(simulation_, time);

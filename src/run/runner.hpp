@@ -10,7 +10,7 @@
 namespace launchsafe::run {
 
 /// With a gap (m), the skin is integrated at every step, and with two-way coupling the run goes on through
-/// combustion; or the gap closes, where the scene says so.
+/// combustion.
 class Runner {
  public:
   Runner(const scene::Scene& scene, const RunOptions& options, std::optional<double> skin_gap);
@@ -30,11 +30,7 @@ class Runner {
   MechanicsResult run();
 
   std::shared_ptr<const Checkpoints> take_checkpoints() { return std::move(checkpoints_); }
-  surface::SkinHistory take_skin() { return closing_ ? closing_->take_skin() : surface_->take(); }
-  /// Of a gap that closes, before its skin.
-  std::optional<ClosingHistory> take_closing() {
-    return closing_ ? std::optional(closing_->take_history(simulation_)) : std::nullopt;
-  }
+  surface::SkinHistory take_skin() { return surface_->take(); }
   /// Of a run with two-way coupling that ignited, and ended as `mechanics` says.
   std::optional<CombustionHistory> take_combustion(const MechanicsResult& mechanics);
 
@@ -68,9 +64,7 @@ class Runner {
   TraceRecorder recorder_;
   BulkHeat heat_;
   std::optional<double> skin_gap_;  ///< m
-  HeldCharge held_{simulation_};
   std::optional<SteppedSkin> surface_;
-  std::optional<ClosingGap> closing_;
   std::optional<BurningBottom> burning_;  ///< from ignition on
   bool couples_back_ = false;
   CombustionEnd combustion_end_ = CombustionEnd::time;

@@ -173,14 +173,14 @@ bool has_grown_crack(const mpm::Simulation& simulation) {
   });
 }
 
-/// m, of the nodes of all faces whose bond has not held.
+/// m, of the nodes of all faces that slide.
 double largest_slip(const mpm::Simulation& simulation) {
   double largest = 0;
   const mpm::TotalLagrangian* form = simulation.total_lagrangian();
   if (form == nullptr) return largest;
   for (std::size_t face = 0; face < form->contact().faces(); ++face)
     for (const mpm::FaceState& node : form->contact().state_of(face))
-      if (!node.bonded) largest = std::max(largest, std::abs(node.slip));
+      largest = std::max(largest, std::abs(node.slip));
   return largest;
 }
 

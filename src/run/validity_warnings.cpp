@@ -274,20 +274,6 @@ void check_stations(const Scene& scene, const MechanicsResult&, Warnings& warnin
     warnings.add("a station is {:.3g} cells wide; at least one is needed away from the wall", cells.fewest_r);
 }
 
-/// Where a bond that breaks stops depends on cells: stresses at its tip have no limit, and no toughness is
-/// known. Measured on the 155 mm shell, 2 MPa of tension and 30 MPa of shear: 409, 412 and 420 K on cells
-/// of 2.5, 1.25 and 0.834 mm.
-void check_bonds(const Scene&, const MechanicsResult& mechanics, Warnings& warnings) {
-  for (const InterfaceResult& faces : mechanics.interfaces) {
-    const auto held = std::ranges::count(faces.bonded, 1.0);
-    const auto nodes = std::ssize(faces.bonded);
-    if (held == 0 || held == nodes) continue;
-    warnings.add(
-        "the bond of the body \"{}\" broke at {} of {} nodes, and where it stops depends on the cells",
-        faces.body, nodes - held, nodes);
-  }
-}
-
 void check_faces(const Scene& scene, const MechanicsResult& mechanics, Warnings& warnings) {
   for (const InterfaceResult& faces : mechanics.interfaces) {
     const auto most = std::ranges::max_element(faces.overlap);
@@ -371,7 +357,7 @@ std::vector<std::string> validity_warnings(const Scene& scene, const MechanicsRe
   if (scene::has_charge(scene))
     hold({check_cracks, check_rise, check_selective_rise, check_measured_curve, check_charge, check_bottom,
           check_bearing, check_stations});
-  hold({check_faces, check_bonds, check_steel});
+  hold({check_faces, check_steel});
   return warnings;
 }
 

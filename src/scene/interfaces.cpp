@@ -32,25 +32,12 @@ void check_body(const SceneFile& file, const Interface& faces) {
 
 void check_law(const SceneFile& file, const Interface& faces) {
   const bool slides = faces.condition == Condition::sliding;
-  const bool breaks = faces.tension_strength || faces.shear_strength;
   const std::string friction = fmt::format("a friction from 0 (smooth) to {:g}", largest_friction);
-  if (slides && breaks)
-    throw fault_of(file, faces, faces.tension_strength ? "tension_strength" : "shear_strength",
-                   "the strength of a bond on faces that slide from the start",
-                   "strengths with condition = \"bonded\", or condition = \"sliding\" without them");
   if (slides && !faces.friction)
     throw fault_of(file, faces, "friction", "nothing: faces that slide without their friction", friction);
-  if (breaks && !faces.friction)
-    throw fault_of(file, faces, "friction",
-                   "nothing: a bond that can break without the friction of the faces after it", friction);
-  if (breaks && !(faces.tension_strength && faces.shear_strength))
-    throw fault_of(file, faces, faces.tension_strength ? "shear_strength" : "tension_strength",
-                   "nothing, beside the other strength of the bond", "both strengths of a bond, or none");
-  if (faces.friction && !slides && !breaks)
-    throw fault_of(file, faces, "friction",
-                   fmt::format("{:g} on faces that are bonded for good", *faces.friction),
-                   "friction with condition = \"sliding\", or with the strengths of a bond that can break",
-                   "condition = \"sliding\"");
+  if (faces.friction && !slides)
+    throw fault_of(file, faces, "friction", fmt::format("{:g} on bonded faces", *faces.friction),
+                   "friction with condition = \"sliding\"", "condition = \"sliding\"");
 }
 
 /// The contact that a table [interface.NAME] names, whose values stand for those that are not given there;
@@ -113,14 +100,6 @@ const std::vector<Key<Interface>>& interface_keys() {
           &Interface::friction) |
           plausibly(between(0, 1), "explosives on metals and lacquers are measured between 0.05 and 0.6",
                     of_model),
-      optional_number_key<Interface>("tension_strength", Dimension::pressure, above_to(0, 1e12),
-                                     "Tension at which the bond breaks for good; none: it never does.",
-                                     &Interface::tension_strength) |
-          plausibly(above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
-      optional_number_key<Interface>("shear_strength", Dimension::pressure, above_to(0, 1e12),
-                                     "Shear at which the bond breaks for good; none: it never does.",
-                                     &Interface::shear_strength) |
-          plausibly(above_to(0, 100e6), "no explosive or lacquer bears more", of_model),
   };
   return keys;
 }
@@ -153,7 +132,7 @@ void check_interfaces(const SceneFile& file) {
     check_law(file, faces);
     if (!can_slide(faces) || file.scene.numerics.formulation == Formulation::total_lagrangian) continue;
     throw fault_of(file, faces, "condition", "faces that can slide with formulation \"updated-lagrangian\"",
-                   "faces bonded for good with \"updated-lagrangian\", which has one velocity a "
+                   "bonded faces with \"updated-lagrangian\", which has one velocity a "
                    "place; sliding with numerics.formulation = \"total-lagrangian\"",
                    "formulation = \"total-lagrangian\"");
   }
@@ -171,13 +150,6 @@ std::vector<InterfaceText> describe_interfaces(const Scene& scene) {
         "Coulomb's friction {:g} on the pressure of the same instant, no tension, faces may part; the heat "
         "of friction is told and heats no skin",
         faces->friction.value_or(0.0));
-    if (!faces->tension_strength) continue;
-    text.condition = "bonded until it breaks";
-    text.assumes = fmt::format(
-        "past {} of tension or {} of shear at a node, each by itself, the bond is gone there for good; then "
-        "{}",
-        pressure_text(*faces->tension_strength), pressure_text(faces->shear_strength.value_or(0.0)),
-        text.assumes);
   }
   return described;
 }

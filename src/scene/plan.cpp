@@ -75,8 +75,7 @@ Term plan_bulk_reaction(const Scene& scene) {
 Term plan_surface(const Scene& scene) {
   const auto gaps = static_cast<double>(scene.surface.gaps.size());
   if (!has_charge(scene)) return out(gaps, "no charge");
-  const bool closes = scene.surface.model == GapModel::closing;
-  return in(gaps, fmt::format("{:.0f} gaps {}", gaps, closes ? "that close" : "on one bottom trace"));
+  return in(gaps, fmt::format("{:.0f} gaps on one bottom trace", gaps));
 }
 
 Term plan_air(const Scene& scene) {
@@ -85,15 +84,7 @@ Term plan_air(const Scene& scene) {
   if (!has_charge(scene)) return out(largest, "no charge");
   if (!(largest > 0.0)) return out(largest, "no gap above 0 cm");
   const std::string gaps = fmt::format("gaps up to {}", length_text(largest));
-  if (scene.surface.model == GapModel::closing)
-    return in(largest,
-              fmt::format("{}, that close down to {} on a base that {}; each has a launch of its own", gaps,
-                          length_text(scene.surface.roughness),
-                          scene.surface.base == GapBase::insulated ? "takes no heat" : "takes heat"));
-  if (scene.surface.air_model != AirModel::film) return in(largest, gaps);
-  return in(largest, gaps +
-                         ", as a film that conducts into charge and base; gap.exchange, gap.exchange_time, "
-                         "gap.skin_thickness and gap.air_density play no part");
+  return in(largest, gaps);
 }
 
 Term plan_cracks(const Scene& scene) {
@@ -377,15 +368,14 @@ bool changes_too_fast_for_selective_inertia(const Scene& scene) {
 }
 
 double usual_selective_inertia(const Scene& scene) {
-  constexpr double measured = 4.0, measured_where_a_gap_closes = 2.0;
+  constexpr double measured = 4.0;
   const Numerics& numerics = scene.numerics;
   const bool is_possible =
       numerics.formulation == Formulation::total_lagrangian && scene.frame == Frame::co_moving;
   const bool was_measured = has_charge(scene) && scene.coupling == Coupling::one_way &&
                             scene.load.curve_time.empty() && !(numerics.inertial_scaling > 1.0) &&
                             !changes_too_fast_for_selective_inertia(scene);
-  if (!is_possible || !was_measured) return 1.0;
-  return scene.surface.model == GapModel::closing ? measured_where_a_gap_closes : measured;
+  return is_possible && was_measured ? measured : 1.0;
 }
 
 Scene mechanical_part(const Scene& scene) {
@@ -403,7 +393,6 @@ Scene mechanical_part(const Scene& scene) {
   // The mechanics knows the time of the exit, however it was stated.
   part.load.muzzle_exit = exit_time(scene.load);
   part.load.muzzle_travel.reset();
-  part.surface.opens_by_cooling.reset();
   const Felt felt{plan.conduction.in, plan.bulk_reaction.in, part.output.asks_for_snapshots()};
   felt.keep_alone(scene_keys(), part);
   settle_materials(part, felt);

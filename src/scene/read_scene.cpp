@@ -54,14 +54,8 @@ void rebuild(SceneFile& file, bool has_curve, bool is_valid = false) {
     read_curve_file(file);
   }
   settle_load(file.scene);
-  if (file.scene.surface.opens_by_cooling && !file.given.contains("gap.thickness"))
-    file.scene.surface.gaps = {gap_by_cooling(file.scene)};
   if (!file.given.contains("numerics.selective_inertia"))
     file.scene.numerics.selective_inertia = usual_selective_inertia(file.scene);
-  // As a number it is part of what determines a stored launch.
-  if (file.scene.surface.model == GapModel::closing && has_charge(file.scene) &&
-      !file.given.contains("gap.release_duration"))
-    file.scene.surface.release_duration = transit_time(file.scene);
   if (!is_valid) validate(file);
 }
 
@@ -212,9 +206,7 @@ std::string own_materials(const Scene& scene) {
         text += fmt::format("{}title = {}\n", prefix, text_as_toml(material.title));
       for (const Key<Law>& key : Law::parameters()) {
         const std::string name = key_in_material(Law::name, key.name);
-        if (is_of_use(key, scene) ||
-            source_of(scene.sources, fmt::format("material.{}.{}", material.name, name)) != nullptr)
-          text += fmt::format("{}{} = {}\n", prefix, name, exact_toml(key, key.get(law)));
+        text += fmt::format("{}{} = {}\n", prefix, name, exact_toml(key, key.get(law)));
       }
     };
     std::visit(add, material.law);

@@ -75,43 +75,11 @@ std::vector<Material> used_materials(const Scene& scene) {
 
 bool is_charge(const Scene& scene, const Body& body) { return is_explosive(law_of(scene, body)); }
 
-bool lies_under_charge(const Scene& scene, const Body& body) {
-  constexpr double same_place = 1e-6;  // m
-  const Extent charge = charge_extent(scene);
-  return !is_charge(scene, body) && std::abs(body.x_begin - charge.x_end) <= same_place &&
-         body.r_begin < charge.r_end;
-}
-
-double opening_by_cooling(const Scene& scene) {
-  const Extent charge = charge_extent(scene);
-  double shell = std::numeric_limits<double>::infinity();
-  for (const Body& body : scene.bodies)
-    if (!is_charge(scene, body) && body.x_begin < charge.x_end && body.x_end > charge.x_begin)
-      shell = std::min(shell, materials::thermal_expansion(law_of(scene, body)));
-  if (std::isinf(shell)) shell = 0.0;
-  return (scene.charge().thermal_expansion - shell) * (charge.x_end - charge.x_begin);
-}
-
-double gap_by_cooling(const Scene& scene, double colder) {
-  if (!scene.surface.opens_by_cooling) return 0.0;
-  const double cooled = *scene.surface.opens_by_cooling - scene.initial_temperature + colder;
-  return std::max(0.0, opening_by_cooling(scene) * cooled);
-}
-
-const Body* body_under_charge(const Scene& scene) {
-  const Body* under = nullptr;
-  for (const Body& body : scene.bodies)
-    if (lies_under_charge(scene, body) && (under == nullptr || body.r_begin < under->r_begin)) under = &body;
-  return under;
-}
-
 bool has_charge(const Scene& scene) {
   return std::ranges::any_of(scene.bodies, [&](const Body& body) { return is_charge(scene, body); });
 }
 
-bool can_slide(const Interface& faces) {
-  return faces.condition == Condition::sliding || faces.tension_strength || faces.shear_strength;
-}
+bool can_slide(const Interface& faces) { return faces.condition == Condition::sliding; }
 
 std::vector<Interface> sliding_interfaces(const Scene& scene) {
   std::vector<Interface> sliding = scene.interfaces;

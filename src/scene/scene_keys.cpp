@@ -27,11 +27,6 @@ Keys keys_of_law() {
         return has_law<Law>(scene) || get(scene) != usual;
       };
   }
-  for (Key<Scene>& key : keys)
-    if (!is_of_use(key, Scene{}))
-      key.is_written = [number = KeyDescription(key)](const Scene& scene) {
-        return is_of_use(number, scene);
-      };
   keys.push_back(title_key<Law>());
   return keys;
 }
@@ -268,13 +263,6 @@ void document(std::vector<DocumentedKey>& documented, const std::vector<Key<Owne
 }
 
 }  // namespace
-
-bool is_of_use(const KeyDescription& number, const Scene& scene) {
-  if (number.dimension == Dimension::expansion) return scene.surface.opens_by_cooling.has_value();
-  const bool of_melting =
-      number.name == "charge.melting_temperature" || number.name == "charge.heat_of_melting";
-  return !of_melting || scene.surface.melts;
-}
 
 const std::vector<std::string>& event_words() {
   static const std::vector<std::string> words{"first-crack-growth", "first-yield", "peak-pressure",

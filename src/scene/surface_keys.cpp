@@ -4,125 +4,23 @@
 namespace launchsafe::scene {
 namespace {
 
-bool is_closing(const Surface& surface) { return surface.model == GapModel::closing; }
-
-/// How finely a closing gap is resolved; written where that is not as usual, for the sake of what is stored.
-std::vector<Key<Surface>> resolution_keys() {
-  std::vector<Key<Surface>> keys{
-      number_key("air_cells", Dimension::count, between(4, 1024), Standing::assumed,
-                 "Cells in which a closing gap resolves its air.", &Surface::air_cells) |
-          plausibly(between(16, 256), "coarser ones were never compared with finer ones"),
-      number_key("depth_cells", Dimension::count, between(5, 1024), Standing::assumed,
-                 "Cells in which a closing gap resolves the depth of the charge that heat reaches; "
-                 "that of the base has three fifths of them.",
-                 &Surface::depth_cells) |
-          plausibly(between(20, 320), "coarser ones were never compared with finer ones"),
-      number_key("turns", Dimension::number, between(0.1, 100), Standing::assumed,
-                 "How many times as often as usual motion and heat of a closing gap take turns.",
-                 &Surface::turns) |
-          plausibly(between(0.5, 16), "rarer ones were never compared with more frequent ones"),
-  };
-  for (Key<Surface>& key : keys) {
-    const auto is_usual = [get = key.get](const Surface& each) { return get(each) == get(Surface{}); };
-    written_where([is_usual](const Surface& each) { return is_closing(each) && !is_usual(each); })(key);
-  }
-  return keys::in_role(refined_setting, std::move(keys));
-}
-
-/// Written where the gap closes alone, so that what was stored before there was such a gap stays what it is.
-std::vector<Key<Surface>> closing_keys() {
-  const Role of_motion{ActsOn::mechanics, Part::constant};
-  std::vector<Key<Surface>> keys{
-      word_key("model", Standing::assumed,
-               "As published, with air that stays on its adiabat and a charge that rests; or a gap that "
-               "closes: the charge flies across it, compresses its air and meets the base.",
-               {{"reservoir", GapModel::reservoir}, {"closing", GapModel::closing}}, &Surface::model) |
-          always_plausible("both are models of the gap; constants are calibrated for the reservoir",
-                           of_motion),
-      number_key("roughness", Dimension::length, above_to(0, 1e-3), Standing::assumed,
-                 "Least opening of a closing gap, at which the faces meet; a gap no wider is none.",
-                 &Surface::roughness) |
-          plausibly(between(1e-6, 3e-5), "pressed and machined faces have 1 to 30 µm", of_motion),
-      word_key("base", Standing::assumed,
-               "Whether the base takes heat from the air of a closing gap: the two bounds.",
-               {{"conducting", GapBase::conducting}, {"insulated", GapBase::insulated}}, &Surface::base) |
-          always_plausible("both are bounds of the same gap", of_motion),
-      number_key("release", Dimension::time, between(0, 1), Standing::assumed,
-                 "Until when nose and wall hold the charge where they slide, over a gap that closes or none; "
-                 "then they let go. 0: it is free from the start.",
-                 &Surface::release) |
-          always_plausible("when a charge lets go is not known, and the worst instant has to be looked for",
-                           of_motion),
-  };
-  for (Key<Surface>& key : keys) written_where(is_closing)(key);
-  // Came later than stored launches that have neither.
-  keys.push_back(flag_key("melts", Standing::assumed,
-                          "The charge over a closing gap melts as heat reaches it, which takes heat; for "
-                          "comparison: its constants were calibrated without, and no verdict rests on it.",
-                          &Surface::melts) |
-                 always_plausible("no verdict rests on it", of_motion) |
-                 written_where([](const Surface& surface) { return is_closing(surface) && surface.melts; }));
-  keys.push_back(
-      word_key("air_flow", Standing::assumed,
-               "Whether the air of a closing gap stays at its radius, or flows freely so that it has one "
-               "pressure over the bottom: the two bounds.",
-               {{"trapped", AirFlow::trapped}, {"common-pressure", AirFlow::common_pressure}},
-               &Surface::air_flow) |
-      always_plausible("both are bounds of the same gap", of_motion) |
-      written_where([](const Surface& surface) {
-        return is_closing(surface) && surface.air_flow != AirFlow::trapped;
-      }));
-  keys.push_back(
-      optional_number_key<Surface>(
-          "release_duration", Dimension::time, between(0, 0.1),
-          "From gap.release on, over which what nose and wall bear falls to nothing; where it is not said, "
-          "the time that sound takes through the charge. 0: all of it lets go at once, and rings most.",
-          &Surface::release_duration) |
-      always_plausible(
-          "how fast a hold breaks is not known, and no break runs through the charge faster than sound",
-          of_motion));
-  return keys;
-}
-
-/// Each takes the other one back: the gap is stated, or follows.
-std::vector<Key<Surface>> thickness_keys() {
-  const Role of_gap{ActsOn::surface, Part::free};
-  Key<Surface> thickness =
-      list_key("thickness", Dimension::length, between(0, 0.02), Standing::paper,
-               "Gaps between charge and base; all are judged on one run of the mechanics.", &Surface::gaps) |
-      always_plausible("each gap is judged for itself, and a larger one is hotter", of_gap);
-  thickness.overrides = {"opens_by_cooling"};
-  thickness.is_written = [](const Surface& surface) { return !surface.opens_by_cooling; };
-  Key<Surface> cooling =
-      optional_number_key<Surface>(
-          "opens_by_cooling", Dimension::temperature, between(200, 500),
-          "Temperature at which charge and shell fitted without a gap; instead of gap.thickness, the gap is "
-          "what the charge, held at the nose, has shrunk away from the base at initial_temperature.",
-          &Surface::opens_by_cooling) |
-      plausibly(between(270, 400), "charges are cast or cured at 330 to 400 K and settle as they cool",
-                of_gap);
-  cooling.overrides = {"thickness"};
-  return {thickness, cooling};
-}
-
 std::vector<Key<Surface>> gap_keys() {
   return {
+      list_key("thickness", Dimension::length, between(0, 0.01), Standing::paper,
+               "Gaps between charge and base; all are judged on one run of the mechanics.", &Surface::gaps) |
+          always_plausible("each gap is judged for itself, and a larger one is hotter",
+                           Role{ActsOn::surface, Part::free}),
       word_key("pressure", Standing::assumed,
                "What compresses the air: the charge's bottom stress or the chamber.",
                {{"charge-bottom", AirPressure::charge_bottom}, {"chamber", AirPressure::chamber}},
                &Surface::air_pressure) |
           always_plausible("both are readings of the published model", of_skin_model),
-      word_key("air", Standing::paper,
-               "Air that stays on its adiabat, or a film that conducts into charge and base and gives what "
-               "compression supplies alone; in the film no exchange, skin or air density counts.",
-               {{"reservoir", AirModel::reservoir}, {"film", AirModel::film}}, &Surface::air_model) |
-          always_plausible("both are models of the air; constants are calibrated for one of them",
-                           of_skin_model),
-      word_key("exchange", Standing::derived,
-               "Heat exchange as a rate, or the printed share in each time step, which depends on it.",
-               {{"rate", Exchange::rate}, {"per-step", Exchange::per_step}}, &Surface::exchange) |
-          plausibly(std::vector<std::string>{"rate"}, "the printed share in each step depends on the step",
-                    of_skin_model),
+      word_key("air", Standing::paper, "Air that stays on its adiabat, whatever heat it gives.",
+               {{"reservoir", AirModel::reservoir}}, &Surface::air_model) |
+          always_plausible("there is no other", of_skin_model),
+      word_key("exchange", Standing::derived, "Heat exchange as a rate.", {{"rate", Exchange::rate}},
+               &Surface::exchange) |
+          always_plausible("there is no other", of_skin_model),
       number_key("skin_thickness", Dimension::length, above_to(0, 0.01), Standing::paper,
                  "Thickness of the charge's skin that the air heats.", &Surface::skin_thickness) |
           plausibly(between(3e-5, 1.5e-4),
@@ -215,10 +113,7 @@ std::vector<Key<Surface>> station_keys() {
 
 std::vector<Key<Scene>> surface_keys() {
   using keys::in_role, keys::keys_of_part;
-  return keys::joined({keys_of_part("gap.", &Scene::surface, thickness_keys()),
-                       keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
-                       keys_of_part("gap.", &Scene::surface, closing_keys()),
-                       keys_of_part("gap.", &Scene::surface, resolution_keys()),
+  return keys::joined({keys_of_part("gap.", &Scene::surface, in_role({ActsOn::surface}, gap_keys())),
                        keys_of_part<Scene>(
                            "gap.air_", [](auto& scene) -> auto& { return scene.surface.air; },
                            in_role({ActsOn::surface}, air_keys())),

@@ -80,7 +80,7 @@ std::string fault_in_trace(const BottomTrace& trace, bool completed) {
   if (!increase(trace.time)) return "the times of the trace do not increase";
   if (!completed) return {};
   for (const auto* history : {&trace.chamber_pressure, &trace.bottom_pressure, &trace.mean_chamber_pressure,
-                              &trace.mean_bottom_pressure, &trace.steps}) {
+                              &trace.mean_bottom_pressure}) {
     if (history->size() != trace.samples()) return "a history of the completed run is cut short";
     if (!math::all_finite(*history)) return "a history of the completed run holds what is no number";
   }

@@ -57,7 +57,6 @@ void lay_out_trace(Archive& archive, Trace& trace) {
           {"Pa", "chamber pressure, mean over the interval that ends at the sample"});
   history(archive, "mean_bottom_pressure", trace.mean_bottom_pressure, samples,
           {"Pa", "bottom pressure, mean over the interval that ends at the sample"});
-  history(archive, "steps", trace.steps, samples, {"1", "time steps since the start"});
   for (std::size_t closure = 0; closure < trace::traced_closures; ++closure) {
     archive.table(
         "friction_" + std::string(materials::friction_closures[closure].stored_word), trace.friction[closure],
@@ -160,8 +159,6 @@ void lay_out_air_energy(Archive& archive, auto& air) {
     archive.value("taken", air.taken,
                   {"J/m2", "most that the skin of the hottest station took from the air"});
     archive.value("supplied", air.supplied, {"J/m2", "most that compression can supply to the air"});
-    archive.value("stored", air.stored, {"J/m2", "stored in the air by adiabatic compression"});
-    archive.value("isothermal", air.isothermal, {"J/m2", "work of isothermal compression"});
   });
 }
 
@@ -175,18 +172,10 @@ void lay_out_gap(Archive& archive, Value& gap, const trace::BottomTrace& trace) 
                   gap.at_stations, trace);
   lay_out_maximum(archive, "maximum_at_points", "T_max over the observation points", gap.at_points, trace);
   lay_out_ignition(archive, skin.ignition, trace);
-  optional_group(archive, "closing", "How the gap closed; absent where it does nothing to the mechanics",
-                 gap.closing, [&](auto& closing) {
-                   lay_out_members(archive, closing, run::stored_closing);
-                   lay_out_members(archive, closing.energy, run::stored_film_energy);
-                   lay_out_members(archive, closing, run::stored_closing_samples);
-                 });
   lay_out_combustion(archive, gap.combustion, trace);
   lay_out_air_energy(archive, gap.air);
   archive.group("skin", "Skin temperatures", [&] {
     archive.value("gap", skin.gap, {"m", "gap of this history"});
-    archive.value("energy_residual", skin.energy_residual,
-                  {"1", "energy residual relative to the heat exchanged"});
     archive.array("time", skin.time, {"s", "time"});
     history(archive, "air_temperature", skin.air_temperature, skin.time.size(),
             {"K", "temperature of the gap's air"});

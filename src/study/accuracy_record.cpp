@@ -18,14 +18,8 @@ bool differ_in(const std::string& key, const scene::Value& own, const Setting& o
   return same_setting(same, other);
 }
 
-/// Whether the error that a value makes is none, or less than that of another.
-bool is_better(const keys::Exactness& exactness, const scene::Value& value, const scene::Value& own) {
-  if (exactness.value) return same_value(value, *exactness.value);
-  return exactness.larger_is_finer && std::get<double>(value) > std::get<double>(own);
-}
-
 /// A key at which the reference meshes are not exact, and the settings that tell what that changes: two that
-/// differ in it alone, one having the meshes' value and one the exact, or a finer one.
+/// differ in it alone, one having the meshes' value and one the exact one.
 struct InexactKey {
   std::string key;
   std::vector<std::pair<const RecordedSetting*, const RecordedSetting*>> pairs;
@@ -40,8 +34,8 @@ std::vector<InexactKey> inexact_keys(const AccuracyRecord& record) {
     inexact.push_back({key, {}});
     for (const RecordedSetting& one : record.settings)
       for (const RecordedSetting& other : record.settings)
-        if (differ_in(key, own, one.setting, other.setting) &&
-            is_better(exactness, other.setting.at(key), own))
+        if (exactness.value && differ_in(key, own, one.setting, other.setting) &&
+            same_value(other.setting.at(key), *exactness.value))
           inexact.back().pairs.push_back({&one, &other});
   }
   return inexact;
@@ -87,7 +81,7 @@ double rise_of(const AccuracyRecord& record) {
 constexpr double most_pressure = 1.25, most_cracks = 3.0, most_heating = 3.0, hottest = 1.2;
 constexpr double longest = 1.1, steepest = 1.25, most_off_shape = 0.1;
 /// What is no difference: round-off of units.
-constexpr double round_off = 1e-9;
+constexpr double launch_round_off = 1e-9;
 
 /// s, over even instants alone: what is shorter is noise.
 double rise_time_of(const scene::PressureHistory& history, double duration, double peak) {
@@ -99,7 +93,7 @@ double rise_time_of(const scene::PressureHistory& history, double duration, doub
   return largest > 0.0 ? std::min(step * peak / largest, duration) : duration;
 }
 
-/// K/(s m). Where the exchange is per step its time constant does not matter.
+/// K/(s m).
 double air_heating_of(const scene::Scene& scene, double peak) {
   const scene::Surface& surface = scene.surface;
   const scene::Charge& charge = scene.charge();
@@ -108,7 +102,7 @@ double air_heating_of(const scene::Scene& scene, double peak) {
   const double rise =
       materials::adiabatic_temperature(surface.air, std::max(peak, surface.air.initial_pressure)) -
       surface.air.initial_temperature;
-  return share * rise / (surface.exchange == scene::Exchange::per_step ? 1.0 : surface.exchange_time);
+  return share * rise / surface.exchange_time;
 }
 
 /// Case over record; 1 where both are 0, infinite where the record alone is.
@@ -158,7 +152,7 @@ struct Ratios {
 /// Why a record is not carried to a scene with its launch; empty where it is.
 std::string why_not_carried(const AccuracyRecord& record, const scene::Scene& scene,
                             const RecordedLaunch& launch, const Ratios& over) {
-  constexpr double allowed = 1.0 + round_off;
+  constexpr double allowed = 1.0 + launch_round_off;
   const RecordedLaunch& recorded = record.launch;
   if (!(over.pressure <= most_pressure * allowed))
     return beyond(1e-6 * recorded.peak_pressure, 1e-6 * launch.peak_pressure, " MPa", "at a peak pressure of",
@@ -182,7 +176,7 @@ std::string why_not_carried(const AccuracyRecord& record, const scene::Scene& sc
   if (!(off <= most_off_shape))
     return fmt::format("its load differs in shape by {:.2g} of the peak, more than {:g}", off,
                        most_off_shape);
-  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - round_off))
+  if (launch.rise_time * steepest < recorded.rise_time * (1.0 - launch_round_off))
     return fmt::format("its load rises in {:.3g} ms, and {:.3g} ms are less than a part in {:g} of that",
                        1e3 * recorded.rise_time, 1e3 * launch.rise_time, steepest);
   if (!(over.temperature <= hottest * allowed))
@@ -223,10 +217,8 @@ bool belongs_to_setting(const scene::KeyDescription& key) {
 
 Setting setting_of(const scene::Scene& scene) {
   Setting setting;
-  const bool closes = scene.surface.model == scene::GapModel::closing;
   for (const auto& key : scene::scene_keys())
-    if (belongs_to_setting(key) && (!key.role().exactness.larger_is_finer || closes))
-      setting[key.name] = key.get(scene);
+    if (belongs_to_setting(key)) setting[key.name] = key.get(scene);
   return setting;
 }
 

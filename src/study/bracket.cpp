@@ -75,7 +75,6 @@ const ShareTraits& traits_of(ShareKind kind) {
       {"sliding", "sliding at the base", knowledge, "a base that holds the charge"},
       {"fit", "calibrated constants", knowledge, "more measured temperatures to calibrate on"},
       {"model_form", "other models", knowledge, "measurements of how the shell holds the charge"},
-      {"cooling", "the gap that cooling opens", knowledge, "a measured gap: gap.thickness"},
       {"accepted", "accepted constants, which the calibration has otherwise", knowledge,
        "a calibration with these constants"},
   }};

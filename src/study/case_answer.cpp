@@ -23,9 +23,8 @@ bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& cali
 /// Whether the shares of a critical gap that was read are all there that the study's case must have.
 bool has_all_shares(const CriticalGap& critical, const Study& study, const StudyCase& input,
                     const CaseStatements& statements) {
-  const bool is_film = input.scene.scene.surface.air_model == scene::AirModel::film;
   const bool bounded = critical.kind == CriticalGapKind::value || critical.kind == CriticalGapKind::all_safe;
-  if (!study.kind.bounds_critical_gaps || is_film || !bounded) return true;
+  if (!study.kind.bounds_critical_gaps || !bounded) return true;
   using enum ShareKind;
   const bool spreads = propagates_spread(study);
   const std::pair<ShareKind, bool> needed[] = {
@@ -33,7 +32,6 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
       {pulse_length, spreads},
       {initial_temperature, spreads},
       {accepted, !skin_keys(statements.to_be_accepted()).empty()},
-      {cooling, cooling_spread(input.scene.scene) > 0.0},
       {computation, input.numerical_uncertainty > 0.0},
       {fit, fit_share(study, statements.distance, {}, 1.0) > 0.0},
       {stated_inputs, stated_input_share(study, input) > 0.0},
@@ -52,7 +50,7 @@ bool fits(const CaseAnswer& answer, const Study& study, const StudyCase& input,
   // A step may end a little beyond the duration.
   const double end = scene::end_time(scene.load) * (1.0 + 1e-6);
   const auto is_late = [end](const Peak& peak) { return peak.time > end; };
-  const std::vector<double>& gaps = gaps_of(study, input);
+  const std::vector<double>& gaps = study.gaps;
   if (answer.verdicts.size() != gaps.size()) return false;
   if (answer.critical.kind == CriticalGapKind::value &&
       answer.critical.upper > largest_gap(study) * (1.0 + 1e-9))
@@ -173,10 +171,8 @@ struct AnswerRunner {
       if (cases[i].shard != options.shard.index || stop_requested(options)) return;
       for (const std::size_t each : cases[i].members) {
         const StudyCase input = study.cases[each];
-        // What is stored under such a key is the reservoir's.
-        if (!compares_closing(study.study, input))
-          answers[each] =
-              stored_answer(study.study, input, key_of(each, input), cases[i].runs.size(), *options.store);
+        answers[each] =
+            stored_answer(study.study, input, key_of(each, input), cases[i].runs.size(), *options.store);
       }
     });
   }
@@ -228,8 +224,7 @@ struct AnswerRunner {
       return failed_answer(study.study, input, RunOutcome::interrupted,
                            "interrupted before its gaps were judged");
     CaseAnswer answer = answer_from(study.study, input, runs);
-    if (judged && options.store != nullptr && !compares_closing(study.study, input) &&
-        std::ranges::none_of(runs, was_cut_off)) {
+    if (judged && options.store != nullptr && std::ranges::none_of(runs, was_cut_off)) {
       answer.runs = hashes;
       options.store->write(
           [&](store::Database& database) { return save_answer(database, key_of(member, input), answer); });
@@ -266,14 +261,6 @@ CaseAnswer answer_of(const CaseOutcome& outcome) {
   return answer;
 }
 
-void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, CaseAnswer& answer) {
-  answer.closing = std::move(closing);
-  for (GapVerdict& row : answer.verdicts) {
-    take_closing_evidence(answer.closing, input.scene.scene, row);
-    row.judgement = judge(row, answer.critical);
-  }
-}
-
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome of_run, std::string failure) {
   CaseOutcome outcome = without_result(study, input, of_run, std::move(failure));
   conclude(study, outcome);
@@ -307,12 +294,10 @@ CaseAnswer answer_from(const Study& study, const StudyCase& input, const std::ve
     answer.run.status = own.result.mechanics.status;
     return answer;
   }
-  const bool compares = compares_closing(study, input);
   std::optional<run::MechanicsResult> raised;
-  if (runs.size() > 1 && own.failure.empty() && !compares) raised = runs[1].result.mechanics;
+  if (runs.size() > 1 && own.failure.empty()) raised = runs[1].result.mechanics;
   CaseAnswer answer = answer_of(study, input, own.result.mechanics, raised);
   answer.outcome = own.outcome;
-  if (compares) take_launches(input, runs, answer);
   return answer;
 }
 

@@ -10,14 +10,12 @@
 namespace launchsafe::study {
 namespace {
 
-/// The gaps of a case that have launches of their own: those that close, and with two-way coupling those that
-/// are run through ignition; none where the kind does not ask for them.
+/// The gaps of a case that have launches of their own: with two-way coupling those that are run through
+/// ignition; none where the kind does not ask for them.
 std::vector<double> launched_gaps(const StudyFile& study, const StudyCase& input) {
-  const KindTraits& kind = study.study.kind;
   const scene::Scene& scene = input.scene.scene;
-  const bool closes = input.closing && kind.closing_gaps != ClosingGaps::beside;
-  const bool burns = kind.goes_through_ignition && scene.coupling != scene::Coupling::one_way;
-  return closes || burns ? scene.surface.gaps : std::vector<double>{};
+  const bool burns = study.study.kind.goes_through_ignition && scene.coupling != scene::Coupling::one_way;
+  return burns ? scene.surface.gaps : std::vector<double>{};
 }
 
 /// Of so many cases at the most the runs are planned before they are begun.
@@ -47,8 +45,8 @@ bool tell_runs_apart(const StudyFile& study, const std::vector<std::size_t>& axe
 
 std::string key_by_runs(const StudyFile& study, const StudyCase& input) {
   std::string key = mechanics_run(input.scene.scene, {}).hash;
-  // A case that burns or closes shares its launch alone with no other.
-  for (const double gap : launched_gaps(study, input)) key += skin_run(closing_scene(input), gap, {}).hash;
+  // A case that burns shares its launch alone with no other.
+  for (const double gap : launched_gaps(study, input)) key += skin_run(input.scene.scene, gap, {}).hash;
   return key;
 }
 
@@ -94,23 +92,18 @@ void plan_runs(const StudyFile& study, bool checkpoints, CaseRuns& cases) {
   };
   const std::size_t first = cases.members.front();
   // Where every case has runs of the same kinds none is made to know them.
-  const KindTraits& kind = study.study.kind;
-  const bool may_differ = study.study.in_detail || kind.goes_through_ignition ||
-                          kind.closing_gaps == ClosingGaps::launched ||
-                          kind.closing_gaps == ClosingGaps::compared;
+  const bool may_differ = study.study.in_detail || study.study.kind.goes_through_ignition;
   const StudyCase input = may_differ ? study.cases[first] : StudyCase{};
   const bool longer = study.study.in_detail && with_longer_launch(input.scene.scene);
-  if (!compares_closing(study.study, input))
-    add(first, [checkpoints = checkpoints || longer](const StudyCase& own) {
-      CaseRun run = mechanics_run(own.scene.scene, own.label);
-      run.checkpoints = checkpoints;
-      return run;
-    });
+  add(first, [checkpoints = checkpoints || longer](const StudyCase& own) {
+    CaseRun run = mechanics_run(own.scene.scene, own.label);
+    run.checkpoints = checkpoints;
+    return run;
+  });
   for (const double gap : launched_gaps(study, input))
     add(first, [gap](const StudyCase& own) {
-      return skin_run(closing_scene(own), gap,
-                      fmt::format("{}, {} {:.6g} cm", own.label,
-                                  own.closing ? "closing from" : "through ignition at", 100.0 * gap));
+      return skin_run(own.scene.scene, gap,
+                      fmt::format("{}, through ignition at {:.6g} cm", own.label, 100.0 * gap));
     });
   if (const auto loads = neighbouring_loads(study, first); loads && propagates_spread(study.study)) {
     for (const std::size_t each : {loads->above, loads->beside}) {

@@ -63,7 +63,6 @@ const AccuracyRecord& record_for(const AccuracyRecords& records, const scene::Sc
 void complete_recorded(const std::shared_ptr<const AccuracyRecords>& records, StudyCase& made) {
   const scene::Scene& scene = made.scene.scene;
   const AccuracyRecord& record = record_for(*records, scene);
-  made.accuracy = records;
   made.numerical_uncertainty = assumed_for(scene);
   made.numerical_uncertainty_assumed = true;
   made.why_assumed = why_foreign(record, scene);
@@ -82,11 +81,6 @@ void complete_recorded(const std::shared_ptr<const AccuracyRecords>& records, St
 }
 
 }  // namespace
-
-double cooling_spread(const scene::Scene& scene) {
-  const double colder = scene::gap_by_cooling(scene, assumed_temperature_spread);
-  return (1.0 + assumed_expansion_spread) * colder - scene::gap_by_cooling(scene);
-}
 
 double heat_factor(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
                    double gap) {
@@ -168,7 +162,7 @@ AcceptancesOfStudy acceptances_of(const StudyFile& study) {
   for (const StudyCase& input : study.cases) {
     CaseStatements statements = statements_of(study.study, input);
     std::vector<scene::Implausible> to_be_accepted = statements.to_be_accepted();
-    const std::vector<double>& gaps = gaps_of(study.study, input);
+    const std::vector<double>& gaps = study.study.gaps;
     if (!gaps.empty() && statements.is_beyond(std::ranges::max(gaps)))
       statements.extrapolated.emplace_back("gap");
     for (scene::Implausible& each : to_be_accepted) {
@@ -250,21 +244,6 @@ double numerical_share(const StudyCase& input, double gap, double rise) {
                               : std::max(input.numerical_uncertainty, assumed_for(input.scene.scene));
   const double hotter = rise / input.rise_of_uncertainty;
   return here * (hotter > 1.0 ? hotter : 1.0);
-}
-
-ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, double gap, double rise) {
-  const ClosingShare assumed{assumed_for(closing), false};
-  if (!input.accuracy) return assumed;
-  const AccuracyRecord& record = record_for(*input.accuracy, closing);
-  if (!why_foreign(record, closing).empty()) return assumed;
-  const RecordedSetting* found = recorded_setting(record, closing);
-  const Coverage coverage = coverage_of(record, closing);
-  constexpr double round_off = 1e-9;
-  const double widest = std::ranges::max(record.scene.surface.gaps) * (1.0 + round_off);
-  if (found == nullptr || !coverage.reason.empty() || coverage.growth > 1.0 + round_off || !(gap <= widest))
-    return assumed;
-  const double bound = found->temperature_bound * std::max(1.0, rise / record.rise);
-  return std::isfinite(bound) ? ClosingShare{bound, true} : assumed;
 }
 
 void settle_uncertainty(StudyFile& study, const AccuracyRecords& records) {

@@ -132,8 +132,7 @@ ForecastRun forecast_run(const CaseRun& needed, const StudyOptions& options, con
 /// launch is as a rule stored too.
 double confirmation_time(const StudyFile& study, const CaseRuns& runs, double update_rate) {
   const StudyCase input = study.cases[runs.members.front()];
-  const CaseRun following = skin_run(closing_scene(input), study.study.largest_gap, {});
-  return (input.closing ? cost_of(following) : continued_cost(following)) / update_rate;
+  return continued_cost(skin_run(input.scene.scene, study.study.largest_gap, {})) / update_rate;
 }
 
 /// What a study takes beside its runs, measured: the program on one core and on four, shards of 2 000 and
@@ -204,11 +203,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
     forecast.run_count += each.runs.size();
   }
   std::size_t following = 0;  // runs that may follow that of a case, at most
-  if (!study.study.kind.goes_through_ignition && !study.cases.empty()) {
-    const StudyCase first = study.cases.front();
-    const bool beside = first.closing && study.study.kind.closing_gaps == ClosingGaps::beside;
-    following = study.confirmations_per_case + (beside ? most_closing_launches(study.study, first) : 0);
-  }
+  if (!study.study.kind.goes_through_ignition && !study.cases.empty())
+    following = study.confirmations_per_case;
   forecast.confirmations = following * all.size();
   const std::vector<CaseRuns> cases = some_of(std::move(all), most_cases);
   std::vector<std::vector<ForecastRun>> runs(cases.size());

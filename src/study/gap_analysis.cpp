@@ -84,8 +84,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const OfAllRows&
   row.uncertainty.load_curve = all.load_curve * (rises.friction + rises.air);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
   row.uncertainty.sliding =
-      friction_share(outcome) +
-      thicker_gap_share(outcome, row, opening_at_base(outcome) + cooling_spread(outcome.input.scene.scene));
+      friction_share(outcome) + thicker_gap_share(outcome, row, opening_at_base(outcome));
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const OfAllRows& all,
@@ -146,11 +145,9 @@ GapVerdict row_at_critical_gap(const Study& study, const CaseOutcome& outcome) {
 }
 
 /// What makes the critical gap uncertain, each cause bisected on its own trace, and the bounds that follow.
-/// Under a film no bound is sought: no ignition shows nothing there.
 void find_bounds_of_critical_gap(const Study& study, CaseOutcome& outcome) {
   CriticalGap& critical = outcome.critical;
-  const bool is_film = outcome.input.scene.scene.surface.air_model == scene::AirModel::film;
-  if (!study.kind.bounds_critical_gaps || is_film || critical.kind == CriticalGapKind::indeterminate ||
+  if (!study.kind.bounds_critical_gaps || critical.kind == CriticalGapKind::indeterminate ||
       critical.kind == CriticalGapKind::several_crossings)
     return;
   if (critical.kind == CriticalGapKind::all_ignite) return set_shares(critical, {});
@@ -212,7 +209,7 @@ void find_critical_gaps(const Study& study, CaseOutcome& outcome) {
 }
 
 void evaluate_gaps(const Study& study, CaseOutcome& outcome) {
-  const std::vector<double>& gaps = gaps_of(study, outcome.input);
+  const std::vector<double>& gaps = study.gaps;
   outcome.verdicts.resize(gaps.size());
   for (std::size_t i = 0; i < gaps.size(); ++i) outcome.verdicts[i].gap = gaps[i];
   if (has_trace(outcome)) {
@@ -293,24 +290,6 @@ std::vector<StationTemperature> station_temperatures(const surface::SkinHistory&
   return stations;
 }
 
-void take_launches(const StudyCase& input, const std::vector<FinishedRun>& runs, CaseAnswer& answer) {
-  answer.critical = {};
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const run::CaseResult& launch = runs[i].result;
-    if (answer.failure.empty()) answer.failure = runs[i].failure;
-    GapVerdict row;
-    row.gap = answer.verdicts[i].gap;
-    if (runs[i].failure.empty() && !launch.gaps.empty()) {
-      const run::GapResult& gap = launch.gaps.front();
-      row.maximum = peak_of(gap.at_stations, launch.mechanics.trace);
-      row.margin = input.scene.scene.charge().kinetics.ignition_temperature - row.maximum.temperature;
-      row.ignition = named(gap.skin.ignition, launch.mechanics.trace);
-      if (!row.ignition) row.heated = row.maximum.temperature;
-    }
-    answer.verdicts[i] = std::move(row);
-  }
-}
-
 void evaluate(const Study& study, CaseOutcome& outcome) {
   if (has_trace(outcome))
     outcome.heated_without_gap =
@@ -365,7 +344,6 @@ void conclude(const Study& study, CaseOutcome& outcome) {
       row.uncertainty.numerical = std::max(row.uncertainty.numerical, assumed_numerical_uncertainty);
     if (outcome.longer_launch && scene::is_cut_short(outcome.input.scene.scene.load))
       row.when_over = outcome.longer_launch->maximum_temperature.at(i);
-    take_closing_evidence(outcome.closing, outcome.input.scene.scene, row);
     if (row.ignition || !outcome.completed()) continue;
     gaps.push_back(row.gap);
     temperatures.push_back(row.maximum.temperature);

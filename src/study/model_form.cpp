@@ -176,7 +176,7 @@ scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<
   if (const std::string reason = why_not_counted(*own.calibration); !reason.empty())
     return fmt::format("{} cannot be the default: {}", own.name, reason);
   // Those of the shipped models: any of them may ignite earliest.
-  std::set<std::string> not_compared{"charge", "friction", "gap", "interface", "station"};
+  std::set<std::string> not_compared{"charge", "friction", "interface", "station"};
   for (const ModelFormEntry& each : entries) {
     if (const auto reason = why_unfit(own, each, record.peak_pressures.size()); !reason.empty())
       return fmt::format("{}: {}", each.name, reason);

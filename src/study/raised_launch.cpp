@@ -74,8 +74,6 @@ struct Causes {
       add_temperature(ShareKind::model_form, *stated);
     else
       add(ShareKind::model_form, skin, trace, towards() ? shift.gap : -shift.later);
-    if (const double further = cooling_spread(outcome.input.scene.scene); further > 0.0)
-      add(ShareKind::cooling, skin, trace, towards() ? further : -further);
     add_accepted();
   }
 
@@ -129,14 +127,13 @@ bool is_safe(const surface::SkinHistory& history) {
 OtherAnswer answer_on(const Study& study, const StudyCase& input, const surface::SkinModel& model,
                       const trace::BottomTrace& whole) {
   const trace::BottomTrace trace = trace::of_rings(whole);
-  std::vector<double> gaps = gaps_of(study, input);
+  std::vector<double> gaps = study.gaps;
   gaps.push_back(largest_gap(study));
   std::vector<double> temperatures(gaps.size());
   std::vector<char> safe(gaps.size());
   run_parts(gaps.size(), [&](std::size_t i) {
     const auto history = surface::integrate_skin(model, trace, gaps[i]);
-    temperatures[i] =
-        std::max(surface::maximum_at_stations(history, trace).temperature, history.hottest_depth);
+    temperatures[i] = surface::maximum_at_stations(history, trace).temperature;
     safe[i] = is_safe(history);
   });
   OtherAnswer answer;

@@ -47,18 +47,11 @@ std::string shell_value(const Scene& scene) {
 }
 
 std::string interfaces_value(const Scene& scene) {
-  std::string text;
-  const auto add = [&text](const char* name, const std::optional<double>& value, scene::Dimension dimension) {
-    if (value) text += fmt::format(", {} {}", name, scene::format_quantity(*value, dimension));
-  };
-  for (const Interface& each : scene::sliding_interfaces(scene)) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", each.body,
-                        each.condition == scene::Condition::sliding ? "sliding" : "bonded");
-    add("friction", each.friction, scene::Dimension::number);
-    add("tension", each.tension_strength, scene::Dimension::pressure);
-    add("shear", each.shear_strength, scene::Dimension::pressure);
-  }
-  return text.empty() ? "bonded for good" : text;
+  const std::vector<std::string> faces = of_each(scene::sliding_interfaces(scene), [](const Interface& each) {
+    return fmt::format("{} sliding, friction {}", each.body,
+                       scene::format_quantity(each.friction.value_or(0.0), scene::Dimension::number));
+  });
+  return faces.empty() ? "bonded for good" : fmt::format("{}", fmt::join(faces, "; "));
 }
 
 /// Whether the same faces slide in the same way. Those of the same shell are compared by their bodies'
@@ -69,8 +62,7 @@ bool same_interfaces(const Scene& scene, const Scene& recorded, bool shells_agre
     const Body *body = find_named(scene.bodies, a.body), *other = find_named(recorded.bodies, b.body);
     if (body == nullptr || other == nullptr) return false;
     const bool same_body = shells_agree ? share_place(*body, *other) : body->name == other->name;
-    return same_body && a.condition == b.condition && a.friction == b.friction && a.against == b.against &&
-           a.tension_strength == b.tension_strength && a.shear_strength == b.shear_strength;
+    return same_body && a.condition == b.condition && a.friction == b.friction && a.against == b.against;
   };
   return std::is_permutation(ours.begin(), ours.end(), theirs.begin(), theirs.end(), same);
 }

@@ -254,10 +254,7 @@ CaseRun skin_run(const scene::Scene& scene, double gap, std::string label) {
   scene::clear_remarks(own);
   own.accepted.clear();
   own.surface.gaps = {gap};
-  own.surface.opens_by_cooling.reset();
-  const bool confirms = own.surface.model == scene::GapModel::reservoir;
-  if (confirms && own.surface.air_model == scene::AirModel::reservoir)
-    own.coupling = scene::Coupling::two_way;
+  own.coupling = scene::Coupling::two_way;
   return planned(std::move(own), gap, std::move(label));
 }
 
@@ -268,9 +265,8 @@ double continued_cost(const CaseRun& run) {
 
 store::CaseIdentity identity_of(const CaseRun& run) {
   const char* kind = run.skin_gap ? "coupled run" : "mechanics";
-  const bool closes = run.scene.surface.model == scene::GapModel::closing;
-  return store::CaseIdentity(fmt::format("# model version {}, {}{}\n{}", run::model_version, kind,
-                                         closes ? " where the gap closes" : "", scene::to_toml(run.scene)));
+  return store::CaseIdentity(
+      fmt::format("# model version {}, {}\n{}", run::model_version, kind, scene::to_toml(run.scene)));
 }
 
 bool FinishedRun::has_result() const {

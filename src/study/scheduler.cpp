@@ -248,7 +248,7 @@ double available_memory() {
 }
 
 std::string to_string(Phase phase) {
-  constexpr std::array words{"launches", "runs that follow", "closing gaps", "report"};
+  constexpr std::array words{"launches", "runs that follow", "report"};
   return words.at(static_cast<std::size_t>(phase));
 }
 

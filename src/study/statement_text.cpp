@@ -16,13 +16,12 @@ struct RuleWords {
   const char *name, *text;
 };
 /// In the order of ReasonCode.
-constexpr std::array<RuleWords, 23> rules{{
+constexpr std::array<RuleWords, 19> rules{{
     {"not-judged", "nothing was judged"},
     {"failed", "{failure}"},
     {"no-temperature", "the temperature is not a number"},
     {"validity-warning", "validity warning: {warnings}{and_unaccepted}"},
     {"ignition", "ignition{with_unaccepted}"},
-    {"closing-ignition", "ignition where the gap closes"},
     {"unaccepted", "validity warning: {unaccepted}"},
     {"no-margin", "no margin to the ignition temperature"},
     {"optimistic", "{optimistic}"},
@@ -38,12 +37,6 @@ constexpr std::array<RuleWords, 23> rules{{
     {"no-lower-bound", "the critical gap has no lower bound"},
     {"may-ignite-without-gap", "the launch may ignite without a gap"},
     {"not-below-bound", "the critical gap may be as small as {at_least:.3g} cm"},
-    {"closing-unknown", "what this gap does where it closes is not known"},
-    {"closing-without-corner",
-     "the worst terms on which the gap may close (insulated base, smoothest faces, worst release) were not "
-     "computed, as in no study of many cases"},
-    {"closing-corner",
-     "where the gap closes on the worst terms (insulated base, smoothest faces, worst release) {corner}"},
     {"below-bound", "below the lower bound of the critical gap, {at_least:.3g} cm"},
 }};
 /// In the order of GapReasonCode.
@@ -73,11 +66,6 @@ std::string cause_text(const GapVerdict& row) {
   const CaseEvidence& of_case = *row.of_case;
   const std::string unaccepted = unaccepted_text(of_case.input);
   const std::string& optimistic = of_case.input.optimistic;
-  const std::string corner =
-      std::isfinite(row.closing.corner_margin)
-          ? fmt::format("the margin is {:.1f} K, and the uncertainty {}", row.closing.corner_margin,
-                        kelvin(row.closing_uncertainty(), 2))
-          : "it ignites";
   return fmt::format(
       fmt::runtime(text), fmt::arg("failure", of_case.failure),
       fmt::arg("warnings", validity_warnings_text(row)), fmt::arg("unaccepted", unaccepted),
@@ -86,7 +74,7 @@ std::string cause_text(const GapVerdict& row) {
       fmt::arg("optimistic", optimistic.empty() ? optimistic_by_run(of_case.friction_rise) : optimistic),
       fmt::arg("critical_gap", text_of(row.judgement.critical_gap)),
       fmt::arg("margin", kelvin(row.margin, 3)), fmt::arg("uncertainty", kelvin(row.uncertainty.total(), 2)),
-      fmt::arg("at_least", 100.0 * row.judgement.at_least), fmt::arg("corner", corner));
+      fmt::arg("at_least", 100.0 * row.judgement.at_least));
 }
 
 std::string validity_warnings_text(const GapVerdict& row) {

@@ -147,13 +147,9 @@ std::string text_of(const SceneFile& scene, const Change& change) {
 }
 
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
-                                               const std::vector<Change>& changes, bool may_close) {
+                                               const std::vector<Change>& changes) {
   if (changes.empty()) return scene;
   auto changed = with_all(scene, changes);
-  const auto model = std::ranges::find(changes, "gap.model", &Change::name);
-  if (!may_close && changed && changed->scene.surface.model == scene::GapModel::closing &&
-      model != changes.end())
-    return scene::error_at(model->place, model->study_key, text_of(scene, *model), only_reservoir);
   if (changed) return changed;
   scene::InputError error = changed.error();
   const Change& change = change_at_fault(scene, changes, error);
@@ -183,28 +179,7 @@ StudyCase case_of(std::string label, SceneFile scene) {
   made.peak_pressure = scene::PressureHistory(s.load).stated_peak();
   made.own_conditions = false;
   made.scene = std::move(scene);
-  scene::Surface& surface = made.scene.scene.surface;
-  if (surface.model == scene::GapModel::closing) {
-    const scene::Surface usual;
-    made.closing = surface;
-    surface.model = usual.model;
-    surface.base = usual.base;
-    surface.air_flow = usual.air_flow;
-    surface.roughness = usual.roughness;
-    surface.release = usual.release;
-    surface.release_duration = usual.release_duration;
-    surface.melts = usual.melts;
-    surface.air_cells = usual.air_cells;
-    surface.depth_cells = usual.depth_cells;
-    surface.turns = usual.turns;
-  }
   return made;
-}
-
-scene::Scene closing_scene(const StudyCase& input) {
-  scene::Scene scene = input.scene.scene;
-  if (input.closing) scene.surface = *input.closing;
-  return scene;
 }
 
 void add_varied_cases(StudyFile& study, std::size_t count, const CoordinatesOf& coordinates_of,
@@ -253,21 +228,8 @@ void check_count(const StudyFile& study, const std::string& key, double count, c
 }
 
 void settle_gaps(StudyFile& study) {
-  constexpr const char* key = "gap.opens_by_cooling";
-  const KindTraits& kind = study.study.kind;
-  if (!kind.judges_gaps) return;
-  const auto axis = [](const Axis& each) { return each.key.name == key; };
-  study.study.gaps_by_cooling =
-      study.scene.scene.surface.opens_by_cooling || std::ranges::any_of(study.study.axes, axis);
-  if (study.study.gaps_by_cooling && kind.closing_gaps != ClosingGaps::beside)
-    refuse_at(study, "scene", fmt::format("{} in a study of kind {}", key, kind.name),
-              "a study of kind critical-gap, or gap.thickness");
-  if (study.study.gaps_by_cooling && !study.study.gaps.empty())
-    refuse_at(study, "gaps", fmt::format("gaps beside {}, from which that of a case follows", key),
-              "one of the two");
-  if (!study.study.gaps.empty()) return;
+  if (!study.study.kind.judges_gaps || !study.study.gaps.empty()) return;
   study.study.gaps = study.scene.scene.surface.gaps;
-  if (study.study.gaps_by_cooling) study.study.gaps.resize(1);
   if (study.study.gaps.empty())
     refuse_at(study, "gaps", "no gap", "at least one gap, in the study or its scene");
 }

@@ -60,11 +60,8 @@ std::vector<std::string> cooling_in(const scene::Scene& scene, const scene::Scen
   return found;
 }
 
-/// No stress case of a stability study may pass for any but the film.
 std::string optimistic_by_input(const Study& study, const scene::Scene& scene,
                                 const scene::RigidMotion& launch) {
-  if (scene.surface.air_model == scene::AirModel::film)
-    return "no ignition under gap.air = \"film\", which gives what compression supplies alone, shows nothing";
   if (!study.kind.gives_verdicts) return {};
   if (const std::vector<std::string> cooling = cooling_in(scene, study.calibration.scene); !cooling.empty())
     return fmt::format(
@@ -115,18 +112,6 @@ Judgement judge_in_gap(const GapVerdict& row, const CriticalGap& critical) {
   return {Verdict::safe, ReasonCode::below_bound, at_least};
 }
 
-/// A gap that is SAFE by the reservoir, where it closes.
-Judgement judge_closing(const GapVerdict& row, const CriticalGap& critical, Judgement by_reservoir) {
-  if (by_reservoir.verdict != Verdict::safe) return by_reservoir;
-  if (!row.closing.known) return indeterminate(ReasonCode::closing_unknown, critical);
-  if (std::isnan(row.closing.corner_margin))
-    return indeterminate(ReasonCode::closing_without_corner, critical);
-  // Written so that NaN is never safe.
-  if (!(row.closing.corner_margin > row.closing_uncertainty()))
-    return indeterminate(ReasonCode::closing_corner, critical);
-  return by_reservoir;
-}
-
 }  // namespace
 
 std::vector<scene::Implausible> CaseStatements::to_be_accepted() const {
@@ -150,7 +135,6 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   CaseStatements all;
   all.uncovered_load = run::uncovered_load(scene.load);
   all.optimistic = optimistic_by_input(study, scene, launch);
-  all.closes = input.closing.has_value();
   if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
   // No stress case of a stability study may pass because its input is called implausible.
   if (!study.kind.gives_verdicts) return all;
@@ -188,7 +172,6 @@ Judgement judge(const GapVerdict& row, const CriticalGap& critical) {
   if (!of_case.validity_warnings.empty() || std::isfinite(row.when_over))
     return indeterminate(ReasonCode::validity_warning, critical);
   if (row.ignition) return {Verdict::unsafe, ReasonCode::ignition};
-  if (of_case.input.closes && row.closing.ignited) return {Verdict::unsafe, ReasonCode::closing_ignition};
   if (of_case.input.has_unaccepted()) return indeterminate(ReasonCode::unaccepted, critical);
   // Written so that NaN is never safe.
   if (!(row.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
@@ -196,8 +179,7 @@ Judgement judge(const GapVerdict& row, const CriticalGap& critical) {
     return indeterminate(ReasonCode::optimistic, critical);
   if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(row.gap))
     return indeterminate(ReasonCode::beyond_firings, critical);
-  const Judgement by_reservoir = judge_in_gap(row, critical);
-  return of_case.input.closes ? judge_closing(row, critical, by_reservoir) : by_reservoir;
+  return judge_in_gap(row, critical);
 }
 
 // --- the verdict of a gap ---

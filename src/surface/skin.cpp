@@ -16,7 +16,7 @@ detail::SkinEquation equation_of(const SkinModel& model, const detail::Intervals
                                  std::size_t interval) {
   const detail::LinearAir air = detail::linear_air(model.surface.air, intervals.pressure(interval));
   detail::SkinEquation equation;
-  equation.exchange_rate = intervals.exchange_rate(interval);
+  equation.exchange_rate = intervals.exchange_rate();
   equation.air = air.begin;
   equation.air_slope = (air.end - air.begin) / intervals.length(interval);
   return equation;
@@ -78,13 +78,32 @@ std::optional<Maximum> highest(const SkinHistory& history, const trace::BottomTr
   return most;
 }
 
-/// Every station by itself under the given air (AirModel::reservoir).
-SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
+}  // namespace
+
+SkinModel skin_model(const scene::Scene& scene) {
+  SkinModel model;
+  model.surface = scene.surface;
+  model.kinetics = scene.charge().kinetics;
+  model.charge_density = scene.charge().density;
+  model.specific_heat = scene.charge().specific_heat;
+  model.initial_temperature = scene.initial_temperature;
+  return model;
+}
+
+double heat_capacity_ratio(const SkinModel& model, double gap) {
+  const scene::Surface& s = model.surface;
+  return s.air.density * gap * s.air.specific_heat /
+         (model.charge_density * s.skin_thickness * model.specific_heat);
+}
+
+SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
   const detail::Intervals intervals(model, trace, gap);
   const std::size_t stations = trace.stations.size();
   std::vector<std::size_t> all_stations(stations);
   std::iota(all_stations.begin(), all_stations.end(), std::size_t{0});
   SkinHistory history;
+  history.gap = gap;
+  history.time = trace.time;
   history.temperature.assign(trace.samples() * stations, model.initial_temperature);
   for (std::size_t sample = 0; sample < trace.samples(); ++sample)
     history.air_temperature.push_back(
@@ -102,50 +121,6 @@ SkinHistory integrate_reservoir(const SkinModel& model, const trace::BottomTrace
       was_ignited[station] = point.ignited;
     }
   }
-  return history;
-}
-
-}  // namespace
-
-SkinModel skin_model(const scene::Scene& scene) {
-  SkinModel model;
-  model.surface = scene.surface;
-  model.kinetics = scene.charge().kinetics;
-  model.charge_density = scene.charge().density;
-  model.specific_heat = scene.charge().specific_heat;
-  model.initial_temperature = scene.initial_temperature;
-  model.charge_conductivity = scene.charge().conductivity;
-  model.melting_temperature = scene.charge().melting_temperature;
-  model.heat_of_melting = scene.charge().heat_of_melting;
-  const scene::Body* under = scene::body_under_charge(scene);
-  const materials::Law base = under != nullptr ? scene::law_of(scene, *under) : materials::Law{scene.steel()};
-  model.base_density = materials::initial_density(base);
-  model.base_specific_heat = materials::heat_capacity(base);
-  model.base_conductivity = materials::heat_conductivity(base);
-  const bool insulated = scene.surface.base == scene::GapBase::insulated;
-  if (scene.surface.model == scene::GapModel::closing && insulated) model.base_conductivity = 0.0;
-  return model;
-}
-
-double heat_capacity_ratio(const SkinModel& model, double gap) {
-  const scene::Surface& s = model.surface;
-  return s.air.density * gap * s.air.specific_heat /
-         (model.charge_density * s.skin_thickness * model.specific_heat);
-}
-
-SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap) {
-  SkinHistory history;
-  const double open = model.surface.model == scene::GapModel::closing ? 0.0 : gap;
-  if (scene::closes(model.surface, gap)) {
-    history.air_temperature.assign(trace.samples(), math::not_a_number);
-    history.temperature.assign(trace.samples() * trace.stations.size(), math::not_a_number);
-  } else if (open > 0.0 && model.surface.air_model == scene::AirModel::film) {
-    history = integrate_film(model, trace, open).skin;
-  } else {
-    history = integrate_reservoir(model, trace, open);
-  }
-  history.gap = gap;
-  history.time = trace.time;
   if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) history.ignition.reset();
   return history;
 }
@@ -163,11 +138,6 @@ IgnitionOfGaps::IgnitionOfGaps(SkinModel model, const trace::BottomTrace& trace)
 }
 
 std::optional<bool> IgnitionOfGaps::operator()(double gap) const {
-  if (gap > 0.0 && model_.surface.air_model == scene::AirModel::film) {
-    const SkinHistory history = integrate_skin(model_, trace_, gap);
-    if (!all_finite(history.temperature) || !all_finite(history.air_temperature)) return std::nullopt;
-    return history.ignition.has_value();
-  }
   if (trace_.samples() == 0 || trace_.stations.empty() || !all_finite_) return std::nullopt;
   const detail::Intervals intervals(model_, trace_, gap);
   for (std::size_t first = 0; first < stations_; first += math::pack_width) {
@@ -182,7 +152,7 @@ std::optional<bool> IgnitionOfGaps::any_ignites(const detail::Intervals& interva
   std::vector<SkinPoint> points(count, SkinPoint{model_.initial_temperature});
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
     const Interval& interval = intervals_[i];
-    const detail::SkinEquation equation{intervals.exchange_rate(i), interval.air, interval.air_slope, 0.0};
+    const detail::SkinEquation equation{intervals.exchange_rate(), interval.air, interval.air_slope, 0.0};
     detail::advance(model_, equation, std::span(interval.heating).subspan(first, count), points,
                     intervals.length(i));
     const auto is_finite = [](const SkinPoint& point) { return std::isfinite(point.temperature); };
@@ -196,9 +166,7 @@ SkinPoint advance_skin(const SkinModel& model, double gap, SkinPoint point, doub
                        double air_end, double friction_heating) {
   const double ratio = heat_capacity_ratio(model, gap);
   detail::SkinEquation equation;
-  equation.exchange_rate = model.surface.exchange == scene::Exchange::per_step
-                               ? detail::per_step_rate(ratio, 1.0, dt)
-                               : ratio / model.surface.exchange_time;
+  equation.exchange_rate = ratio / model.surface.exchange_time;
   equation.air = air_begin;
   equation.air_slope = (air_end - air_begin) / dt;
   equation.heating = friction_heating;
@@ -301,14 +269,6 @@ double end_of(const SkinHistory& history) {
   return history.ignition ? history.ignition->time : history.time.back();
 }
 
-/// Highest pressure (Pa) on the air until a time (s).
-double highest_pressure(const detail::Intervals& intervals, const trace::BottomTrace& trace, double end) {
-  double highest = intervals.pressure_at(0);
-  for (std::size_t sample = 1; sample < trace.samples() && trace.time[sample] <= end; ++sample)
-    highest = std::max(highest, intervals.pressure_at(sample));
-  return highest;
-}
-
 bool belongs(const SkinHistory& history, const trace::BottomTrace& trace) {
   return trace.samples() > 0 && history.time.size() == trace.samples() &&
          history.temperature.size() == trace.samples() * trace.stations.size() &&
@@ -352,18 +312,8 @@ double compression_supply(const SkinModel& model, const trace::BottomTrace& trac
 
 AirEnergy audit_air(const SkinModel& model, const trace::BottomTrace& trace, const SkinHistory& history) {
   if (!belongs(history, trace)) return {};
-  if (!(history.gap > 0.0)) return {0.0, 0.0, 0.0, 0.0};
-  const materials::AirParameters& air = model.surface.air;
-  const double end = end_of(history);
-  const double highest = std::max(air.initial_pressure,
-                                  highest_pressure(detail::Intervals(model, trace, history.gap), trace, end));
-  AirEnergy energy;
-  energy.taken = heat_taken(model, trace, history);
-  energy.supplied = compression_supply(model, trace, history.gap, end);
-  energy.stored = air.density * history.gap * air.specific_heat / air.heat_ratio *
-                  (materials::adiabatic_temperature(air, highest) - air.initial_temperature);
-  energy.isothermal = air.initial_pressure * history.gap * std::log(highest / air.initial_pressure);
-  return energy;
+  if (!(history.gap > 0.0)) return {0.0, 0.0};
+  return {heat_taken(model, trace, history), compression_supply(model, trace, history.gap, end_of(history))};
 }
 
 }  // namespace launchsafe::surface

@@ -169,6 +169,13 @@ bool from_chamber(const SkinModel& model) {
   return model.surface.air_pressure == scene::AirPressure::chamber;
 }
 
+/// Share of Arrhenius heat in all that heats a solid at temperature T, 0 to 1. `outside` in K/s.
+double chemical_share(const SkinModel& model, double temperature, double outside) {
+  const double chemical = materials::arrhenius_heating(model.kinetics, model.specific_heat, temperature);
+  const double total = chemical + std::max(outside, 0.0);
+  return total > 0.0 ? chemical / total : 0.0;
+}
+
 }  // namespace
 
 Trigger trigger_of(const SkinModel& model) {
@@ -178,25 +185,6 @@ Trigger trigger_of(const SkinModel& model) {
       k.heat_of_reaction / (model.specific_heat * (k.burnt_temperature - k.ignition_temperature));
   if (gain >= 1.0) return {k.ignition_temperature, 1.0, true};
   return {k.ignition_temperature, 1.0 / (1.0 - gain), false};
-}
-
-double chemical_share(const SkinModel& model, double temperature, double outside) {
-  const double chemical = materials::arrhenius_heating(model.kinetics, model.specific_heat, temperature);
-  const double total = chemical + std::max(outside, 0.0);
-  return total > 0.0 ? chemical / total : 0.0;
-}
-
-void release(const SkinModel& model, const Trigger& trigger, SkinPoint& point, double before, double outside,
-             double time, double h) {
-  const double start = std::max(before, trigger.temperature);
-  if (!(point.temperature > start)) return;
-  const double arrival = (start - before) / (point.temperature - before);
-  if (!trigger.immediate) point.temperature = start + (point.temperature - start) * trigger.amplification;
-  if (!trigger.immediate && point.temperature < model.kinetics.burnt_temperature) return;
-  point.ignited = true;
-  point.ignition_time = time + arrival * h;
-  point.chemical_share = chemical_share(model, start, outside);
-  point.temperature = std::max(start, model.kinetics.burnt_temperature);
 }
 
 SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt) {
@@ -296,17 +284,10 @@ Intervals::Intervals(SkinModel model, const trace::BottomTrace& trace, double ga
       pressure_(from_chamber(model_) ? trace.chamber_pressure : trace.bottom_pressure),
       mean_(from_chamber(model_) ? trace.mean_chamber_pressure : trace.mean_bottom_pressure),
       friction_(friction_of(model_, trace)),
-      ratio_(heat_capacity_ratio(model_, gap)),
-      rate_of_step_(per_step_rate(ratio_, 1.0, 1.0)) {}
+      exchange_rate_(heat_capacity_ratio(model_, gap) / model_.surface.exchange_time) {}
 
 IntervalPressure Intervals::pressure(std::size_t interval) const {
   return {pressure_[interval], pressure_[interval + 1], mean_[interval + 1]};
-}
-
-double Intervals::exchange_rate(std::size_t interval) const {
-  if (model_.surface.exchange == scene::Exchange::per_step)
-    return rate_of_step_ * (trace_.steps[interval + 1] - trace_.steps[interval]) / length(interval);
-  return ratio_ / model_.surface.exchange_time;
 }
 
 double Intervals::friction_heating(std::size_t interval, std::size_t station) const {
@@ -317,10 +298,6 @@ double Intervals::friction_heating(std::size_t interval, std::size_t station) co
       (*friction_)[(interval + 1) * stations + station] - (*friction_)[interval * stations + station];
   return energy * model_.surface.localisation /
          (model_.charge_density * model_.specific_heat * length(interval));
-}
-
-double per_step_rate(double ratio, double steps, double length) {
-  return -std::log1p(-ratio) * steps / length;
 }
 
 }  // namespace launchsafe::surface::detail

@@ -34,7 +34,7 @@ std::vector<double> picked_rows(const std::vector<double>& values, std::size_t w
 
 BottomTrace with_samples(const BottomTrace& trace, const std::vector<std::size_t>& kept) {
   BottomTrace result = trace;
-  for (auto* values : {&result.time, &result.chamber_pressure, &result.bottom_pressure, &result.steps})
+  for (auto* values : {&result.time, &result.chamber_pressure, &result.bottom_pressure})
     *values = picked_rows(*values, 1, kept);
   for (auto* means : {&result.mean_chamber_pressure, &result.mean_bottom_pressure})
     *means = combined_means(trace.time, *means, kept);
@@ -136,7 +136,6 @@ BottomTrace delayed(const BottomTrace& trace, double instant, double delay) {
 
 BottomTrace stretched(BottomTrace trace, double factor) {
   for (double& time : trace.time) time *= factor;
-  for (double& steps : trace.steps) steps *= factor;
   return trace;
 }
 

@@ -91,7 +91,7 @@ TEST_F(ExplainedProgram, HasEveryKeyOfAReaderInItsSchemaWithUnitRangeAndExample)
     EXPECT_TRUE(found.contains(number)) << number;
   const Json& faces = schema["properties"]["interface"]["additionalProperties"];
   EXPECT_EQ(faces["anyOf"], Json::parse(R"([{"required": ["condition"]}, {"required": ["contact"]}])"));
-  EXPECT_TRUE(faces["properties"].contains("shear_strength"));
+  EXPECT_TRUE(faces["properties"].contains("friction"));
 }
 
 TEST_F(ExplainedProgram, TellsTheEarliestAndTheLatestTimeOfAnExit) {

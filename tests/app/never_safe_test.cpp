@@ -381,9 +381,7 @@ INSTANTIATE_TEST_SUITE_P(
                       "title ="},
                  {"study.toml", "confirm = false",
                   "confirm = false\nset = { interface = { wall = { friction = 0.2 } } }"}},
-                "wall sliding, friction 0.2"},
-        Mistake{"FilmAcceptedByItself", accepted("gap.air", "film", "air = \"reservoir\"", "air = \"film\""),
-                "optimistic"}),
+                "wall sliding, friction 0.2"}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The skin of one gap on the finished trace of a coarse launch, with either model of the air.
+// The skin of one gap on the finished trace of a coarse launch.
 #include "launchsafe/run/run_case.hpp"
 #include "launchsafe/scene/read_scene.hpp"
 
@@ -8,18 +8,16 @@ namespace {
 
 using namespace launchsafe;
 
-void gap_on_a_trace(benchmark::State& state, scene::AirModel air) {
+void gap_on_a_trace(benchmark::State& state) {
   scene::Scene scene = scene::read_scene(LAUNCHSAFE_SOURCE_DIR "/studies/scene_155mm.toml").value().scene;
   scene.numerics.cell_size = 20e-3;
   scene.numerics.inertial_scaling = 400.0;
-  scene.surface.air_model = air;
   const trace::BottomTrace trace = run::run_mechanics(scene).trace;
   for ([[maybe_unused]] const auto _ : state) {
     run::GapResult gap = run::evaluate_gap(scene, trace, 4e-4);
     benchmark::DoNotOptimize(gap);
   }
 }
-BENCHMARK_CAPTURE(gap_on_a_trace, reservoir, scene::AirModel::reservoir)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(gap_on_a_trace, film, scene::AirModel::film)->Unit(benchmark::kMillisecond);
+BENCHMARK(gap_on_a_trace)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -30,11 +30,11 @@ std::string variant(const std::string& name, const std::string& set) {
 
 TEST(Comparison, TheSceneItselfComesFirstAndEveryVariantHasItsOwnScene) {
   const StudyFile study = comparison_of(variant("coarse", "numerics.cell_size = \"2.5 mm\"") +
-                                        variant("film", "gap.air = \"film\""));
+                                        variant("chamber", "gap.pressure = \"chamber\""));
   ASSERT_EQ(study.cases.size(), 3u);
   EXPECT_EQ(study.cases[0].scene.scene.numerics.cell_size, study.scene.scene.numerics.cell_size);
   EXPECT_EQ(study.cases[1].scene.scene.numerics.cell_size, 2.5e-3);
-  EXPECT_EQ(study.cases[2].scene.scene.surface.air_model, scene::AirModel::film);
+  EXPECT_EQ(study.cases[2].scene.scene.surface.air_pressure, scene::AirPressure::chamber);
   EXPECT_TRUE(study.cases[1].label.starts_with("coarse: ")) << study.cases[1].label;
 }
 
@@ -65,8 +65,8 @@ TEST(Comparison, AVariantOutsideTheCalibrationIsIndeterminateUntilItAcceptsThat)
   EXPECT_EQ(accepted.kind, CriticalGapKind::value) << text_of(accepted.reason);
   EXPECT_EQ(accepted.value, unknown.indicative);
   const auto foreign = critical(
-      bonded + variant("other", "gap.air = \"film\"") +
-      "accept = [{ key = \"gap.air\", value = \"film\", because = \"of the other variant alone\" }]\n");
+      bonded + variant("other", "gap.pressure = \"chamber\"") +
+      "accept = [{ key = \"gap.pressure\", value = \"chamber\", because = \"of the other alone\" }]\n");
   EXPECT_EQ(foreign.kind, CriticalGapKind::indeterminate);
 }
 
@@ -113,9 +113,8 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
                                         calibrated("no_crack_friction") +
                                         accepted("charge.crack_friction", "false");
   const std::string others =
-      variant("inelastic", "friction.closure = \"inelastic\"") + calibrated("inelastic") +
-      variant("film", "gap.air = \"film\"") + calibrated("film") + accepted("gap.air", "film") +
-      no_crack_friction + variant("station_10mm", "station.width = \"10 mm\"") + calibrated("station_10mm");
+      variant("inelastic", "friction.closure = \"inelastic\"") + calibrated("inelastic") + no_crack_friction +
+      variant("station_10mm", "station.width = \"10 mm\"") + calibrated("station_10mm");
   const ComparisonResult result =
       run_comparison(study_of(start + bonded + "description = \"glued\"\n" + calibrated("bonded") + others),
                      synthetic_options());
@@ -125,7 +124,7 @@ TEST(Comparison, OfCalibratedModelsWritesTheRecordOfOtherModels) {
   const auto record = parse_model_form(files[0].text, files[0].name);
   ASSERT_TRUE(record) << record.error().message();
   EXPECT_EQ(record->peak_pressures, (std::vector<double>{450e6, 496e6}));
-  ASSERT_EQ(record->alternatives.size(), 5u);
+  ASSERT_EQ(record->alternatives.size(), 4u);
   EXPECT_EQ(record->alternatives[0].critical_gap[1], result.answers[2].critical.value);
   const auto plot_of = [](const ComparisonResult& of) {
     for (const auto& item : report_of(of).items)
@@ -166,9 +165,10 @@ TEST(Comparison, AVariantTakesTheFitUncertaintyOfItsOwnCalibration) {
 // With constants it would be another study.
 TEST(Comparison, RestsOnTheRecordOfACalibrationThatFailed) {
   const std::string start = "kind = \"comparison\"\nscene = \"scene_155mm.toml\"\ngaps = \"0 cm\"\n" +
-                            variants_follow + variant("film", "gap.air = \"film\"");
+                            variants_follow + variant("no_crack_friction", "charge.crack_friction = false");
   const std::size_t without = study_of(start).records.size();
-  EXPECT_EQ(study_of(start + "calibration = \"../reports/model_form/film/calibration/calibration.json\"\n")
+  EXPECT_EQ(study_of(start + "calibration = "
+                             "\"../reports/model_form/no_crack_friction/calibration/calibration.json\"\n")
                 .records.size(),
             without + 1);
 }
@@ -188,8 +188,8 @@ TEST(Comparison, FaultsNameTheVariant) {
   EXPECT_NE(gaps.find("vary.variants.set.gap.thickness: found gaps of a variant"), std::string::npos) << gaps;
   const std::string same = fault(variants_follow + "[[vary.variants]]\nname = \"a\"\n");
   EXPECT_NE(same.find("\"a\", which is the scene as it is"), std::string::npos) << same;
-  const std::string twice = fault(variants_follow + variant("a", "gap.air = \"film\"") +
-                                  variant("a", "gap.exchange = \"per-step\""));
+  const std::string twice = fault(variants_follow + variant("a", "gap.pressure = \"chamber\"") +
+                                  variant("a", "station.width = \"10 mm\""));
   EXPECT_NE(twice.find("vary.variants.name: found \"a\" a second time"), std::string::npos) << twice;
   const std::string both = fault(two_pressures + variants_follow + variant("a", "load.peak = \"500 MPa\""));
   EXPECT_NE(both.find("vary.key: found load.peak"), std::string::npos) << both;

@@ -92,7 +92,7 @@ TEST(ReadStability, ARefusalOfTheStudysOverridesIsNotTheOneThatACaseExpects) {
       "[[group]]\nname = \"load\"\nrefused = \"bonded\"\n" +
           cases("scene = \"stability/small_shell.toml\", set = { load.peak = \"1 GPa\" }") +
           "[set]\ninterface.wall.friction = 0.1\n",
-      {9, "set.interface.wall.friction", "0.1 on faces that are bonded for good"});
+      {9, "set.interface.wall.friction", "0.1 on bonded faces"});
 }
 
 TEST(ReadStability, FaultsNameTheTableTheKeyAndTheLine) {

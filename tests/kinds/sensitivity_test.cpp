@@ -69,33 +69,6 @@ void expect_holds(const math::Estimate& estimate, double expected, const std::st
   EXPECT_LT(estimate.upper - estimate.lower, 0.3) << what;
 }
 
-TEST(Sensitivity, OfAGapThatClosesIsThatOfItsLaunches) {
-  std::string text = linear_text("method = \"polynomial-chaos\"\nsamples = 20\nheld_out = 30\nseed = 7\n");
-  text.replace(text.find("\"0 cm\""), 6, "\"0.02 cm\"");
-  text.replace(text.find("gap.exchange_time = \"0.36 ms\""), 29,
-               "gap.model = \"closing\"\ninterface.base = { condition = \"sliding\", friction = 0 }");
-  StudyOptions options;
-  options.runners.with_skin = [](const scene::Scene& scene, double gap, const run::RunOptions&) {
-    EXPECT_TRUE(scene::closes(scene.surface, gap));
-    run::CaseResult result;
-    result.mechanics = synthetic_mechanics(scene);
-    result.gaps.emplace_back().gap = gap;
-    result.gaps.back().at_stations.temperature = 300.0 + 0.1 * scene.surface.localisation;
-    return result;
-  };
-  const StudyFile study = study_of(text);
-  const SensitivityResult result = run_sensitivity(study, options);
-  ASSERT_EQ(result.outputs.size(), 2u) << "there is no critical gap";
-  const OutputSensitivity& hottest = output_of(result, SensitivityOutput::maximum_temperature);
-  EXPECT_EQ(hottest.reason, "");
-  EXPECT_EQ(hottest.missing, 0u);
-  ASSERT_EQ(hottest.values.size(), 50u);
-  for (std::size_t i = 0; i < hottest.values.size(); ++i)
-    EXPECT_DOUBLE_EQ(hottest.values[i], 300.0 + 0.1 * study.cases.coordinates(i)[0]);
-  ASSERT_TRUE(hottest.fit);
-  EXPECT_FALSE(report_of(result).items.empty());
-}
-
 // The same margin as below, from 50 launches instead of 1 280: a polynomial of the first degree is exact.
 TEST(Sensitivity, APolynomialFittedToFewLaunchesHasTheIndicesOfALinearMargin) {
   const StudyFile study = study_of(

@@ -113,23 +113,10 @@ TEST(CriticalGapReport, SeveralCasesHaveNoSingleCriticalGap) {
   EXPECT_NE(kinds::answer(result).find("400 MPa"), std::string::npos);
 }
 
-TEST(CriticalGapReport, ThePageNamesHeldOutRowsAndNoPathOfThisMachine) {
-  const std::string page = report::to_markdown(kinds::report_of(one_case()));
-  EXPECT_NE(page.find("held out"), std::string::npos);
-  for (const std::string& text : {page, json_of(one_case()).dump()})
+TEST(CriticalGapReport, NamesNoPathOfThisMachine) {
+  for (const std::string& text :
+       {report::to_markdown(kinds::report_of(one_case())), json_of(one_case()).dump()})
     EXPECT_EQ(text.find(LAUNCHSAFE_SOURCE_DIR), std::string::npos);
-}
-
-TEST(CriticalGapReport, WhatFollowsIgnitionUnderScaledInertiaIsIndicative) {
-  CriticalGapResult result = one_case();
-  CaseOutcome& outcome = result.details.at(0);
-  outcome.confirmations.at(1).combustion.emplace();
-  for (const double selective : {1.0, 4.0}) {
-    outcome.input.scene.scene.numerics.selective_inertia = selective;
-    const std::string page = report::to_markdown(kinds::report_of(result));
-    EXPECT_EQ(page.find("What follows ignition is indicative: inertia is scaled by up to 16") != page.npos,
-              selective > 1.0);
-  }
 }
 
 // What a cause moves the critical gap by is less than a wide bracket: with 0.005 cm the shipped study had a
@@ -172,68 +159,9 @@ TEST(CriticalGapReport, ThePictureIsThatOfSafetyReports) {
   ASSERT_TRUE(measured);
   EXPECT_EQ(plot.vertical_bands[0].from, std::max(0.0, measured->lower()));
   EXPECT_EQ(plot.vertical_bands[0].to, measured->upper());
-  EXPECT_TRUE(plot.title.ends_with("critical gap by a reservoir of air " + measured->text("cm")))
-      << plot.title;
+  EXPECT_TRUE(plot.title.ends_with(measured->text("cm"))) << plot.title;
   ASSERT_EQ(plot.vertical_lines.size(), 1u);
   EXPECT_EQ(plot.vertical_lines[0].label, "critical gap");
-}
-
-// By hand: the corner ignites at 0 cm, and at 0.03 cm, where nothing else does.
-TEST(CriticalGapReport, ThePictureOfGapsThatCloseHasNoLineToWhatIgnites) {
-  CriticalGapResult result = one_case();
-  CaseOutcome& outcome = result.details.at(0);
-  outcome.input.closing = outcome.input.scene.scene.surface;
-  outcome.closing = {
-      {"conducting",
-       {{.gap = 0.0, .maximum_temperature = 390.0}, {.gap = 3e-4, .maximum_temperature = 400.0}},
-       3e-4},
-      {"corner", {{.gap = 0.0, .ignited = true}, {.gap = 3e-4, .ignited = true}}, not_a_number, 0.0},
-  };
-  const report::Report report = kinds::report_of(result);
-  const report::Plot* plot = nullptr;
-  for (const auto& item : report.items)
-    if (const auto* picture = std::get_if<report::Picture>(&item); picture && picture->file == "closing.svg")
-      plot = &picture->plot;
-  ASSERT_NE(plot, nullptr);
-  EXPECT_TRUE(plot->title.starts_with("Below ignition T max is at most 400 K where the gap closes, "))
-      << plot->title;
-  EXPECT_TRUE(plot->title.ends_with("; closing, worst corner ignites from 0 cm on")) << plot->title;
-  const double ignition = plot->horizontal_lines.at(0).at;
-  std::vector<double> first_gaps;
-  for (const report::Series& series : plot->series) {
-    if (series.style == report::Style::points) {
-      EXPECT_GT(series.y.at(0), ignition) << series.label;
-      first_gaps.push_back(series.x.at(0));
-      continue;
-    }
-    for (const double temperature : series.y) EXPECT_FALSE(temperature >= ignition) << series.label;
-  }
-  EXPECT_EQ(first_gaps, (std::vector<double>{100.0 * outcome.critical.value, 0.0}));
-}
-
-TEST(CriticalGapReport, WhatTheWorstEndsAddIsToldOfGapsThatClose) {
-  // Each on the bound before it: 2, 3, 4 and 11 K, and melting on the insulated base alone.
-  CriticalGapResult result = one_case();
-  CaseOutcome& outcome = result.details.at(0);
-  outcome.input.closing = outcome.input.scene.scene.surface;
-  for (const auto& [name, temperature] : {std::pair("conducting", 400.0),
-                                          {"insulated", 402.0},
-                                          {"melting", 380.0},
-                                          {"smooth", 405.0},
-                                          {"flowing", 409.0},
-                                          {"corner", 420.0}})
-    outcome.closing.push_back(
-        {name,
-         {{.gap = 0.0, .maximum_temperature = 390.0}, {.gap = 3e-4, .maximum_temperature = temperature}}});
-  const auto rows = json_of(result)["closing_shares"];
-  ASSERT_EQ(rows.size(), 1u) << "without a gap nothing closes";
-  EXPECT_DOUBLE_EQ(rows[0]["own_terms_K"], 400.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_base_K"], 2.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_roughness_K"], 3.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_air_flow_K"], 4.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_release_K"], 11.0);
-  EXPECT_DOUBLE_EQ(rows[0]["corner_K"], 420.0);
-  EXPECT_DOUBLE_EQ(rows[0]["of_melting_K"], -22.0);
 }
 
 TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
@@ -242,7 +170,7 @@ TEST(CriticalGapReport, AnIndeterminateCriticalGapIsWordsInThePicture) {
   const report::Plot plot = kinds::temperature_plot(result);
   EXPECT_TRUE(plot.vertical_bands.empty());
   EXPECT_TRUE(plot.vertical_lines.empty());
-  EXPECT_TRUE(plot.title.ends_with("; critical gap by a reservoir of air indeterminate")) << plot.title;
+  EXPECT_TRUE(plot.title.ends_with("indeterminate")) << plot.title;
 }
 
 TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
@@ -270,7 +198,7 @@ TEST(CriticalGapReport, SixCasesHaveTheirCriticalGapsInAPictureOfTheirOwn) {
   EXPECT_EQ(report::to_markdown(kinds::report_of(one_case())).find("critical_gap.svg"), std::string::npos);
 }
 
-TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
+TEST(CalibrationReport, HoldsWhatTheEvidenceSupports) {
   // The synthetic launch has one load, whatever the scene says.
   StudyFile shipped = *read_study(studies_folder / "calibrate_table8.toml");
   kinds::settings_of<kinds::CalibrationSettings>(shipped.study).load_fitted = false;
@@ -282,9 +210,6 @@ TEST(CalibrationReport, SaysWhatTheEvidenceSupports) {
   EXPECT_FALSE(json["placements"].empty());
   ASSERT_TRUE(result.recommended_row.has_value()) << result.reason;
   EXPECT_FALSE(kinds::constants_table(result).rows.empty());
-  const std::string page = report::to_markdown(kinds::report_of(result));
-  EXPECT_NE(page.find("The scene should hold"), std::string::npos);
-  EXPECT_NE(page.find("ignition time"), std::string::npos);
   EXPECT_EQ(report::render_report(kinds::report_of(result)).files.size(), 5u);
 }
 

@@ -346,12 +346,10 @@ TEST(SweepPictures, TheTitleTellsOfOneLineAndWhatDoesNotVary) {
         (lowest == nullptr || drawn[i].y[0] < lowest->y[0]))
       lowest = &drawn[i];
   ASSERT_NE(lowest, nullptr);
-  EXPECT_EQ(
-      made.pictures[0].plot.title,
-      fmt::format("Critical gap by a reservoir of air falls from {} cm at 350 MPa to {} cm at 600 MPa, {}, "
-                  "flaw size 0.5 mm",
-                  report::significant(lowest->y.front(), 2), report::significant(lowest->y.back(), 2),
-                  lowest->label));
+  EXPECT_EQ(made.pictures[0].plot.title,
+            fmt::format("Critical gap falls from {} cm at 350 MPa to {} cm at 600 MPa, {}, flaw size 0.5 mm",
+                        report::significant(lowest->y.front(), 2), report::significant(lowest->y.back(), 2),
+                        lowest->label));
 }
 
 TEST(SweepPictures, MoreThanTwoAxesMakeNoPicture) {

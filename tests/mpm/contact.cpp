@@ -1,4 +1,4 @@
-// Contact of faces that can slide: against the tie, closed solutions, and its own balance.
+// Contact of faces that can slide: against closed solutions, and its own balance.
 #include "contact_scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -11,31 +11,6 @@ namespace {
 
 using namespace launchsafe;
 using namespace launchsafe::test_support;
-
-TEST(Contact, ABondHeldByContactIsTheTie) {
-  const auto run = [](bool by_contact, double damping_time) {
-    scene::Scene shell = held_shell();
-    shell.numerics.damping_time = damping_time;
-    shell.load = steady_pressure(300e6);
-    shell.numerics.inertial_scaling = 4.0;
-    if (by_contact) shell.interfaces = {held("wall"), held("base"), held("nose")};
-    LoadedSimulation simulation(shell);
-    go_until(simulation, 2e-4);
-    std::vector<double> all;
-    simulation.for_each_body(
-        [&](const mpm::ParticleFields& p) { all.insert(all.end(), p.pressure.begin(), p.pressure.end()); });
-    all.push_back(simulation.energy().internal);
-    return all;
-  };
-  for (const double damping_time : {0.0, 1e-4}) {
-    const std::vector<double> tied = run(false, damping_time), held = run(true, damping_time);
-    const double largest = *std::max_element(tied.begin(), tied.end());
-    double worst = 0.0;
-    for (std::size_t i = 0; i < tied.size(); ++i)
-      worst = std::max(worst, std::abs(held[i] - tied[i]) / largest);
-    EXPECT_LT(worst, 1e-12);
-  }
-}
 
 TEST(Contact, ClosesTheEnergyBalance) {
   for (const double friction : {0.0, 0.05, 0.1, 1.0})
@@ -137,33 +112,6 @@ TEST(Contact, ABouncingBlockGainsNoEnergy) {
   EXPECT_LT(drift, 1e-5);     // the second power of strains of some 1e-4
 }
 
-TEST(Contact, ABondBreaksAtItsStrength) {
-  // The block's body force pulls with rho h a everywhere; along the face more at its ends, where it unzips.
-  const double strength = 5e6, full = strength / (block_density * block_height);
-  for (const bool shear : {false, true}) {
-    scene::Interface bond = sliding("", 0.0);
-    bond.tension_strength = shear ? 1e12 : strength;
-    bond.shear_strength = shear ? strength : 1e12;
-    scene::Scene scene = block_on_floor(bond);
-    scene.numerics.damping_time = 2e-5;
-    LoadedSimulation simulation(scene);
-    const auto pull = [&](double force, int steps) {
-      pull_slowly(simulation, shear ? force : 0.0, shear ? 0.0 : force, steps);
-      const auto nodes = simulation.total_lagrangian()->contact().state_of(0);
-      return std::count_if(nodes.begin(), nodes.end(), [](const auto& node) { return !node.bonded; });
-    };
-    double force = 0.8 * full;
-    EXPECT_EQ(pull(force, 1000), 0);
-    while (pull(1e-3 * full, 10) == 0) force += 1e-3 * full;
-    if (shear) {
-      EXPECT_LT(force / full, 1.0);
-    } else {
-      EXPECT_NEAR(force / full, 1.0, 0.01);
-    }
-    EXPECT_EQ(pull(1e-3 * full, 500), 17);
-  }
-}
-
 TEST(Contact, ABarIsHeldBackInASleeveByFrictionTimesItsGrip) {
   // The sleeve is pressed on the bar by its own body force: p = rho t a. It is shorter than the bar, whose
   // nodes come in at one end and leave at the other.
@@ -257,39 +205,6 @@ TEST(Contact, FrictionCarriesAColumnInATubeAsInASilo) {
     const double depth = 2.0 * friction * (0.25 / 0.75) * 0.1 / 0.02;
     EXPECT_NEAR(bottom, (1.0 - std::exp(-depth)) / depth, allowed) << friction;
     EXPECT_NEAR(bottom + side, 1.0, 1e-4) << friction;
-  }
-}
-
-TEST(Contact, WhatIsLoosenedBearsTheShareOfWhatItBore) {
-  // Held until then; the block is then accelerated by the rest of its body force, along the floor and away.
-  const double share = 0.4;
-  for (const auto& [along, across] : {std::pair{1000.0, 0.0}, {0.0, 1000.0}}) {
-    scene::Scene scene = block_on_floor(sliding("", 0.0));
-    scene.numerics.damping_time = 2e-5;
-    LoadedSimulation simulation(scene);
-    mpm::Contact& contact = simulation.total_lagrangian()->contact();
-    contact.hold(0);
-    pull_slowly(simulation, along, across, 800);
-    pull_slowly(simulation, 0.0, 0.0, 800);
-    EXPECT_LT(contact.state_of(0)[4].largest_gap, 1e-12);
-    contact.loosen(share);
-    const double dt = simulation.stable_time_step();
-    for (int step = 0; step < 400; ++step) simulation.step(dt);
-    // Where damping has v = k (v + a dt), k the share that it leaves.
-    const double left = std::exp(-dt / scene.numerics.damping_time);
-    const double limit = (1.0 - share) * 1000.0 * dt * left / (1.0 - left);
-    const mpm::FaceState state = contact.state_of(0)[8];
-    const mpm::ParticleFields& block = mpm::particle_fields_of(simulation.bodies()[1]);
-    const auto& velocity = along > 0.0 ? block.velocity_x : block.velocity_r;
-    const double mean = std::accumulate(velocity.begin(), velocity.end(), 0.0) / velocity.size();
-    EXPECT_NEAR(mean, limit, 1e-3 * limit);
-    if (across > 0.0) {
-      EXPECT_NEAR(state.pressure, -share * block_density * block_height * across, 1.0);
-    }
-    contact.loosen(0.0);
-    simulation.step(dt);
-    EXPECT_EQ(contact.state_of(0)[8].shear, 0.0);
-    EXPECT_GE(contact.state_of(0)[8].pressure, 0.0);
   }
 }
 

@@ -26,15 +26,6 @@ inline scene::Interface sliding(const std::string& body, double friction) {
   return {.body = body, .condition = scene::Condition::sliding, .friction = friction};
 }
 
-/// A bond that nothing breaks, held by contact rather than by the tie.
-inline scene::Interface held(const std::string& body) {
-  return {.body = body,
-          .condition = scene::Condition::bonded,
-          .friction = 0.1,
-          .tension_strength = 1e18,
-          .shear_strength = 1e18};
-}
-
 inline void go_until(LoadedSimulation& simulation, double end) {
   while (simulation.time() < end) simulation.step(simulation.stable_time_step());
 }

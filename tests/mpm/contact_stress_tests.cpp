@@ -30,7 +30,6 @@ struct ContactWatch {
     const mpm::Contact& contact = simulation.total_lagrangian()->contact();
     for (std::size_t f = 0; f < contact.faces(); ++f)
       for (const mpm::FaceState& node : contact.state_of(f)) {
-        if (node.bonded) continue;
         deepest = std::min(deepest, node.gap);
         least_pressure = std::min(least_pressure, node.pressure);
         largest = std::max(largest, node.pressure);
@@ -290,21 +289,11 @@ TEST(ContactStressTests, TheLargestFrictionIsABond) {
     pull_slowly(simulation, 0.0, -1e5, 400);
     pull_slowly(simulation, 1e4, 0.0, 400);
     go_until(simulation, simulation.time() + 5e-4);
-    math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).pressure;
-    for (const mpm::FaceState& node : simulation.total_lagrangian()->contact().state_of(0))
-      all.push_back(node.shear);
-    return all;
+    return mpm::particle_fields_of(simulation.bodies()[1]).pressure;
   };
-  const math::AlignedArray bonded = run(held("")), rubbing = run(sliding("", 10.0));
+  const math::AlignedArray bonded = run({}), rubbing = run(sliding("", 10.0));
   for (std::size_t i = 0; i < bonded.size(); ++i)
     EXPECT_NEAR(rubbing[i], bonded[i], 1e-4 * block_density * block_height * 1e5);
-}
-
-void break_bonds_of(scene::Scene& shell, double strength) {
-  for (scene::Interface& faces : shell.interfaces) {
-    faces.condition = scene::Condition::bonded;
-    faces.tension_strength = faces.shear_strength = strength;
-  }
 }
 
 /// A load that jumps between nothing and 496 MPa.
@@ -366,30 +355,8 @@ INSTANTIATE_TEST_SUITE_P(
                           s.load.peak = 200e6;  // past 400 MPa the charge flows out round it
                         },
                         1e-5},
-        DemandingLaunch{"BondsThatBreakOnTheWay", [](scene::Scene& s) { break_bonds_of(s, 5e6); }},
-        DemandingLaunch{"BondsThatBreakAtOnce",
-                        [](scene::Scene& s) {
-                          s.load = steady_pressure(496e6, 2e-3);
-                          break_bonds_of(s, 1e6);
-                        }},
         DemandingLaunch{"PlaneStrain", [](scene::Scene& s) { s.symmetry = scene::Symmetry::plane_strain; }},
         DemandingLaunch{"LongestProvedSteps", [](scene::Scene& s) { s.numerics.time_step_factor = 0.68; }}),
     [](const auto& each) { return std::string(each.param.name); });
-
-TEST(ContactStressTests, NoNumberOfThreadsChangesABitOfBreakingBonds) {
-  const auto run = [](int threads) {
-    scene::Scene shell = held_shell();
-    shell.interfaces = {sliding("wall", 0.1), sliding("base", 0.1), sliding("nose", 0.1)};
-    shell.bodies[2].x_begin = 0.2;
-    shell.load = steady_pressure(100e6);
-    break_bonds_of(shell, 1e6);
-    LoadedSimulation simulation(shell, threads);
-    for (int step = 0; step < 400; ++step) simulation.step(simulation.stable_time_step());
-    math::AlignedArray all = mpm::particle_fields_of(simulation.bodies()[1]).velocity_r;
-    all.push_back(simulation.energy().contact);
-    return all;
-  };
-  EXPECT_EQ(run(2), run(1));
-}
 
 }  // namespace

@@ -15,46 +15,31 @@ using namespace kinds;
 
 using testing::has_digits, testing::in_order;
 
-constexpr scene::AirModel reservoir = scene::AirModel::reservoir;
-
 /// An open gap (m) from which the skin took so much and could get so much, J/m2.
-AuditedGap taken(double gap, double energy, double supply) {
-  return {"", gap, {energy, supply, 0.7 * supply, 0.3 * supply}};
-}
+AuditedGap taken(double gap, double energy, double supply) { return {"", gap, {energy, supply}}; }
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(AirEnergyStatement, NamesTheGapWhereMostWasTakenAgainstItsSupply) {
-  const std::string text = air_energy_statement(
-      reservoir, {taken(0.0, 0.0, 0.0), taken(2e-4, 15000, 500), taken(4e-4, 32700, 925)});
+  const std::string text =
+      air_energy_statement({taken(0.0, 0.0, 0.0), taken(2e-4, 15000, 500), taken(4e-4, 32700, 925)});
   // 32.7 over 0.925 is 35.4; at the other gap 15 over 0.5 is 30.
   EXPECT_TRUE(in_order(text, {"0.04 cm", "35 times", "32.7 kJ/m2", "0.925 kJ/m2"}));
-  EXPECT_TRUE(in_order(text, {"not conserved", "calibrated", "impact"}));
 }
 
-TEST(AirEnergyStatement, SaysOtherwiseWhereNoMoreWasTakenThanCanBe) {
-  const std::string text = air_energy_statement(reservoir, {taken(4e-4, 290, 925)});
-  EXPECT_TRUE(in_order(text, {"reservoir", "0.31 times", "0.04 cm", "impact"}));
-  EXPECT_FALSE(says(text, "calibrated")) << text;
-}
-
-// A film resolves the charge in depth: the heat of a skin of one temperature says nothing of it.
-TEST(AirEnergyStatement, OfAFilmComparesNothing) {
-  const std::string text = air_energy_statement(scene::AirModel::film, {taken(4e-4, 1000, 925)});
-  EXPECT_TRUE(in_order(text, {"film", "impact"}));
-  EXPECT_FALSE(has_digits(text)) << text;
+TEST(AirEnergyStatement, NamesTheShareWhereNoMoreWasTakenThanCanBe) {
+  EXPECT_TRUE(in_order(air_energy_statement({taken(4e-4, 290, 925)}), {"0.31 times", "0.04 cm"}));
 }
 
 TEST(AirEnergyStatement, WithoutAComputedGapClaimsNothing) {
   for (const auto& gaps : {std::vector<AuditedGap>{}, {AuditedGap{"", 4e-4, {}}}, {taken(0.0, 0.0, 0.0)}}) {
-    const std::string text = air_energy_statement(reservoir, gaps);
+    const std::string text = air_energy_statement(gaps);
     EXPECT_FALSE(has_digits(text)) << text;
   }
 }
 
 TEST(AirEnergyTable, HasARowForEveryGapWithUnits) {
-  const Table table = air_energy_table(reservoir, {taken(0.0, 0.0, 0.0), taken(4e-4, 32700, 925)});
-  EXPECT_EQ(table.title, "The energy of the air");
+  const Table table = air_energy_table({taken(0.0, 0.0, 0.0), taken(4e-4, 32700, 925)});
   const auto rows = json_rows(table);
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_NEAR(rows[1]["gap_cm"].get<double>(), 0.04, 1e-12);
@@ -63,8 +48,8 @@ TEST(AirEnergyTable, HasARowForEveryGapWithUnits) {
   EXPECT_NEAR(rows[1]["taken_over_supplied"].get<double>(), 35.35, 0.01);
   EXPECT_TRUE(rows[0]["taken_over_supplied"].is_null());
   EXPECT_FALSE(rows[0].contains("case"));
-  EXPECT_EQ(table.notes.back(), air_energy_statement(reservoir, {taken(4e-4, 32700, 925)}));
-  EXPECT_TRUE(air_energy_table(reservoir, {}).rows.empty());
+  EXPECT_EQ(table.notes.back(), air_energy_statement({taken(4e-4, 32700, 925)}));
+  EXPECT_TRUE(air_energy_table({}).rows.empty());
 }
 
 const std::string limited_study = study::critical_text + "gaps = \"0, 0.03 cm\"\nconfirm = false\n" +
@@ -75,8 +60,6 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
   const study::StudyFile file = study::study_of(limited_study + study::synthetic_constants);
   const auto result = kinds::run_critical_gap(file, study::synthetic_options());
   const std::string page = to_markdown(report_of(result));
-  EXPECT_TRUE(says(page, "The energy of the air")) << page;
-  EXPECT_TRUE(says(page, "Cited limits of the gap"));
   EXPECT_TRUE(says(page, "underwater experiments"));
   const auto json = json_of(result);
   EXPECT_GT(json["verdicts"][1]["taken_over_supplied"].get<double>(), 1.0);
@@ -91,15 +74,14 @@ TEST(CriticalGapReport, SaysWhatTheSkinTookAndWhatOthersFound) {
 TEST(CriticalGapReport, WithoutCitedLimitsHasNoTableOfThem) {
   const study::StudyFile file = study::study_of(study::critical_text + study::synthetic_constants);
   const auto result = kinds::run_critical_gap(file, study::synthetic_options());
-  EXPECT_FALSE(says(to_markdown(report_of(result)), "Cited limits"));
   EXPECT_TRUE(json_of(result)["cited_limits"].empty());
 }
 
 TEST(SweepReport, SaysWhatTheSkinTookWhereItTookMost) {
   kinds::CriticalGapResult result = made_sweep();
   EXPECT_FALSE(has_digits(critical_gap_table(result).notes.back()));
-  result.answers[0].verdicts[1].air = {7000, 230, 160, 70};
-  result.answers[3].verdicts[3].air = {32700, 925, 660, 286};
+  result.answers[0].verdicts[1].air = {7000, 230};
+  result.answers[3].verdicts[3].air = {32700, 925};
   const std::string note = critical_gap_table(result).notes.back();
   EXPECT_TRUE(in_order(note, {"0.039 cm", "350 MPa, 50 µm", "35 times"}));
   EXPECT_TRUE(says(to_markdown(report_of(result)), note));
@@ -121,7 +103,7 @@ TEST(SweepReport, CitedLimitsStandBesideTheNearestPressure) {
   EXPECT_NEAR(rows[0]["difference_cm"].get<double>(), 0.0015, 1e-9);
   EXPECT_NEAR(rows[1]["critical_gap_cm"].get<double>(), 0.0395, 1e-9);
   EXPECT_TRUE(rows[1]["difference_cm"].is_null()) << "2 % off the pressure of the limit";
-  EXPECT_TRUE(says(to_markdown(report_of(result)), "Cited limits of the gap"));
+  EXPECT_TRUE(says(to_markdown(report_of(result)), "a simulated pressure"));
 }
 
 }  // namespace

@@ -161,26 +161,6 @@ TEST(CasePictures, OfEnergiesHaveTheTermsThatAreMoreThanRoundOff) {
   EXPECT_EQ(energy.series[0].y.back(), std::abs(run.result.mechanics.monitor.back().energy.external));
 }
 
-TEST(CasePictures, OfTheAirOfGapsThatCloseAreAgainstTime) {
-  RunScene run = written_by_hand();
-  run.scene.surface.model = scene::GapModel::closing;
-  EXPECT_NE(kind("air").lacks(run.drawn()).find("none of its gaps closed"), std::string::npos);
-  run::GapResult& gap = run.result.gaps[0];
-  run::ClosingHistory& closing = gap.closing.emplace();
-  closing.time = gap.skin.time;
-  closing.opening = {1e-4, 5e-5, 1e-5};
-  closing.gas_pressure = {1e5, 2e5, 1e7};
-  closing.contact_time = closing.time[2];
-  const std::vector<CasePicture> drawn = pictures(run.drawn(), "air");
-  ASSERT_EQ(drawn.size(), 1U);
-  const std::vector<Plot> panels = plot_of(drawn, "air_0.04cm.svg").panels;
-  ASSERT_EQ(panels.size(), 3U);
-  EXPECT_NEAR(panels[0].series[0].y[1], 50.0, 1e-9);
-  EXPECT_NEAR(panels[1].series[0].y[2], 10.0, 1e-9);
-  EXPECT_EQ(panels[2].series[0].y, gap.skin.air_temperature);
-  EXPECT_EQ(panels[0].vertical_lines.back().at, panels[0].series[0].x[2]);
-}
-
 TEST(CasePictures, OfCombustionAreForGapsThatBurnt) {
   RunScene run = written_by_hand();
   EXPECT_NE(kind("combustion").lacks(run.drawn()), "");

@@ -140,18 +140,5 @@ TEST_F(StudyStatus, LooksAheadOfTheClocksThatAreSetForward) {
   EXPECT_EQ(next_clock_time("06:00", evening), evening + 6 * 3600);
 }
 
-// Cases whose gaps close end together, after the last launch of all.
-TEST(ProgressLine, CountsLaunchesWhereGapsClose) {
-  study::Progress progress;
-  progress.phase = study::Phase::closing_gaps;
-  progress.done = 30;
-  progress.total = 120;
-  progress.cases = 24;
-  progress.fraction = 0.25;
-  EXPECT_EQ(progress_line(progress, noon, 80), "[###---------] closing gaps: 25 %, 30 of 120 launches done");
-  progress.phase = study::Phase::launches;
-  EXPECT_EQ(progress_line(progress, noon, 80), "[###---------] 25 %, 0 of 24 cases done");
-}
-
 }  // namespace
 }  // namespace launchsafe::report

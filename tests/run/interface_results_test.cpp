@@ -69,18 +69,5 @@ TEST(InterfaceResults, BookTheWorkOfFrictionByFaceAndArea) {
             *std::max_element(base.friction_heat.begin(), base.friction_heat.end()));
 }
 
-TEST(InterfaceResults, TellWhichBondsBroke) {
-  const std::string bond =
-      "[interface.wall]\ncondition = \"bonded\"\nfriction = 0.1\ntension_strength = \"1 MPa\"\n";
-  const MechanicsResult weak = launch(bond + "shear_strength = \"1 kPa\"\n"),
-                        strong = launch(bond + "shear_strength = \"1 TPa\"\n");
-  const auto bonded = [](const MechanicsResult& run) {
-    const std::vector<double>& nodes = of(run, "wall").bonded;
-    return static_cast<std::size_t>(std::count(nodes.begin(), nodes.end(), 1.0));
-  };
-  EXPECT_LT(bonded(weak), 3u);
-  EXPECT_GT(bonded(strong), bonded(weak));
-}
-
 }  // namespace
 }  // namespace launchsafe::run

@@ -47,7 +47,7 @@ class Bits {
       bits_.push_back(station.observation);
     }
     for (const auto* values : {&bottom.time, &bottom.chamber_pressure, &bottom.bottom_pressure,
-                               &bottom.mean_chamber_pressure, &bottom.mean_bottom_pressure, &bottom.steps})
+                               &bottom.mean_chamber_pressure, &bottom.mean_bottom_pressure})
       add(*values);
     for (const auto& friction : bottom.friction) add(friction);
   }

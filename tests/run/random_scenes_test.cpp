@@ -90,11 +90,10 @@ std::string random_numerics() {
 
 std::string random_air() {
   return fmt::format(
-      "gap.thickness = \"0, {} mm\"\ngap.air = {}\ngap.pressure = {}\ngap.exchange = {}\n"
+      "gap.thickness = \"0, {} mm\"\ngap.pressure = {}\n"
       "gap.exchange_time = \"{} ms\"\ngap.air_temperature = \"{} K\"\nfriction.closure = {}\n"
       "friction.localisation = {}\nkinetics.set = {}\n",
-      between(0.01, 5), word({"reservoir", "film"}), word({"charge-bottom", "chamber"}),
-      word({"rate", "per-step"}), between_ratios(1e-3, 10), between(220, 400),
+      between(0.01, 5), word({"charge-bottom", "chamber"}), between_ratios(1e-3, 10), between(220, 400),
       word({"total strain rate", "inelastic", "none"}), between(0, 1500), word({"comp-b", "printed"}));
 }
 

@@ -302,18 +302,6 @@ TEST(ValidityWarnings, FacesThatPassIntoEachOther) {
   expect_one(validity_warnings(scene, run), "\"base\" pass into each other by 0.026 mm");
 }
 
-TEST(ValidityWarnings, ABondThatBrokeInPart) {
-  MechanicsResult run = sound_run();
-  run.interfaces.resize(1);
-  run.interfaces[0].body = "wall";
-  for (const std::vector<double>& whole : {std::vector{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}) {
-    run.interfaces[0].bonded = whole;
-    EXPECT_TRUE(validity_warnings(shipped_scene(), run).empty());
-  }
-  run.interfaces[0].bonded = {1.0, 0.0, 0.0};
-  expect_one(validity_warnings(shipped_scene(), run), "\"wall\" broke at 2 of 3 nodes");
-}
-
 /// As they do without friction between their faces: by 4.4 mm in 18 ms.
 TEST(ValidityWarnings, CracksThatRunAway) {
   MechanicsResult run = sound_run();

@@ -35,11 +35,9 @@ KeyNames without(KeyNames names, const KeyNames& kept) {
 
 /// What a launch without snapshots, conduction and bulk reaction leaves out.
 const KeyNames most_dropped = names_in(
-    "title coupling load.expected_velocity load.obturation steel.conductivity steel.thermal_expansion "
-    "steel.title charge.specific_heat charge.conductivity charge.thermal_expansion "
-    "charge.melting_temperature "
-    "charge.heat_of_melting "
-    "kinetics.set kinetics.heat_of_reaction kinetics.frequency kinetics.activation_temperature "
+    "title coupling load.expected_velocity load.obturation steel.conductivity steel.title "
+    "charge.specific_heat charge.conductivity kinetics.set kinetics.heat_of_reaction kinetics.frequency "
+    "kinetics.activation_temperature "
     "kinetics.ignition_temperature kinetics.burnt_temperature charge.title elastic.density "
     "elastic.bulk_modulus elastic.shear_modulus elastic.specific_heat elastic.conductivity "
     "elastic.title gap.thickness gap.pressure gap.air gap.exchange gap.skin_thickness "

@@ -322,11 +322,10 @@ TEST(NamedContact, GivesWhatAnInterfaceDoesNotSay) {
   EXPECT_EQ(rough.scene.interfaces[0].friction, 0.2);
   EXPECT_EQ(source_of(rough.scene.sources, "interface.wall.friction"), nullptr);
   EXPECT_NE(source_of(rough.scene.sources, "interface.wall.condition"), nullptr);
-  const SceneFile own =
-      scene_of(small_scene +
-               "\n[interface.wall]\ncontact = \"lacquer\"\n[contact.lacquer]\ncondition = "
-               "\"bonded\"\nfriction = 0.3\ntension_strength = \"2 MPa\"\nshear_strength = \"3 MPa\"\n");
-  EXPECT_EQ(own.scene.interfaces[0].shear_strength, 3e6);
+  const SceneFile own = scene_of(small_scene +
+                                 "\n[interface.wall]\ncontact = \"lacquer\"\n[contact.lacquer]\ncondition = "
+                                 "\"sliding\"\nfriction = 0.3\n");
+  EXPECT_EQ(own.scene.interfaces[0].friction, 0.3);
   EXPECT_EQ(to_toml(scene_of(to_toml(own.scene)).scene), to_toml(own.scene));
   // The numbers count, not the name.
   EXPECT_EQ(

@@ -49,15 +49,6 @@ TEST(Plan, HasAirOnlyWhereThereIsAGap) {
   EXPECT_TRUE(make_plan(scene).surface.in);
 }
 
-TEST(Plan, SaysWhatPlaysNoPartInAFilmOfAir) {
-  Scene scene = small();
-  EXPECT_EQ(make_plan(scene).air.reason.find("play no part"), std::string::npos);
-  scene.surface.air_model = AirModel::film;
-  const std::string reason = make_plan(scene).air.reason;
-  for (const char* key : {"gap.exchange,", "gap.exchange_time", "gap.skin_thickness", "gap.air_density"})
-    EXPECT_NE(reason.find(key), std::string::npos) << key;
-}
-
 TEST(Plan, CracksNeedFlawsAndARadius) {
   Scene scene = small();
   EXPECT_TRUE(make_plan(scene).cracks.in);

@@ -93,7 +93,6 @@ TEST(Plausibility, NamesTheKeyOfEveryValueThatNoLaunchHas) {
       {"gap.air_heat_ratio", "1.2"},
       {"gap.air_pressure", "10 MPa"},
       {"gap.air_pressure", "90 kPa"},
-      {"gap.exchange", "per-step"},
       {"initial_temperature", "200 K"},
       {"friction.closure", "none"},
       {"friction.localisation", "0"},

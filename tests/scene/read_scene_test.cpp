@@ -157,13 +157,11 @@ TEST(ReadScene, FaultsNameLineKeyFoundAllowedAndTheNearest) {
   EXPECT_TRUE(parse_scene("numerics.time_step_factor = 2\n" + small_scene, "shell.toml"));
 }
 
-TEST(ReadScene, TwoWayCouplingNeedsAReservoirAndTheTotalLagrangianForm) {
+TEST(ReadScene, TwoWayCouplingNeedsTheTotalLagrangianForm) {
   const std::string two_way = "coupling = \"two-way\"\n";
   EXPECT_TRUE(parse_scene(two_way + small_scene, "shell.toml"));
   expect_error(error_of(two_way + "numerics.formulation = \"updated-lagrangian\"\n" + small_scene), 1,
                "coupling", "updated-lagrangian", "total-lagrangian");
-  const auto film = two_way + with(small_scene, "[gap]\n", "[gap]\nair = \"film\"\n");
-  expect_error(error_of(film), 1, "coupling", "no reservoir", "reservoir");
 }
 
 TEST(ReadScene, WhatTheUpdatedLagrangianFormLacksIsRefusedWithIt) {

@@ -20,7 +20,6 @@ inline trace::BottomTrace sample_trace() {
   trace.bottom_pressure = {101325, not_a_number, -0.0};
   trace.mean_chamber_pressure = {101325, 1.5e5, 3e5};
   trace.mean_bottom_pressure = {101325, 5e-324, infinite};
-  trace.steps = {0, 20, 40};
   trace.friction[0] = {0, 0, 1.1, 2.2, 3.3, 4.4};
   return trace;  // the other closure was not traced
 }
@@ -106,8 +105,7 @@ inline run::MechanicsResult sample_mechanics() {
                            .friction_heat = {150, not_a_number},
                            .slid = {0.0018, 4e-5},
                            .largest_gap = {0, 1e-6},
-                           .overlap = {1e-9, 0},
-                           .bonded = {0, 1}}};
+                           .overlap = {1e-9, 0}}};
   return mechanics;
 }
 
@@ -117,11 +115,10 @@ inline run::GapResult sample_gap(double thickness) {
   gap.skin.time = {0, 1e-5, 2e-5};
   gap.skin.air_temperature = {300, 350, 400};
   gap.skin.temperature = {300, 300, 310, 311, 320, not_a_number};
-  gap.skin.energy_residual = 1e-14;
   gap.at_points = {523.3, 0.0179, 0};
   gap.at_stations = {530.5, 0.018, 1};
   gap.sampling_error = 0.02;
-  gap.air = {32700.0, 925.0, 660.0, 286.0};
+  gap.air = {32700.0, 925.0};
   return gap;
 }
 

@@ -39,92 +39,6 @@ TEST(AccuracyRecord, ASettingWithoutACriticalGapHasNoBoundOfIt) {
   EXPECT_NEAR(record.settings[4].critical_gap_bound, 1e-6 * (29.75 + limit_uncertainty), 1e-12);
 }
 
-scene::Scene closing(scene::Scene scene) {
-  scene.surface.model = scene::GapModel::closing;
-  return scene;
-}
-
-/// The record as if all its runs had been of gaps that close; without settings that tell what finer columns
-/// change.
-AccuracyRecord of_closing_gaps() {
-  AccuracyRecord record = made_record();
-  record.scene = closing(record.scene);
-  for (RecordedSetting& each : record.settings)
-    for (const auto& [key, value] : setting_of(record.scene)) each.setting.try_emplace(key, value);
-  find_bounds(record);
-  return record;
-}
-
-/// With finer columns the scene's own mesh is 0.1 K cooler, for each key by itself.
-AccuracyRecord of_resolved_gaps() {
-  AccuracyRecord record = of_closing_gaps();
-  for (const auto& [key, value] :
-       {std::pair{"gap.air_cells", 64.0}, {"gap.depth_cells", 80.0}, {"gap.turns", 2.0}}) {
-    RecordedSetting finer = record.settings[2];
-    finer.reference = false;
-    finer.setting[key] = value;
-    for (double& kelvin : finer.temperature) kelvin -= 0.1;
-    record.settings.push_back(finer);
-  }
-  find_bounds(record);
-  return record;
-}
-
-TEST(AccuracyRecord, OfGapsThatCloseVouchesForNothingWithoutFinerColumns) {
-  const AccuracyRecord record = of_closing_gaps();
-  EXPECT_EQ(record.unvaried, (std::vector<std::string>{"gap.air_cells", "gap.depth_cells", "gap.turns"}));
-  EXPECT_TRUE(std::isnan(record.settings[2].temperature_bound));
-  EXPECT_NEAR(of_resolved_gaps().settings[2].temperature_bound, own_bound + 3 * 3 * 0.1, 1e-6);
-  // A coarser one tells how much worse it is, and not how wrong the meshes are.
-  AccuracyRecord coarse = of_closing_gaps();
-  coarse.settings.push_back(coarse.settings[2]);
-  coarse.settings.back().reference = false;
-  coarse.settings.back().setting["gap.turns"] = 0.5;
-  find_bounds(coarse);
-  EXPECT_EQ(coarse.unvaried, record.unvaried);
-}
-
-TEST(AccuracyRecord, OfGapsThatCloseIsForeignToTheReservoirAndTheOtherWayRound) {
-  EXPECT_NE(why_foreign(of_resolved_gaps(), own_scene()).find("gap.model"), std::string::npos);
-  EXPECT_NE(why_foreign(made_record(), closing(own_scene())).find("gap.model"), std::string::npos);
-  EXPECT_EQ(why_foreign(of_resolved_gaps(), closing(own_scene())), "");
-  EXPECT_EQ(recorded_setting(made_record(), closing(own_scene())), nullptr);
-}
-
-/// What a record of gaps that close says of a case whose gap closes as `scene` has it.
-ClosingShare share_of(const AccuracyRecords& records, const scene::Scene& scene, double gap = 2e-4,
-                      double rise = 100.0) {
-  StudyCase input;
-  input.accuracy = std::make_shared<const AccuracyRecords>(records);
-  return closing_share(input, scene, gap, rise);
-}
-
-TEST(AccuracyRecord, OfGapsThatCloseHoldsOnItsOwnTermsAlone) {
-  const scene::Scene own = closing(own_scene());
-  const AccuracyRecords records{made_record(), of_resolved_gaps()};
-  const ClosingShare share = share_of(records, own);
-  EXPECT_TRUE(share.recorded);
-  EXPECT_NEAR(share.kelvin, own_bound + 0.9, 1e-6);
-  EXPECT_NEAR(share_of(records, own, 2e-4, 2.0 * records[1].rise).kelvin, 2.0 * (own_bound + 0.9), 1e-6);
-  EXPECT_FALSE(share_of(records, own, 5e-4).recorded) << "wider than the widest of 0.4 mm";
-  EXPECT_FALSE(share_of({made_record()}, own).recorded) << "a record of the reservoir";
-  EXPECT_EQ(share_of({made_record()}, own).kelvin, assumed_numerical_uncertainty);
-  EXPECT_FALSE(closing_share({}, own, 2e-4, 100.0).recorded) << "no record";
-  const std::vector<std::function<void(scene::Scene&)>> changes{
-      [](auto& s) { s.surface.base = scene::GapBase::insulated; },
-      [](auto& s) { s.surface.roughness = 1e-6; }, [](auto& s) { s.surface.release = 1e-3; },
-      // At once, and not over the time that sound takes, for which nothing is said.
-      [](auto& s) { s.surface.release_duration = 0.0; }, [](auto& s) { s.surface.turns = 0.5; },
-      [](auto& s) { s.load.peak *= 1.01; }, [](auto& s) { s.initial_temperature *= 1.01; },
-      [](auto& s) { s.surface.localisation *= 1.01; }};
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    scene::Scene other = own;
-    changes[i](other);
-    EXPECT_FALSE(share_of(records, other).recorded) << i;
-    EXPECT_EQ(share_of(records, other).kelvin, assumed_numerical_uncertainty) << i;
-  }
-}
-
 /// A key, what all runs of a record have it at instead of its exact value.
 struct Shared {
   const char* key;
@@ -179,9 +93,9 @@ TEST(AccuracyRecord, WhatASharedKeyChangesIsAddedWhereASettingTells) {
 }
 
 TEST(AccuracyRecord, EveryKeyOfASettingIsKnownToVanishSomehow) {
-  for (const auto& [key, value] : setting_of(closing(own_scene()))) {
+  for (const auto& [key, value] : setting_of(own_scene())) {
     const keys::Exactness exactness = scene::role_of(key).exactness;
-    EXPECT_TRUE(exactness.vanishes || exactness.value || exactness.larger_is_finer) << key;
+    EXPECT_TRUE(exactness.vanishes || exactness.value) << key;
     EXPECT_TRUE(!exactness.value || exactness.value->index() == value.index()) << key;
   }
   EXPECT_FALSE(scene::role_of("numerics.of_tomorrow").exactness.vanishes)
@@ -218,9 +132,7 @@ TEST(AccuracyRecord, IsForeignToAnotherShellOrClosure) {
       [](auto& s) { s.charge().strength.face_friction = 0.0; },
       [](auto& s) { s.barrel = scene::Barrel::none; },
       [](auto& s) { s.surface.friction = scene::FrictionClosure::inelastic; },
-      [](auto& s) { s.surface.air_model = scene::AirModel::film; },
       [](auto& s) { s.surface.air_pressure = scene::AirPressure::chamber; },
-      [](auto& s) { s.surface.exchange = scene::Exchange::per_step; },
       [](auto& s) {
         s.interfaces = {{.body = "wall", .condition = scene::Condition::sliding, .friction = 0.1}};
       }};

@@ -101,7 +101,6 @@ inline trace::BottomTrace synthetic_trace(double peak, double friction) {
     trace.mean_bottom_pressure.push_back(mean);
     trace.chamber_pressure.push_back(496.0 / 140.0 * pressure(t));
     trace.mean_chamber_pressure.push_back(496.0 / 140.0 * mean);
-    trace.steps.push_back(200.0 * sample);
     for (std::size_t closure = 0; closure < 2; ++closure) {
       for (const double share : shares[closure])
         trace.friction[closure].push_back(share * friction * std::pow(t / 18e-3, 3.0));

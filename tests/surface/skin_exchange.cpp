@@ -62,26 +62,6 @@ TEST_P(SkinExchange, FollowsTheExactExponentialAtAnyCallLength) {
 INSTANTIATE_TEST_SUITE_P(ExchangeTimes, SkinExchange,
                          testing::Values(1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0));
 
-TEST(SkinExchangePerStep, LeavesAPowerOfTheDistanceWhateverTheStep) {
-  SkinModel model = inert_skin(1.0);
-  model.surface.exchange = scene::Exchange::per_step;
-  const double start = 300.0, air = 1500.0;
-  for (const double wide : {1e-9, exchange_gap, 5e-3, 0.2, 1.0})
-    for (const double step : {1e-9, 1e-6, 1e-3}) {
-      const double ratio = surface::heat_capacity_ratio(model, wide);
-      surface::SkinPoint point{start};
-      for (int call = 1; call <= 1000; ++call) {
-        point = surface::advance_skin(model, wide, point, step, air, air, 0.0);
-        if (ratio >= 1.0) {  // one step would give all and more: the printed form means nothing
-          EXPECT_TRUE(std::isnan(point.temperature)) << wide;
-          break;
-        }
-        ASSERT_NEAR(point.temperature, air - (air - start) * std::pow(1.0 - ratio, call), 1e-9) << wide;
-        ASSERT_LE(point.temperature, air * (1.0 + 4.0 * unit_round_off)) << wide;
-      }
-    }
-}
-
 TEST(SkinExchange, GoesWithTheHeatCapacityOfTheAir) {
   // 1.1766 0.01 1005/(1717 1e-4 1780) by hand.
   EXPECT_NEAR(surface::heat_capacity_ratio(inert_skin(3.6e-4), 0.01), 0.03869052, 5.01e-9);

@@ -135,33 +135,15 @@ TEST(SkinHistory, FirstIgnitionIsReportedWithTimeStationAndCause) {
   EXPECT_NEAR(maximum_at_stations(history, trace).temperature, 784.0, 1e-9);
 }
 
-TEST(SkinHistory, PerStepExchangeGoesWithTheNumberOfSteps) {
-  // With ever more steps the printed form lets the skin follow the air; that is why it is not the default.
-  trace::BottomTrace few = smooth_launch(300, 0, 0.0), many = few;
-  for (double& steps : few.steps) steps *= 0.01;
-  for (double& steps : many.steps) steps *= 1000.0;
-  SkinModel model = plain_model();
-  model.surface.exchange = scene::Exchange::per_step;
-  model.kinetics.frequency = 0.0;
-  model.kinetics.ignition_temperature = model.kinetics.burnt_temperature = 1e9;
-  EXPECT_LT(last(integrate_skin(model, few, 1e-5), few, 0), 350.0);
-  const SkinHistory history = integrate_skin(model, many, 1e-5);
-  EXPECT_NEAR(last(history, many, 0), history.air_temperature.back(), 10.0);
-}
-
 TEST(SkinHistory, NotANumberInTheTraceIsNoVerdict) {
   for (int which = 0; which < 3; ++which) {
     trace::BottomTrace trace = smooth_launch(300, 2, 3.0 * friction_energy);
     if (which == 0) trace.bottom_pressure[250] = std::nan("");
     if (which == 1) trace.mean_bottom_pressure[250] = std::nan("");
     if (which == 2) trace.friction[0][250 * 4 + 3] = std::nan("");
-    for (const auto air : {scene::AirModel::reservoir, scene::AirModel::film}) {
-      SkinModel model = plain_model();
-      model.surface.air_model = air;
-      const SkinHistory history = integrate_skin(model, trace, 3e-4);
-      EXPECT_FALSE(history.ignition.has_value()) << which;
-      EXPECT_TRUE(std::isnan(maximum_at_stations(history, trace).temperature)) << which;
-    }
+    const SkinHistory history = integrate_skin(plain_model(), trace, 3e-4);
+    EXPECT_FALSE(history.ignition.has_value()) << which;
+    EXPECT_TRUE(std::isnan(maximum_at_stations(history, trace).temperature)) << which;
   }
 }
 
@@ -176,16 +158,13 @@ TEST(SkinHistory, NoPressureAtAllLeavesAirAndSkinAsTheyWere) {
   trace::BottomTrace trace = smooth_launch(10, 1, 0.0);
   for (auto* pressures : {&trace.chamber_pressure, &trace.mean_chamber_pressure})
     std::fill(pressures->begin(), pressures->end(), 0.0);
-  for (const auto air : {scene::AirModel::reservoir, scene::AirModel::film}) {
-    SkinModel model = plain_model();
-    model.kinetics.frequency = 0.0;
-    model.surface.air_pressure = scene::AirPressure::chamber;
-    model.surface.air_model = air;
-    for (const double gap : {0.0, 3e-4}) {
-      const SkinHistory history = integrate_skin(model, trace, gap);
-      for (const double temperature : history.temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
-      for (const double temperature : history.air_temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
-    }
+  SkinModel model = plain_model();
+  model.kinetics.frequency = 0.0;
+  model.surface.air_pressure = scene::AirPressure::chamber;
+  for (const double gap : {0.0, 3e-4}) {
+    const SkinHistory history = integrate_skin(model, trace, gap);
+    for (const double temperature : history.temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
+    for (const double temperature : history.air_temperature) EXPECT_NEAR(temperature, 300.0, 1e-9);
   }
 }
 

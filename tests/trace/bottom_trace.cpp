@@ -20,7 +20,6 @@ BottomTrace example(std::size_t samples) {
     trace.bottom_pressure.push_back(20.0 + value);
     trace.mean_chamber_pressure.push_back(9.5 + value * value);
     trace.mean_bottom_pressure.push_back(19.5 + value);
-    trace.steps.push_back(7.0 * value);
     for (auto& closure : trace.friction) {
       closure.push_back(value);
       closure.push_back(100.0 + value);
@@ -45,7 +44,6 @@ TEST(ThinnedTrace, KeepsEverySecondSampleAndTheLast) {
     EXPECT_EQ(half.time.back(), whole.time.back());
     EXPECT_EQ(half.friction[0].size(), half.samples() * 2);
     EXPECT_EQ(half.friction[1].back(), whole.friction[1].back());
-    EXPECT_EQ(half.steps.back(), whole.steps.back());
   }
 }
 
@@ -181,7 +179,7 @@ TEST(TraceAtLoad, TakesLaunchesThatWereSampledAtOtherTimes) {
   BottomTrace finer = above;
   finer.time.insert(finer.time.begin() + 4, 0.5 * (above.time[3] + above.time[4]));
   for (auto* values : {&finer.chamber_pressure, &finer.bottom_pressure, &finer.mean_chamber_pressure,
-                       &finer.mean_bottom_pressure, &finer.steps})
+                       &finer.mean_bottom_pressure})
     values->insert(values->begin() + 4, 0.5 * ((*values)[3] + (*values)[4]));
   for (auto& energy : finer.friction)
     for (const int station : {0, 1})

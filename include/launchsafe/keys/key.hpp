@@ -34,14 +34,12 @@ enum class Dimension {
   specific_heat,
   conductivity,
   toughness,
-  expansion,
   // Of results alone.
   share,
   mass,
   volume,
   energy,
   energy_per_area,
-  pressure_rate,
   // Of options too: what a computation takes.
   memory,
   duration

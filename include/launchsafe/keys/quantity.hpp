@@ -25,7 +25,7 @@ inline constexpr Unit centimetre{Dimension::length, "cm"}, millimetre{Dimension:
     percent{Dimension::share, "%"}, gram{Dimension::mass, "g"}, kilogram{Dimension::mass, "kg"},
     cubic_centimetre{Dimension::volume, "cm3"}, joule{Dimension::energy, "J"},
     kilojoule{Dimension::energy, "kJ"}, kilojoule_per_area{Dimension::energy_per_area, "kJ/m2"},
-    megapascal_per_millisecond{Dimension::pressure_rate, "MPa/ms"}, megabyte{Dimension::memory, "MB"};
+    megabyte{Dimension::memory, "MB"};
 /// Of lines over the gap, which are fitted in this unit, as the paper prints them.
 inline constexpr Unit kelvin_per_centimetre{Dimension::number, "K/cm"};
 

@@ -47,8 +47,7 @@ enum class Hotter { nowhere, above, below };
 /// Of a setting: whether the limit of ever finer cells is free of the error that it makes, or where it makes
 /// none, or less; nothing of it where that is not known.
 struct Exactness {
-  bool vanishes = false;         ///< with the cells, or it is measured in every case
-  bool larger_is_finer = false;  ///< a number, at no value exact, of which larger ones make smaller errors
+  bool vanishes = false;  ///< with the cells, or it is measured in every case
   std::optional<Value> value = {};
 };
 
@@ -65,8 +64,7 @@ inline const Role remark{ActsOn::nothing, Part::free}, judged_elsewhere{ActsOn::
     of_combustion{ActsOn::combustion, Part::free}, over_range{ActsOn::mechanics, Part::range},
     of_model{ActsOn::mechanics, Part::model}, of_skin_model{ActsOn::surface, Part::model},
     vanishing_setting{ActsOn::numerics, Part::setting, {}, {.vanishes = true}},
-    minor_setting{ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}},
-    refined_setting{ActsOn::numerics, Part::setting, {}, {.larger_is_finer = true}};
+    minor_setting{ActsOn::numerics, Part::minor_setting, {}, {.vanishes = true}};
 inline Role setting_exact_at(Value value) {
   return {ActsOn::numerics, Part::setting, {}, {.value = std::move(value)}};
 }

@@ -13,13 +13,10 @@ struct Charge {
   ViscoScramParameters strength;
   double density = 1717.0;  ///< kg/m3, before launch [P]
   UnreactedEos eos;
-  double tension_cutoff = 5e6;         ///< Pa, > 0: the pressure never falls below -cutoff
-  double specific_heat = 1780.0;       ///< J/(kg K)
-  double conductivity = 0.246;         ///< W/(m K)
-  double sliding_friction = 0.24;      ///< mu_d
-  double thermal_expansion = 54.6e-6;  ///< 1/K, of a length [A]
-  double melting_temperature = 353.0;  ///< K, of what melts in it [L]
-  double heat_of_melting = 38.9e3;     ///< J/kg, of all of it [A]
+  double tension_cutoff = 5e6;     ///< Pa, > 0: the pressure never falls below -cutoff
+  double specific_heat = 1780.0;   ///< J/(kg K)
+  double conductivity = 0.246;     ///< W/(m K)
+  double sliding_friction = 0.24;  ///< mu_d
   KineticsParameters kinetics;
 
   static constexpr std::string_view name = "charge";

@@ -26,15 +26,6 @@ inline double heat_capacity(const Law& law) {
 inline double heat_conductivity(const Law& law) {
   return std::visit([](const auto& each) { return each.heat_conductivity(); }, law);
 }
-/// 1/K, of a length; 0 of a law that does not say it.
-inline double thermal_expansion(const Law& law) {
-  return std::visit(
-      [](const auto& each) {
-        if constexpr (requires { each.thermal_expansion; }) return each.thermal_expansion;
-        return 0.0;
-      },
-      law);
-}
 inline bool is_explosive(const Law& law) {
   return std::visit([](const auto& each) { return each.is_explosive; }, law);
 }

@@ -108,7 +108,6 @@ johnson_cook_return(const JohnsonCookParameters& k, math::Deviator<Real> trial, 
 struct Steel {
   MieGruneisenParameters eos;
   JohnsonCookParameters strength;
-  double thermal_expansion = 11.7e-6;  ///< 1/K, of a length [A]
 
   static constexpr std::string_view name = "steel";
   static constexpr bool heats_itself = true;

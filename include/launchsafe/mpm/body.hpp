@@ -113,8 +113,6 @@ struct ParticleFields {
   std::array<math::AlignedArray, 3> stress_change;
 
   std::optional<Burning> burning;  ///< of a charge from its ignition on
-  /// The ledger counts the stress at a step's begin as it was, as nodal forces do, and not turned.
-  bool counts_unturned_stress = false;
 };
 
 /// Makes every step store the increments of strain and stress of the particle in a slot, and of the others of

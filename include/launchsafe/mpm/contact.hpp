@@ -7,23 +7,12 @@
 // face stops the sliding, or is the coefficient of friction times the normal impulse of the same step where
 // that is less (Coulomb). A node at a corner of two faces is subject to the conditions of both.
 //
-// Nodal velocities are sums over particles, so that those of two faces differ by round-off even where the
-// faces are bonded. There the stage first sets both to their common velocity, as a tie does; this exchange of
-// momentum enters neither the particles nor the energies. Where faces can slide, the impulses correct it.
-//
 // Pairs and normals stay from one pairing to the next, and a gap is the mean over the part of the face on
 // which the node's traction acts. A new pairing changes the gaps by 1e-9 m in a launch within the barrel and
 // by 1e-7 m where a wall without a barrel bends. Removing such an overlap does work, up to 4e-6 of the energy
 // in these launches. Where a bulging face slides past the end of the other face, the mean is taken over a
 // decreasing part of a cell, and the energy changes by the force on the cell times the height of the bulge in
 // it: 1e-3 of the energy for a charge longer than its wall, on cells of 5 mm.
-//
-// Faces may also begin apart, with gas between them and a floor on which their roughness meets: then the gap
-// below is counted from the floor, and the normal impulse is that of the gas and of the floor's contact, of
-// which only the latter is >= 0 and rubs. The gas pushes with its pressure at the mean
-// (h_old + 2 h + h_new)/4 of three openings, so that its stiffness limits no step (Newmark's mean
-// acceleration) and the order stays the second. Gas that all nodes share has one pressure, at the mean over
-// their area.
 //
 // An impulse J on a pair does the work J (v_before + v_after)/2, with the relative velocities at which the
 // last step and this one move: with these the leapfrog energy balance holds to round-off. A pair whose gap
@@ -75,52 +64,18 @@ inline constexpr double held_overhang = 0.1;
 /// allocation once it has had the size.
 void pair_faces(const FaceLine& own, const FaceLine& other, FaceMeasure measure, std::vector<PairRow>& rows);
 
-/// Gas of one pair of nodes, per area of the face. It is compressed isentropically,
-///
-///   p = pressure (volume/(h - covolume))^exponent
-///
-/// with the opening h of the faces, and its mean temperature comes near to that of the walls at the rate
-/// exchange/h: a film whose gas nears its walls by conduction does so, as its mass times its thickness over
-/// its conductivity is what the time goes with. Whoever follows the gas's heat in detail states all of that
-/// anew in time (surface::GapColumns).
-struct GapGas {
-  double outside = 0;   ///< Pa, of what surrounds the bodies: only a pressure above it pushes
-  double pressure = 0;  ///< Pa, of the state that volume belongs to; 0: there is no gas
-  double volume = 0;    ///< m3/m2 without the covolume
-  double exponent = 1.4;
-  double covolume = 0;         ///< m3/m2, of all its molecules
-  double exchange = 0;         ///< m/s
-  double energy_at_walls = 0;  ///< Pa m, pressure times volume at the temperature of the walls
-
-  /// Pa, at an opening (m). Infinite at the covolume and below.
-  double at(double opening) const {
-    const double free = opening - covolume;
-    return pressure * std::pow(volume / (free > 0.0 ? free : 0.0), exponent);
-  }
-
-  /// Exchanges heat with the walls for dt (s), in which the opening (m) went from `before` to `after`: of
-  /// second order in dt.
-  void exchange_heat(double before, double after, double dt) {
-    if (!(exchange > 0.0)) return;
-    const double mean = 0.5 * (before + after);
-    const double left = std::exp(-dt * exchange / mean);
-    volume *= left + (1.0 - left) * energy_at_walls / (at(mean) * (mean - covolume));
-  }
-};
-
 /// A node of a face that can slide, for reports and tests. Tractions are those of the last step.
 struct FaceState {
   double place = 0;          ///< m, at rest: x along a side, r along an end
   double area = 0;           ///< m2 per radian or metre, 0 where it meets nothing
-  double gap = 0;            ///< m, above the floor where there is one
-  double pressure = 0;       ///< Pa, compression positive; with that of a gas above its surroundings
+  double gap = 0;            ///< m
+  double pressure = 0;       ///< Pa, compression positive
   double shear = 0;          ///< Pa, on the other body: along x on a side, along r on an end
   double friction_heat = 0;  ///< J/m2, since the start
   double slid = 0;           ///< m, path of sliding since the start, in both directions
   double slip = 0;  ///< m, by which the other body has slid since the start, in the direction of `shear`
   double largest_gap = 0;  ///< m, the largest since the start
   double overlap = 0;      ///< m, the largest since the start
-  bool bonded = false;
 };
 
 class Contact {
@@ -131,7 +86,7 @@ class Contact {
 
   /// Whether any faces can slide; if none can, nothing else may be called.
   bool any() const { return !faces_.empty(); }
-  /// Takes the nodes' velocities as those of the step before, without impulses. Broken bonds stay broken.
+  /// Takes the nodes' velocities as those of the step before, without impulses.
   void reset(const std::vector<Nodes>& nodes);
   /// Acts on nodes that a step has moved freely. Tractions are those that the step would have had to apply,
   /// for as long as it does forces, before damping.
@@ -148,31 +103,6 @@ class Contact {
   double friction_work(std::size_t face) const;
   std::vector<FaceState> state_of(std::size_t face) const;
 
-  /// Lets the faces of a face that is not bonded hold each other for any traction, until they are loosened.
-  void hold(std::size_t face);
-  /// From the first call on, what is held bears tension and shear up to this share of what it bore then,
-  /// below 1; at 0 it is free.
-  void loosen(double share);
-  /// Parts a face from the other one by an opening (m) before the first step, down to whose `floor` (m, > 0)
-  /// they may approach.
-  void part(std::size_t face, double opening, double floor);
-  /// Puts gas between a node of a parted face and the other one.
-  void set_gas(std::size_t face, std::size_t node, const GapGas& gas);
-  /// Puts one gas between all nodes of parted faces, in place of theirs: its opening is the mean one.
-  void set_common_gas(const GapGas& gas) { common_gas_ = gas; }
-  const GapGas& common_gas() const { return common_gas_; }
-  const GapGas& gas(std::size_t face, std::size_t node) const {
-    return rows_[faces_[face].first_row + node].gas;
-  }
-  /// m, over the area of all parted faces.
-  double mean_opening() const;
-  /// Pa, compression that parted faces bore in the last step, above the surrounding pressure; over their
-  /// area.
-  double mean_pressure() const;
-  /// m, between a node of a parted face and the other one.
-  double opening(std::size_t face, std::size_t node) const;
-  /// J/m2, that the faces did on it since the start, against its pressure above that outside.
-  double gas_work(std::size_t face, std::size_t node) const;
   /// The nodes that the states of a face are of: an index into the bodies' nodes, and those of each in there.
   struct FaceNodes {
     std::size_t nodes;
@@ -227,33 +157,24 @@ class Contact {
     std::uint32_t point;
     double share;           ///< in the relative velocity, other face less own one
     double give_x, give_r;  ///< 1/kg, velocity of the point from a unit impulse of the row
-    double free_r;          ///< the same along r if the point were not held
   };
   /// A node of the charge's face with the points that it is paired with.
   struct Row {
     std::uint32_t begin = 0, end = 0;   ///< in shares_
     double normal_x = 0, normal_r = 0;  ///< from the charge to the other body
     double friction = 0;
-    /// kg, impulse per unit of relative velocity along the normal and along the face; and if no point were
-    /// held.
-    double normal_inertia = 0, slide_inertia = 0, free_normal_inertia = 0, free_slide_inertia = 0;
+    /// kg, impulse per unit of relative velocity along the normal and along the face.
+    double normal_inertia = 0, slide_inertia = 0;
     double area = 0;
-    double gap = 0;                            ///< m, at the begin of the step
-    double target = 0;                         ///< m/s, least opening speed
-    double normal = 0, slide = 0;              ///< kg m/s, impulses of the step, positive as pressure
-    double from_gas = 0;                       ///< kg m/s, the gas's part of `normal`
-    double last_slide = 0, last_from_gas = 0;  ///< of the step before
-    double parted = 0, floor = 0;              ///< m, opening at rest, and the least
-    GapGas gas;
-    double gas_work = 0;                              ///< J
-    double tension_strength = 0, shear_strength = 0;  ///< Pa, while bonded
-    double opening = 0, sliding = 0;                  ///< m/s, at the end of the last step
-    double friction_work = 0;                         ///< J
-    double friction_heat = 0;                         ///< J/m2
-    double slid = 0, slip = 0;                        ///< m, see FaceState; the slip of the row's direction
-    double largest_gap = 0, overlap = 0;              ///< m, see FaceState
-    bool bonded = false, held = false;                ///< held: until it is loosened to nothing
-    double held_tension = 0, held_shear = 0;          ///< Pa, when it was loosened first
+    double gap = 0;                       ///< m, at the begin of the step
+    double target = 0;                    ///< m/s, least opening speed
+    double normal = 0, slide = 0;         ///< kg m/s, impulses of the step, positive as pressure
+    double last_slide = 0;                ///< of the step before
+    double opening = 0, sliding = 0;      ///< m/s, at the end of the last step
+    double friction_work = 0;             ///< J
+    double friction_heat = 0;             ///< J/m2
+    double slid = 0, slip = 0;            ///< m, see FaceState; the slip of the row's direction
+    double largest_gap = 0, overlap = 0;  ///< m, see FaceState
   };
 
   void add_face(const scene::Scene& scene, const scene::GridLines& lines, const std::vector<Nodes>& nodes,
@@ -271,18 +192,9 @@ class Contact {
   void push(const Row& row, double normal, double slide);
   void make_fields(const std::vector<Nodes>& nodes);
   void read_nodes(const std::vector<Nodes>& nodes);
-  void exchange_momentum();
   void begin_impulses(double step_ratio);
   void solve_impulses(double dt);
-  double gas_impulse(const Row& row, double speed, double dt) const;
-  double push_by_gas(const Row& row, double speed, double dt) const;
-  bool shares_gas(const Row& row) const {
-    return common_gas_.pressure > 0.0 && row.floor > 0.0 && row.normal_inertia > 0.0;
-  }
-  void push_by_common_gas(double dt);
-  double sweep(double dt);
-  bool break_bonds(double dt);
-  double change_of_step(const StepInput& step) const;
+  double sweep();
   ContactTotals add_up_energy();
   void write_nodes(std::vector<Nodes>& nodes, double dt) const;
   void advance_rows(double dt);
@@ -292,7 +204,6 @@ class Contact {
   std::size_t points_ = 0;
   std::vector<Member> members_;  ///< by nodes
   std::vector<Row> rows_;
-  GapGas common_gas_;
   std::vector<Share> shares_;
   std::vector<PairRow> paired_;       ///< of one face, used again
   Field inertia_;                     ///< kg
@@ -302,18 +213,14 @@ class Contact {
   Field velocity_;                    ///< m/s, which the step moves by
   Field free_velocity_;               ///< m/s, without contact
   Field particle_velocity_;           ///< m/s, summed from the particles
-  Field exchanged_velocity_;          ///< m/s, the same after the exchange
-  Field start_;                       ///< m/s, of the free motion after it
   Field before_;                      ///< m/s, which the last step moved by
   Field impulse_;                     ///< kg m/s, of the last step
   double last_dt_ = 0;                ///< s
-  double kick_ = 0, last_kick_ = 0;   ///< s, as StepInput::kick
   double damping_factor_ = 1;         ///< share of the velocity that damping leaves
   double damping_factor_before_ = 1;  ///< the same of the last step
   double slid_ = 0;                   ///< m, since the faces were paired
   double shortest_cell_ = 0;          ///< m, of the faces
   int steps_ = 0;  ///< since the faces were paired; their impulses are known by point from 1 on
-  bool has_bonds_ = false;
 };
 
 }  // namespace launchsafe::mpm

@@ -37,22 +37,15 @@ inline void store_increments(ParticleFields& p, std::size_t slot, const math::De
   store(p.stress_change[2], slot, stress.rx);
 }
 
-/// Of the state that a Pack of particles keeps, Pa.
-template <class Law>
-[[gnu::always_inline]] inline math::Deviator<Pack> kept_deviator(const Body<Law>& body, std::size_t slot) {
-  return Law::deviator(
-      materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); }));
-}
-
 /// Stores what a law made of a step at a Pack of particles, and adds the energies and limiter events of the
 /// step to `totals`. `d` is that of the particles, `strain` the deviatoric increment of what friction heats.
-/// With the stress at the begin as it was, `unturned`, and that at the end, which nodal forces have, the work
-/// is theirs to third order in the step; with the turned one it is to second order.
 template <class Law>
-[[gnu::always_inline]] inline StressUpdate keep_response(
-    Body<Law>& body, std::size_t slot, const Deformation& d, const materials::State<Law, Pack>& state,
-    const materials::Response<Pack>& response, const math::Deviator<Pack>& unturned,
-    const math::Deviator<Pack>& strain, Pack temperature, ParticleTotals& totals) {
+[[gnu::always_inline]] inline StressUpdate keep_response(Body<Law>& body, std::size_t slot,
+                                                         const Deformation& d,
+                                                         const materials::State<Law, Pack>& state,
+                                                         const materials::Response<Pack>& response,
+                                                         const math::Deviator<Pack>& strain, Pack temperature,
+                                                         ParticleTotals& totals) {
   ParticleFields& p = body.particles;
   const Pack pressure_before = load(p.pressure, slot);
   materials::store_state<Law>(state,
@@ -64,8 +57,7 @@ template <class Law>
     store_increments(p, slot, strain, response.deviator - response.deviator_before);
 
   const Pack volume0 = d.increment.volume_before, volume1 = d.increment.volume_after;
-  const math::Deviator<Pack>& before = p.counts_unturned_stress ? unturned : response.deviator_before;
-  const Pack work = contract(before + response.deviator, d.increment.deviator);
+  const Pack work = contract(response.deviator_before + response.deviator, d.increment.deviator);
   totals.internal += d.rest_volume * (0.25 * (volume0 + volume1) * work -
                                       0.5 * (pressure_before + response.pressure) * (volume1 - volume0));
   const Pack volume_before = d.rest_volume * volume0;
@@ -102,8 +94,7 @@ template <class Law>
   response.deviator_before = solid.share_before * response.deviator_before;
   response.deviator = solid.share_after * response.deviator;
   for (Pack* energy : {&response.plastic, &response.viscous, &response.crack}) *energy *= solid.share_before;
-  const math::Deviator<Pack> before = solid.share_before * kept_deviator(body, slot);
-  return keep_response(body, slot, d, state, response, before, increment.deviator, temperature, totals);
+  return keep_response(body, slot, d, state, response, increment.deviator, temperature, totals);
 }
 
 /// Advances the constitutive law of a Pack of particles, stores their state and adds the energies and limiter
@@ -118,8 +109,7 @@ template <bool burns, class Law>
   auto state = materials::load_state<Law>([&](std::size_t field) { return load(body.state[field], slot); });
   Pack temperature = load(p.temperature, slot);
   const auto response = body.integrator.update(d.increment, state, load(p.pressure, slot), temperature);
-  return keep_response(body, slot, d, state, response, kept_deviator(body, slot), d.increment.deviator,
-                       temperature, totals);
+  return keep_response(body, slot, d, state, response, d.increment.deviator, temperature, totals);
 }
 
 /// FLIP velocity update with an optional share of PIC. Adds the kinetic energy that the PIC share dissipates

@@ -17,10 +17,7 @@ struct EnergyTotals {
   double damping = 0;
   double plastic = 0, viscous = 0, crack = 0;
   double hourglass = 0;  ///< stored against hourglassing (part of `internal`)
-  /// Put into the kinetic energy by changes of the step where kicks are centred.
-  double step_change = 0;
-  /// Taken out by contact: by friction, by faces that close, and by the work on gas between faces.
-  double contact = 0;
+  double contact = 0;    ///< taken out by contact: by friction and by faces that meet
 };
 
 /// Number of particle-steps on which a limiter acted, the particle was off the grid, or its cell was inverted
@@ -44,11 +41,6 @@ class Simulation {
 
   /// Stable time step (s) for the present state.
   double stable_time_step() const;
-  /// From now on forces act on velocities from the middle of the last step to that of the present one, which
-  /// is of second order where steps change by much, as those of a gap that closes do. Otherwise they act for
-  /// the present step's length: what follows the stable step alone changes by some 1e-4 at a time.
-  /// The ledger then counts stresses that have not been turned.
-  void centre_kicks();
   /// Advances by dt > 0 (s).
   void step(double dt);
 
@@ -111,7 +103,6 @@ class Simulation {
     return found;
   }
   void add_to_energy(const StepTotals& totals, const StepInput& begin);
-  double change_of_bulk(const BulkMotion& bulk, const StepInput& step);
   /// Of the frame, m/s2, under a pressure of the chamber (Pa).
   double acceleration_under(double pressure) const;
 
@@ -123,9 +114,6 @@ class Simulation {
   double loaded_area_ = 0;  ///< m2 per radian or metre
   double time_ = 0;
   double pressure_ = 0;  ///< Pa, in the chamber at the present time
-  bool centres_kicks_ = false;
-  double dt_before_ = 0, kick_before_ = 0;  ///< s, of the last step
-  double bulk_gained_before_ = 0;           ///< kg m/s per radian or metre, from forces in the last step
   std::uint64_t particles_ = 0;
   EnergyTotals energy_;   ///< at the present time, without the kinetic energy
   EnergyTotals balance_;  ///< at the begin of the last step

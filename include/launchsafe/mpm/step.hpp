@@ -11,20 +11,10 @@ using math::Pack;
 /// Load and numerical parameters of a step.
 struct StepInput {
   double dt = 0;              ///< s
-  double dt_before = 0;       ///< s, of the last step; 0: there was none
-  double kick = 0;            ///< s, for which forces act on velocities
-  double kick_before = 0;     ///< s, of the last step
   double pressure = 0;        ///< of the chamber, Pa
   double acceleration = 0;    ///< of the frame, m/s2
   double damping_factor = 1;  ///< fraction of the velocity that remains after damping
   double pic_fraction = 0;    ///< fraction of the grid velocity in the particle velocity
-
-  /// Part of the forces' impulse in this step (or in the last one) that is beyond its time in the last step.
-  double share_beyond(double impulse_time) const {
-    return dt_before > 0.0 && impulse_time > 0.0 ? 1.0 - dt_before / impulse_time : 0.0;
-  }
-  /// Whether steps differ, so that forces push for another time than nodes move.
-  bool changes() const { return share_beyond(kick) != 0.0 || share_beyond(kick_before) != 0.0; }
 };
 
 /// Sums over particles: energies (J per radian, or per metre of depth) and limiter events (particle-steps).
@@ -45,7 +35,6 @@ struct NodeTotals {
   Pack old_momentum{0.0};       ///< axial, of the inertial mass, at the begin
   Pack inertial_momentum{0.0};  ///< the same with the velocity that the step moves by
   Pack momentum{0.0};           ///< axial, of the true mass, with that velocity
-  Pack step_change{0.0};        ///< J, see ContactTotals::step_change
 
   void add(const NodeTotals& other);
 };
@@ -55,8 +44,6 @@ struct ContactTotals {
   double loss = 0;           ///< J, taken out by contact until the step's begin
   double way_back_loss = 0;  ///< J, correction of NodeTotals::lost_before, which is computed without contact
   double momentum = 0;       ///< kg m/s, axial, of the true mass; 0 where inertia is that
-  /// J, that a change of the step has put into what leapfrog keeps, until the step's begin.
-  double step_change = 0;
 };
 
 /// Axial motion of the centre of the inertial masses, on which forces act. It is not the centre of the true
@@ -87,7 +74,7 @@ inline void ParticleTotals::add(const ParticleTotals& other) {
 
 inline void NodeTotals::add(const NodeTotals& other) {
   for (const auto part : {&NodeTotals::damping, &NodeTotals::lost_before, &NodeTotals::old_momentum,
-                          &NodeTotals::inertial_momentum, &NodeTotals::momentum, &NodeTotals::step_change})
+                          &NodeTotals::inertial_momentum, &NodeTotals::momentum})
     this->*part += other.*part;
 }
 

@@ -51,7 +51,6 @@ class TotalLagrangian {
   std::vector<Nodes>& nodes() { return nodes_; }
   const std::vector<Tie>& ties() const { return ties_; }
   const Contact& contact() const { return *contact_; }
-  Contact& contact() { return *contact_; }
 
  private:
   /// Constants of a body.
@@ -89,7 +88,6 @@ class TotalLagrangian {
   void load_along(const scene::ChamberFace& face);
   void load_nodes(const StepInput& input);
   double chamber_flow() const;
-  Pack change_of_step(const Nodes& nodes, int row, const StepInput& input) const;
   void move_row(Nodes& nodes, int row, const StepInput& input, NodeTotals& totals) const;
   void advance_rows(const Rows& rows, const StepInput& input);
   void apply_contact(const StepInput& input);

@@ -21,8 +21,7 @@ struct NamedRun {
 Table run_table(const std::vector<NamedRun>& runs);
 
 /// A row for every face of the charge on which a body can slide: friction work, the largest heat by friction
-/// and where, the longest way slid, the widest opening, and how much of the bond holds. Without rows where
-/// all bodies are bonded for good.
+/// and where, the longest way slid, and the widest opening. Without rows where all bodies are bonded.
 Table interface_table(const run::MechanicsResult& mechanics);
 
 /// What a run that burnt came to.
@@ -31,10 +30,6 @@ Quantities<run::CombustionHistory> burnt_state_quantities();
 /// A row a gap that burnt in a run with two-way coupling: flame speeds, end state, balance of energy, cost.
 /// No rows where none did.
 Table combustion_table(const scene::Scene& scene, const run::CaseResult& result);
-
-/// A row a gap that closed in its launch: when and how the faces met, its air, and where its heat came from
-/// and went. No rows where none did.
-Table closing_table(const run::CaseResult& result);
 
 /// What the columns of the energy of the air are.
 std::vector<Column> air_energy_columns();
@@ -47,15 +42,12 @@ struct AuditedGap {
 };
 
 /// What the audit says of temperatures and critical gaps, as a short paragraph: at the gap where the skin
-/// took most against its supply, whether that is more than compression can supply, and what follows. Of a
-/// film, which has no skin of one temperature, nothing is compared. `closing`: gaps that close stand beside
-/// it.
-std::string air_energy_statement(scene::AirModel model, const std::vector<AuditedGap>& gaps,
-                                 bool closing = false);
+/// took most against its supply, whether that is more than compression can supply, and what follows.
+std::string air_energy_statement(const std::vector<AuditedGap>& gaps);
 
 /// A row for every gap: taken by the skin, supplied by compression, their ratio; under it the statement.
 /// Without rows where there is no gap.
-Table air_energy_table(scene::AirModel model, const std::vector<AuditedGap>& gaps, bool closing = false);
+Table air_energy_table(const std::vector<AuditedGap>& gaps);
 
 /// A sentence: which decomposition the flame of a coupled run lives on, and which decides ignition.
 std::string flame_kinetics_note(const scene::Scene& scene);

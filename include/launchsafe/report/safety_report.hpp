@@ -8,12 +8,10 @@
 namespace launchsafe::report {
 
 /// What a finished study tells, by the tables that it has, under the name that texts have for it: verdicts of
-/// one launch or of a few cases, verdicts over axes with several values, ... Closing: what a gap does that
-/// closes, beside a launch whose air is a reservoir.
+/// one launch or of a few cases, verdicts over axes with several values, ...
 namespace tells {
-inline const std::string nothing = "", launch = "launch", closing = "closing", sweep = "sweep",
-                         models = "models", accuracy = "accuracy", sensitivity = "sensitivity",
-                         stability = "stability";
+inline const std::string nothing = "", launch = "launch", sweep = "sweep", models = "models",
+                         accuracy = "accuracy", sensitivity = "sensitivity", stability = "stability";
 }
 
 /// One study.
@@ -79,9 +77,6 @@ struct CaseEvidence {
 };
 /// SI, of a scene key that takes one number; of a measured load its peak.
 double own_value(const StudyEvidence& study, const std::string& key);
-/// The study of gaps that close by which SAFE of a reservoir stays SAFE or not; a sweep of them, which looks
-/// for no worst corner, leaves none. nullptr without any.
-const StudyEvidence* held_against(const SafetyEvidence& evidence);
 
 /// Whether it makes another launch, or computes it otherwise.
 bool is_of_launch(const study::Difference& difference);
@@ -133,8 +128,8 @@ scene::Expected<GapCriterion> parse_criterion(const std::string& text, const std
 /// that were computed count: nothing is interpolated.
 std::optional<double> largest_gap_under(const GapCriterion& criterion, std::vector<Row> verdicts);
 
-/// T max against gap of one launch in the colours of its verdicts, with its critical gap, what was published
-/// and, where a gap that closes was looked at, the worst corner. `tables`: rows of its study.
+/// T max against gap of one launch in the colours of its verdicts, with its critical gap and what was
+/// published. `tables`: rows of its study.
 Plot verdict_plot(const Row& tables, const scene::Scene& scene);
 
 /// The templates of safety reports that are built in.

@@ -59,7 +59,7 @@ inline constexpr std::array energy_terms{
     Stored{"damping_loss", &EnergyBalance::damping, "J",
            "taken out by damping and the PIC share"},  // and FLIP's filter
     Stored{"contact_loss", &EnergyBalance::contact, "J",
-           "taken out by friction between bodies, where their faces close, and by gas between them"},
+           "taken out by friction between bodies and where their faces meet"},
     Stored{"plastic_dissipation", &EnergyBalance::plastic, "J", "dissipated in steel"},
     Stored{"viscous_dissipation", &EnergyBalance::viscous, "J",
            "dissipated in the charge's Maxwell elements"},
@@ -190,7 +190,7 @@ struct InterfaceResult {
   std::string body;
   bool along_x = false;
   double face = 0, friction_work = 0;
-  std::vector<double> place, friction_heat, slid, largest_gap, overlap, bonded;  ///< by node
+  std::vector<double> place, friction_heat, slid, largest_gap, overlap;  ///< by node
 };
 inline constexpr std::tuple stored_interface{
     Stored{"body", &InterfaceResult::body, "none", "the body that touches the charge"},
@@ -202,7 +202,6 @@ inline constexpr std::tuple stored_interface{
     Stored{"slid", &InterfaceResult::slid, "m", "way slid since the start, to and fro added up"},
     Stored{"largest_gap", &InterfaceResult::largest_gap, "m", "by which the faces parted"},
     Stored{"overlap", &InterfaceResult::overlap, "m", "by which the faces passed into each other"},
-    Stored{"bonded", &InterfaceResult::bonded, "1", "1 where the bond still holds"},
 };
 
 /// States of a launch from which runs of single gaps go on.
@@ -227,7 +226,7 @@ struct MechanicsResult {
   std::vector<MonitorSample> monitor;
   std::vector<Snapshot> snapshots;
   LimiterCounts limiters;
-  std::vector<InterfaceResult> interfaces;         ///< none for bodies that are bonded for good
+  std::vector<InterfaceResult> interfaces;         ///< none for bonded bodies
   std::shared_ptr<const Checkpoints> checkpoints;  ///< in memory only, where they were asked for
 };
 
@@ -285,60 +284,15 @@ inline constexpr std::tuple stored_combustion{
            "heat above the initial temperature that the burnt part had before"},
 };
 
-/// How a closing gap closed (scene::GapModel::closing). Means are over the area of the charge's bottom; its
-/// pressure is one of them.
-struct ClosingHistory {
-  std::vector<double> time, opening, gas_pressure;
-  double smallest_opening = 0, approach_speed = 0;
-  double contact_time = math::not_a_number;
-  int contacts = 0;
-  double largest_gas_pressure = 0, largest_gas_temperature = 0;
-  double pressure_at_contact = math::not_a_number, largest_pressure = math::not_a_number,
-         steepest_rise = math::not_a_number;
-  double work_on_gas = 0;
-  surface::FilmEnergy energy;  ///< J/m2
-};
-inline constexpr std::tuple stored_closing{
-    Stored{"smallest_opening", &ClosingHistory::smallest_opening, "m", "anywhere on the bottom"},
-    Stored{"contact_time", &ClosingHistory::contact_time, "s",
-           "when the faces first met; none if they did not"},
-    Stored{"approach_speed", &ClosingHistory::approach_speed, "m/s", "largest until then"},
-    Stored{"contacts", &ClosingHistory::contacts, "1", "how often the faces met after touching nowhere"},
-    Stored{"largest_gas_pressure", &ClosingHistory::largest_gas_pressure, "Pa", "anywhere"},
-    Stored{"largest_gas_temperature", &ClosingHistory::largest_gas_temperature, "K",
-           "mean over the air at a place"},
-    Stored{"pressure_at_contact", &ClosingHistory::pressure_at_contact, "Pa",
-           "of the charge's bottom, air's and faces' above the surroundings, from contact_time on over a "
-           "twentieth of the time that sound takes through the charge; largest and rise over such times"},
-    Stored{"largest_pressure", &ClosingHistory::largest_pressure, "Pa", "of the charge's bottom"},
-    Stored{"steepest_rise", &ClosingHistory::steepest_rise, "Pa/s", "of that pressure"},
-    Stored{"work_on_gas", &ClosingHistory::work_on_gas, "J/m2",
-           "of the faces, beyond the surrounding pressure; mean over the bottom, as below"},
-};
-inline constexpr std::tuple stored_film_energy{
-    Stored{"heat_to_charge", &surface::FilmEnergy::charge, "J/m2", "gained by the charge"},
-    Stored{"heat_to_base", &surface::FilmEnergy::base, "J/m2", "gained by the base"},
-    Stored{"gas_enthalpy", &surface::FilmEnergy::gas, "J/m2", "gained by the air"},
-    Stored{"compression", &surface::FilmEnergy::work, "J/m2", "integral of V dp over the air"},
-    Stored{"friction_heat", &surface::FilmEnergy::friction, "J/m2", "in the charge"},
-    Stored{"reaction_heat", &surface::FilmEnergy::reaction, "J/m2", "in the charge"},
-};
-inline constexpr std::tuple stored_closing_samples{
-    Stored{"time", &ClosingHistory::time, "s", "time"},  // those of the trace
-    Stored{"opening", &ClosingHistory::opening, "m", "mean over the bottom"},
-    Stored{"gas_pressure", &ClosingHistory::gas_pressure, "Pa", "mean over the bottom"},
-};
-
 /// One gap of a case.
 struct GapResult {
   double gap = 0;  ///< m
   surface::SkinHistory skin;
-  surface::Maximum at_stations;           ///< T_max over the stations, the whole bottom: what verdicts use
-  surface::Maximum at_points;             ///< over the observation points; NaN without any
-  surface::AirEnergy air;                 ///< what the skin took from the air
-  double sampling_error = 0;              ///< K, |T_max - T_max on the thinned trace|
-  bool with_mechanics = false;            ///< integrated inside the mechanics rather than on its trace
-  std::optional<ClosingHistory> closing;  ///< where the gap closes
+  surface::Maximum at_stations;  ///< T_max over the stations, the whole bottom: what verdicts use
+  surface::Maximum at_points;    ///< over the observation points; NaN without any
+  surface::AirEnergy air;        ///< what the skin took from the air
+  double sampling_error = 0;     ///< K, |T_max - T_max on the thinned trace|
+  bool with_mechanics = false;   ///< integrated inside the mechanics rather than on its trace
   std::optional<CombustionHistory> combustion;  ///< of one that ignited, where the coupling is two-way
 };
 

@@ -50,10 +50,9 @@ std::vector<scene::Event> events_without_snapshot(const scene::Scene& scene, con
 /// ignition both must agree to integration tolerance.
 ///
 /// With one-way coupling the skin is integrated at every time step instead of on the bottom trace, and has no
-/// effect on the mechanics. Where the air model couples the stations or is a film, it is integrated on a
-/// trace with a sample every eight steps.
+/// effect on the mechanics.
 ///
-/// With two-way coupling (AirModel::reservoir) what burns after ignition turns to gas and acts on all bodies
+/// With two-way coupling what burns after ignition turns to gas and acts on all bodies
 /// (burning_bottom.hpp), and the run ends a stated time after ignition or at a stated pressure instead of at
 /// the end of the load, which goes on as it is stated beyond its duration. It goes on from the last
 /// checkpoint of the launch before the gap ignites, or is hottest: bitwise the mechanics from the start,

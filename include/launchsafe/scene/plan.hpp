@@ -253,10 +253,8 @@ double transit_time(const Scene& scene);
 bool changes_too_fast_for_selective_inertia(const Scene& scene);
 
 /// The `numerics.selective_inertia` of a launch that states none: 4, a quarter of the steps, where that was
-/// measured against true inertia (reports/accuracy), else 1. Where its gap closes it is 2: T max is then that
-/// of true inertia within 0.3 K where the charge is free from the start and within 2 % of its rise where it
-/// rings, and 4 lowers it by 3 K. A measured curve has true inertia: more of it moves the shell's own
-/// frequencies, near which swings of the curve may lie.
+/// measured against true inertia (reports/accuracy), else 1. A measured curve has true inertia: more of it
+/// moves the shell's own frequencies, near which swings of the curve may lie.
 double usual_selective_inertia(const Scene& scene);
 
 /// The scene with everything that cannot influence the mechanical run, its trace or its snapshots at its

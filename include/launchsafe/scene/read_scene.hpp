@@ -205,9 +205,6 @@ std::vector<KeyDescription> acceptable_keys(const Scene& scene);
 const std::vector<Key<Scene>>& scene_keys();
 /// The role of a key of the scene. One that is none of these, such as "body.wall.x", changes everything.
 keys::Role role_of(std::string_view key);
-/// Whether a number of a law does anything in a scene. Those that came later than what is stored are written
-/// only where they do.
-bool is_of_use(const KeyDescription& number, const Scene& scene);
 /// Those of the charge's bottom among them: gap and air, friction and stations.
 std::vector<Key<Scene>> surface_keys();
 /// Keys of one [[body]].

@@ -21,15 +21,9 @@ enum class LoadShape { bell, power_exponential };
 /// The word of a shape in scene files and reports.
 std::string word_of(LoadShape shape);
 enum class AirPressure { charge_bottom, chamber };
-enum class AirModel { reservoir, film };
-/// As published, the gap does nothing to the mechanics and its air stays what it is; or the charge flies
-/// across it, compresses its air and meets the base.
-enum class GapModel { reservoir, closing };
-/// Whether the base takes heat from the air of a closing gap.
-enum class GapBase { conducting, insulated };
-/// Whether the air of a closing gap stays at its radius, or flows freely and has one pressure.
-enum class AirFlow { trapped, common_pressure };
-enum class Exchange { rate, per_step };
+// One each: records and manifests write them, and are refused without.
+enum class AirModel { reservoir };
+enum class Exchange { rate };
 
 /// What bodies are made of: a law with its parameters, under the name that bodies refer to it by.
 struct Material {
@@ -98,27 +92,9 @@ using materials::Steel;
 /// The bottom gap, its air and the skin of the charge (model section 6).
 struct Surface {
   std::vector<double> gaps{0.0};  ///< m
-  /// K, at which charge and shell fitted; of a scene file with it the gap follows (gap_by_cooling).
-  std::optional<double> opens_by_cooling = {};
   materials::AirParameters air;
   AirPressure air_pressure = AirPressure::charge_bottom;
   AirModel air_model = AirModel::reservoir;
-  GapModel model = GapModel::reservoir;
-  GapBase base = GapBase::conducting;   ///< of a closing gap
-  AirFlow air_flow = AirFlow::trapped;  ///< likewise
-  double roughness = 1e-5;              ///< m, the least opening of a closing gap
-  /// s, until which faces that slide hold the charge that closes a gap, all but its bottom; 0: never.
-  double release = 0.0;
-  /// s, over which what holds it then falls to nothing; none: transit_time (plan.hpp).
-  std::optional<double> release_duration = {};
-  /// The charge over a closing gap melts as heat reaches it: for comparison, no verdict rests on it.
-  bool melts = false;
-  /// Cells in which a closing gap resolves its air, and the depth of the charge that its heat reaches; and
-  /// how many times as often as usual its motion and its heat take turns.
-  int air_cells = 32, depth_cells = 40;
-  double turns = 1.0;
-  /// The air of a closing gap has constant heat capacity and no covolume: for comparisons, without a key.
-  bool ideal_air = false;
   Exchange exchange = Exchange::rate;
   double skin_thickness = 1e-4;       ///< h_ex, m
   double exchange_time = 2.85100e-4;  ///< tau_ex, s [C]
@@ -127,11 +103,6 @@ struct Surface {
   FrictionClosure friction = FrictionClosure::total_strain_rate;
   double localisation = 1346.94;  ///< [C]
 };
-
-/// Whether a gap (m) closes in the mechanics. One that is not wider than its roughness is none at all.
-inline bool closes(const Surface& surface, double gap) {
-  return surface.model == GapModel::closing && gap > surface.roughness;
-}
 
 struct Numerics {
   Formulation formulation = Formulation::total_lagrangian;
@@ -158,16 +129,13 @@ struct Numerics {
 /// How two bodies hold each other where they touch.
 enum class Condition { bonded, sliding };
 
-/// The faces between a body and the charge. Faces that no interface speaks of are bonded for good.
+/// The faces between a body and the charge. Faces that no interface speaks of are bonded.
 ///
-/// Sliding faces bear no tension, may open and close, and resist sliding by Coulomb's law. Faces with
-/// strengths are bonded until the traction at a node passes one of them, and from then on slide there.
+/// Sliding faces bear no tension, may part and meet again, and resist sliding by Coulomb's law.
 struct Interface {
   std::string body;  ///< name of the body that touches the charge
   Condition condition = Condition::bonded;
-  std::optional<double> friction = {};          ///< Coulomb's coefficient; given where the faces can slide
-  std::optional<double> tension_strength = {};  ///< Pa, of the bond; both strengths or none
-  std::optional<double> shear_strength = {};    ///< Pa
+  std::optional<double> friction = {};  ///< Coulomb's coefficient; given where the faces can slide
   /// Name of the other body; empty: every charge that `body` touches. For checks of contact against closed
   /// forms, which have no charge; no file says it.
   std::string against = {};
@@ -309,23 +277,11 @@ bool has_law(const Scene& scene) {
 bool is_charge(const Scene& scene, const Body& body);
 bool has_charge(const Scene& scene);
 
-/// Whether a body begins where the charge's bottom is, within its radius.
-bool lies_under_charge(const Scene& scene, const Body& body);
-/// The one of them nearest to the axis; nullptr where there is none.
-const Body* body_under_charge(const Scene& scene);
-
-/// m/K by which a charge that is held at the nose parts from its base as it cools: what it shrinks more than
-/// the body beside it that shrinks least.
-double opening_by_cooling(const Scene& scene);
-/// m, of the gap that has so opened from Surface::opens_by_cooling, where the scene has that, or from the
-/// begin of a launch at other temperatures by `colder` K; 0 where there is none.
-double gap_by_cooling(const Scene& scene, double colder = 0.0);
-
-/// Whether the faces can part and slide, now or once their bond has broken.
+/// Whether the faces can part and slide.
 bool can_slide(const Interface& faces);
 /// The interfaces that can slide, by the names of their bodies. All others do nothing.
 std::vector<Interface> sliding_interfaces(const Scene& scene);
-/// The interface that speaks of two bodies (indices into Scene::bodies); none where they are bonded for good.
+/// The interface that speaks of two bodies (indices into Scene::bodies); none where they are bonded.
 const Interface* interface_between(const Scene& scene, std::size_t a, std::size_t b);
 
 /// The smallest rectangle around all bodies, the charges, or those that a rule chooses; nothing at 0 without

@@ -51,7 +51,7 @@ struct Coverage {
 
 /// Whether an input belongs to a setting: it makes a computation finer or coarser, and nothing else.
 bool belongs_to_setting(const scene::KeyDescription& key);
-/// The scene keys of a setting with their values; those that resolve a closing gap of a scene with one alone.
+/// The scene keys of a setting with their values.
 using Setting = std::map<std::string, scene::Value>;
 Setting setting_of(const scene::Scene& scene);
 /// Equal but for the round-off of units.

@@ -31,7 +31,6 @@ enum class ShareKind {
   sliding,
   fit,
   model_form,
-  cooling,  ///< how far a gap has opened by cooling
   accepted  ///< constants of gap and friction that are accepted and not the calibrated ones
 };
 inline constexpr std::size_t share_kinds = static_cast<std::size_t>(ShareKind::accepted) + 1;

@@ -18,11 +18,6 @@ namespace launchsafe::study {
 /// temperature of the charge, and the length of the pulse at the same peak.
 inline constexpr double assumed_load_spread = 0.04;
 inline constexpr double assumed_temperature_spread = 12.0;  ///< K
-/// Of what cooling opens: the temperatures by which charge and shell fitted and are fired differ by as much
-/// more, and they expand by a quarter more unequally, which holds what is plausible of the charge.
-inline constexpr double assumed_expansion_spread = 0.25;
-/// m, by which a gap that opened by cooling may be thicker; 0 of one that is stated.
-double cooling_spread(const scene::Scene& scene);
 /// Of the length of the pulse: a launch that lasts longer leaves the hot air more time.
 inline constexpr double assumed_pulse_spread = 0.05;
 
@@ -106,74 +101,6 @@ std::string commonest_first(const std::map<std::string, std::size_t>& reasons, s
 /// temperature.
 double numerical_share(const StudyCase& input, double gap, double rise);
 
-/// The same of a launch in which a gap closes.
-struct ClosingShare {
-  double kelvin = assumed_numerical_uncertainty;
-  bool recorded = false;  ///< rather than assumed
-};
-/// Of a case whose gap (m) closes as `closing` has it, by a record that was made of a gap closing on those
-/// very terms (base, roughness, release), at no lower a pressure, temperature, localisation and defect, and
-/// up to no thinner a gap: nothing is carried beyond. A record of the reservoir says nothing of it.
-ClosingShare closing_share(const StudyCase& input, const scene::Scene& closing, double gap, double rise);
-
-// --- what gaps that close say of a case, beside the reservoir: on two bounds of the heat that the base
-// takes, and in the worst corner of what is not known. Every gap on every terms has a launch of its own ---
-
-/// Terms on which a gap closes, and the charge ignites.
-struct ClosingTerms {
-  scene::Surface surface;
-  materials::KineticsParameters kinetics;
-};
-
-/// Sets of terms that are looked at together: the hottest of them counts.
-struct ClosingBound {
-  std::string name;  ///< in files
-  std::vector<ClosingTerms> terms;
-  std::string unknown_for = {};  ///< why nothing can be said on them; empty where it can
-};
-
-/// "conducting" and "insulated": a case's own terms with either base. Where the corner is asked for, also
-/// - "melting": insulated, and the charge melts; nothing rests on it.
-/// - "smooth": insulated, with the smoothest faces of the plausible ones or the case's own, let go over the
-///   time that sound takes through the charge or over the case's own where that is shorter.
-/// - "flowing": the same with air that stays and with air that flows.
-/// - "corner": the same with a charge that is free from the start, or as the case has it, or held until the
-///   load has 25, 50, 75, 85, 95 and 100 % of its peak, and 95 % after it; how much hotter an instant between
-///   two of these may be counts as an uncertainty. Of a charge that anything holds by a bond the corner is
-///   not known: when bonds let go is not looked at.
-/// Each but melting holds all of the one before, so that the difference of two that follow each other is what
-/// the worst end of one interval does: of the heat to the base, of the faces, of the air's flow, of the
-/// release. On all of them every kinetics of kinetics_of counts, the first to ignite.
-std::vector<ClosingBound> closing_bounds(const StudyCase& input, bool with_corner = true);
-
-/// The kinetics by which a charge may ignite between its initial temperature and T1: its own, and those of
-/// which all three numbers belong together, with its T1 and T2. Left out is what another one outdoes over all
-/// of that range: as ln of the heating is linear in 1/T, it does so if at both of its ends.
-std::vector<materials::KineticsParameters> kinetics_of(const scene::Scene& scene);
-
-/// Performs runs, for which so many cases wait, and hands over what became of each, from any thread.
-using RunBatch = std::function<void(std::vector<PlannedRun> runs, std::ptrdiff_t cases,
-                                    const std::function<void(std::size_t run, const FinishedRun&)>& take)>;
-
-/// The bounds of cases (places in StudyFile::cases) whose gaps close. The gaps of the study up to the largest
-/// one of its search are computed, then the first that ignites is narrowed down to the study's tolerance. In
-/// detail all of them and a scan between them, with the corner; of many cases from the thinnest up to the
-/// first that ignites or is not known, without the corner. At last no case waits.
-std::vector<std::vector<ClosingAnswer>> find_closing_gaps(const StudyFile& study,
-                                                          const std::vector<std::size_t>& cases,
-                                                          const RunBatch& run);
-/// Launches of a case that may be asked for, at most.
-std::size_t most_closing_launches(const Study& study, const StudyCase& input);
-
-/// What they say of one gap, for its verdict: nothing where a thinner gap is not known.
-ClosingEvidence closing_evidence(const std::vector<ClosingAnswer>& answers, double gap,
-                                 double ignition_temperature);
-/// The same of a row of the verdict table, held against the reservoir's heat in it.
-void take_closing_evidence(const std::vector<ClosingAnswer>& answers, const scene::Scene& scene,
-                           GapVerdict& row);
-/// A bound as a critical gap, for people.
-CriticalGap critical_gap_of(const ClosingAnswer& answer);
-
 /// A skin that air and friction heat, and nothing else.
 surface::SkinModel without_reaction(surface::SkinModel model);
 
@@ -202,9 +129,6 @@ void attach_references(const Study& study, const StudyCase& input, std::vector<G
 /// A case on its mechanics: the critical gap, by the hottest station and indeterminate for a failed run; then
 /// the gaps of the study on the trace, skin histories and the rows without verdict.
 void evaluate(const Study& study, CaseOutcome& outcome);
-/// Puts what the launches of gaps that close came to, one a gap of the study, in the place of what was read
-/// off a trace; there is no critical gap.
-void take_launches(const StudyCase& input, const std::vector<FinishedRun>& runs, CaseAnswer& answer);
 /// That of a case without a result: rows without numbers, and the reason.
 CaseOutcome without_result(const Study& study, const StudyCase& input, RunOutcome of_run,
                            std::string failure);
@@ -234,7 +158,7 @@ struct RaisedLaunch {
 
 /// m: how wide the bracket of a critical gap by the reservoir may be at most, whatever wider one a study asks
 /// for. What causes of uncertainty change is a difference of such brackets: in wide ones it vanishes, and the
-/// lower bound rises. A gap on a trace costs little; gaps that close, a launch each, take the study's own.
+/// lower bound rises. A gap on a trace costs little.
 inline double bracket_width(const Study& study) { return std::min(study.tolerance, 1e-6); }
 
 /// The random causes of a case, one by one at their ends: the muzzle exit where its scene states a spread;
@@ -255,8 +179,6 @@ CaseAnswer answer_of(const CaseOutcome& outcome);
 /// states no uncertainty of the inputs.
 CaseAnswer answer_of(const Study& study, const StudyCase& input, const run::MechanicsResult& mechanics,
                      const std::optional<run::MechanicsResult>& raised = std::nullopt);
-/// Takes in what gaps that close say of the case, and judges its gaps anew.
-void take_closing(const StudyCase& input, std::vector<ClosingAnswer> closing, CaseAnswer& answer);
 /// The answer of a case without a result.
 CaseAnswer failed_answer(const Study& study, const StudyCase& input, RunOutcome outcome, std::string failure);
 

@@ -104,7 +104,7 @@ struct ModelFormEntry {
 /// Of models at the same peak pressures (Pa, increasing), the default first. Errors (a text): a default
 /// without constants; a scene that is not of its calibration; an alternative that is the default itself, or a
 /// model of another launch or of other published rows; stations that were compared with no finer mesh; no
-/// alternative in one of the kinds that ship: interfaces, friction closure, air, cracks, stations.
+/// alternative in one of the kinds that ship: interfaces, friction closure, cracks, stations.
 scene::Expected<ModelFormRecord, std::string> make_model_form(const std::vector<ModelFormEntry>& entries,
                                                               std::vector<double> peak_pressures);
 

@@ -109,17 +109,11 @@ double cost_of(const CaseRun& run);
 /// Bytes, with the skin of a coupled run.
 double memory_of(const CaseRun& run);
 
-/// Whether a case has launches in which its gaps close, in place of one on which all are judged.
-inline bool compares_closing(const Study& study, const StudyCase& input) {
-  return input.closing && study.kind.closing_gaps == ClosingGaps::compared;
-}
-
 /// Runs that are judged together, and the cases of the study that are judged on them.
 struct CaseRuns {
   std::vector<std::size_t> members;  ///< of StudyFile::cases; those that differ in thermal keys alone share
   /// The mechanics; then, where the study asks for it, under a raised load, or those of its two
   /// neighbouring_loads, or through the ignition of gaps;
-  /// or, where it compares gaps that close, theirs alone (compares_closing);
   /// at last, where `Study::in_detail` says so, the longer launch if there is one, which goes on from the
   /// first.
   std::vector<PlannedRun> runs;
@@ -255,7 +249,7 @@ struct Forecast {
   std::vector<ForecastRun> runs;  ///< of them; of many some, evenly spread, from which all else is estimated
   /// Of all runs, what is the case for so many of `runs`.
   std::size_t of_all(std::size_t runs_like_that) const;
-  /// Coupled runs, and launches of gaps that close, that may follow, at most.
+  /// Coupled runs that may follow, at most.
   std::size_t confirmations = 0;
   double update_rate = 0;        ///< particle updates per second on a core that the prediction rests on
   std::size_t learned_from = 0;  ///< recorded runs that the rate was learned from; 0: measured now

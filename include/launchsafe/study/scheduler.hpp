@@ -13,7 +13,7 @@
 namespace launchsafe::study {
 
 /// What the runs of a study are for at the moment.
-enum class Phase { launches, following_runs, closing_gaps, report };
+enum class Phase { launches, following_runs, report };
 std::string to_string(Phase phase);
 
 /// A critical gap, of ignition alone, that a case came to: without its uncertainty, and so no answer yet.

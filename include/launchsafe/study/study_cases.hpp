@@ -19,15 +19,10 @@ struct Change : scene::KeyChange {
 /// The value as people read it.
 std::string text_of(const scene::SceneFile& scene, const Change& change);
 
-/// What gap.model may be where gaps that close are not judged: there they are judged on one launch, which a
-/// gap that closes has not.
-inline constexpr const char* only_reservoir =
-    "gap.model = \"reservoir\"; a study of kind critical-gap judges gaps that close";
-
 /// The scene with all changes, which need be valid only together (scene::with_keys), or why it cannot have
-/// them, at the change that this is about. `may_close`: they may make its gap one that closes.
+/// them, at the change that this is about.
 scene::Expected<scene::SceneFile> with_changes(const scene::SceneFile& scene,
-                                               const std::vector<Change>& changes, bool may_close = false);
+                                               const std::vector<Change>& changes);
 
 /// Where the user gave a key; the file as a whole if he did not.
 inline scene::Place place_of_key(const StudyFile& study, const std::string& key) {

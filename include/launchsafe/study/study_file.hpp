@@ -52,11 +52,6 @@ struct StudyCase {
   double covered_gap = math::infinity;
   double pressure_ratio = 1.0;  ///< peak pressure over that of the study's scene
   scene::SceneFile scene;
-  /// The terms of a gap that closes, where it does: the scene has the reservoir beside which they are looked
-  /// at.
-  std::optional<scene::Surface> closing;
-  /// Those that the study names, by which its closing gaps are judged; none: it names none.
-  std::shared_ptr<const AccuracyRecords> accuracy = {};
   /// Of its scene.
   const materials::ViscoScramParameters& strength() const { return scene.scene.charge().strength; }
   bool has_defect(const materials::ViscoScramParameters& other) const {
@@ -70,9 +65,6 @@ struct StudyCase {
     return is_recorded ? numerical_uncertainty : not_a_number;
   }
 };
-
-/// The scene in which the gap of a case closes, on its own terms; the scene of one without such.
-scene::Scene closing_scene(const StudyCase& input);
 
 /// The cases of a study in their order. A study may have a million: of those that vary keys of one scene it
 /// holds labels and values alone.
@@ -122,14 +114,6 @@ class Cases {
   Complete complete_;
 };
 
-/// What a kind of study does with a scene whose gap closes.
-enum class ClosingGaps {
-  refused,
-  beside,    ///< judges them beside the reservoir, by launches that follow its answer
-  launched,  ///< has a launch for each gap of a case, beside that of a charge that rests
-  compared   ///< the same in place of it, on the scene's own terms: what a gap comes to is that launch's
-};
-
 /// What the engine has to know of a kind of study.
 struct KindTraits {
   std::string name;         ///< as in `kind = "critical-gap"`
@@ -142,7 +126,6 @@ struct KindTraits {
   bool keeps_answers = false;  ///< what is concluded of a case is stored beside its runs, unless in
                                ///< detail (Study::in_detail)
   bool own_scenes = false;     ///< cases may bring scenes and uncertainties of their own
-  ClosingGaps closing_gaps = ClosingGaps::refused;
   /// Gaps of cases with two-way coupling are run through ignition too.
   bool goes_through_ignition = false;
 };
@@ -223,8 +206,6 @@ struct Study {
 
   // every kind that judges gaps
   std::vector<double> gaps;  ///< m; those of the scene where the file has none
-  /// Each case is judged at the gap that cooling opens in it: see `gaps_of`.
-  bool gaps_by_cooling = false;
 
   /// Histories of all cases are kept for the report, and the longer launch is run too, where there is one.
   bool in_detail = false;
@@ -289,11 +270,6 @@ struct StudyFile {
   std::size_t most_cases = largest_case_count;  ///< a study with more is refused
   std::size_t confirmations_per_case = 0;       ///< coupled runs that may follow once its gaps are judged
 };
-
-/// m, at which a case is judged: as many as Study::gaps.
-inline const std::vector<double>& gaps_of(const Study& study, const StudyCase& input) {
-  return study.gaps_by_cooling ? input.scene.scene.surface.gaps : study.gaps;
-}
 
 /// As in scene files.
 std::string to_string(scene::FrictionClosure closure);

@@ -14,10 +14,9 @@ inline constexpr double least_friction_rise = 1.0;
 
 struct CaseStatements {
   std::vector<std::string> uncovered_load;  ///< of run::uncovered_load
-  /// Why no ignition shows nothing, whatever the case accepts, by the input alone; a study without verdicts
-  /// knows films only. Empty: it may show something.
+  /// Why no ignition shows nothing, whatever the case accepts, by the input alone. Empty: it may show
+  /// something.
   std::string optimistic;
-  bool closes = false;  ///< gaps are to be looked at as they close, too
 
   // The rest is empty for a study without verdicts.
   RecordDistance distance;                      ///< to the calibration
@@ -61,7 +60,7 @@ struct Uncertainty {
   double input = 0;        ///< of what is not known of the launch: its random causes together
   double load_curve = 0;   ///< of a measured curve: see load_curve_share
   double model_form = 0;   ///< by which other models of the launch move towards ignition
-  /// Of a base on which the charge slides: all heat of friction, and the gap that opens there or by cooling.
+  /// Of a base on which the charge slides: all heat of friction, and the gap that opens there.
   double sliding = 0;
   /// Of the computation itself: the sum, since the parts are bounds and have common causes.
   double computed() const { return sampling + integration + coupling + numerical + sliding; }
@@ -88,20 +87,6 @@ struct CaseEvidence {
 /// Why a case has no critical gap, whatever a search finds; none where it may have one.
 GapReason why_no_critical_gap(const CaseEvidence& of_case);
 
-/// What gaps that close say of one gap (case_answer.hpp).
-struct ClosingEvidence {
-  bool known = false;    ///< every bound that was computed has a temperature
-  bool ignited = false;  ///< with a base that conducts, or with an insulated one
-  /// K, in the worst corner or on another bound that comes nearer to ignition; minus infinity where it
-  /// ignites there, or a thinner gap does; NaN where the corner was not computed.
-  double corner_margin = math::not_a_number;
-  /// K, by which its T max may be off for mesh, steps and columns: by an accuracy record that was made on its
-  /// terms, or assumed.
-  double numerical = math::not_a_number;
-  /// Of its rise of T max to that under the reservoir, at least 1: what else errs in the heat grows with it.
-  double heat_ratio = math::not_a_number;
-};
-
 /// Which rule gave a verdict.
 enum class ReasonCode {
   not_judged,
@@ -109,7 +94,6 @@ enum class ReasonCode {
   no_temperature,
   validity_warning,
   ignition,
-  closing_ignition,
   unaccepted,
   no_margin,
   optimistic,
@@ -123,9 +107,6 @@ enum class ReasonCode {
   no_lower_bound,
   may_ignite_without_gap,
   not_below_bound,
-  closing_unknown,
-  closing_without_corner,
-  closing_corner,
   below_bound
 };
 /// In files: "below-bound".
@@ -203,33 +184,6 @@ std::vector<AsCalibrated> as_calibrated(const scene::Scene& scene, const scene::
                                         const std::vector<scene::Implausible>& to_be_accepted,
                                         const trace::BottomTrace& trace, double gap);
 
-/// A gap on the terms of a bound.
-struct ClosingPoint {
-  double gap = 0;                             ///< m
-  double maximum_temperature = not_a_number;  ///< K, at any depth and station; NaN where a run has none
-  bool ignited = false;
-  std::string place = {};        ///< station of the maximum
-  double release = 0;            ///< s, of the terms on which that is
-  std::string unknown_for = {};  ///< why there is no temperature; empty where there is one
-  /// K, up to which T max may be by mesh, steps and columns of its launches, of which the hottest need not be
-  /// the worst known.
-  double at_most = not_a_number;
-  bool recorded = false;     ///< that rests on accuracy records alone
-  std::size_t launches = 1;  ///< that it was taken from
-};
-
-/// What a bound says: the points that were computed, by gap, and the smallest gap of them that ignites.
-struct ClosingAnswer {
-  std::string name;
-  std::vector<ClosingPoint> points;
-  /// m, between the largest below which nothing ignites (NaN: there is none) and the smallest that does
-  /// (infinite: none up to the end of the search; NaN: a temperature beyond `lower` is not known).
-  double lower = not_a_number, upper = not_a_number;
-  const ClosingPoint* at(double gap) const;
-  bool is_nominal() const { return name == "conducting" || name == "insulated"; }
-  bool is_worst_corner() const { return name == "corner"; }
-};
-
 /// A maximum with its place by name.
 struct Peak {
   double temperature = not_a_number;  ///< K
@@ -265,17 +219,12 @@ struct GapVerdict {
   std::shared_ptr<const CaseEvidence> of_case;  ///< without it nothing is safe
   double when_over =
       not_a_number;  ///< K, T max when a launch that is cut short goes on until it is over; NaN for others
-  ClosingEvidence closing;          ///< of a case that asks for it
   std::vector<std::string> models;  ///< titles of other models that could change the verdict
   Judgement judgement;
   std::optional<Reference> reference;
   /// K, margin with the constants of the surface as calibrated; infinite where they are, minus infinite where
   /// it ignites so.
   double calibrated_margin() const;
-  /// K, of T max in the worst corner: the numerics are its own, and the rest is as much larger as its heat.
-  double closing_uncertainty() const {
-    return closing.heat_ratio * (uncertainty.total() - uncertainty.numerical) + closing.numerical;
-  }
   /// K, this until the exit minus the reference; NaN without one or where either ignited
   double misfit() const;
   double early_misfit() const;
@@ -290,9 +239,6 @@ struct GapVerdict {
 ///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
 ///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
 ///   ignition.
-///   Where the gap is to close, the worst corner of how it may do so does not ignite either, by a margin
-///   above the uncertainty, in which the numerics are those of that corner and the rest grows with its heat;
-///   nor, for UNSAFE, need the reservoir ignite where one of the closing bounds does.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
@@ -363,8 +309,7 @@ struct CaseAnswer {
   std::vector<std::string> validity_warnings;  ///< as CaseEvidence has them
   double friction_rise = not_a_number;         ///< K, likewise
   CriticalGap critical;                        ///< at the observation points
-  std::vector<GapVerdict> verdicts;    ///< in the order of the study's gaps; of one that failed not heated
-  std::vector<ClosingAnswer> closing;  ///< with a gap that closes, where the case has one; not stored
+  std::vector<GapVerdict> verdicts;  ///< in the order of the study's gaps; of one that failed not heated
   bool completed() const { return failure.empty(); }
 };
 

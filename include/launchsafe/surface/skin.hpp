@@ -1,7 +1,5 @@
-// Skin temperatures of the charge bottom for one gap, integrated on a bottom trace (model section 6); the
-// gap's air as a resolved film that conducts into charge and steel (AirModel::film), the optimistic bound
-// beside the reservoir, whose air never loses its heat; and the energy of the air: what the skin took from it
-// against what compression can supply to it (model section 12).
+// Skin temperatures of the charge bottom for one gap, integrated on a bottom trace (model section 6), and the
+// energy of the air: what the skin took from it against what compression can supply to it.
 #pragma once
 
 #include "launchsafe/math/numbers.hpp"
@@ -27,17 +25,9 @@ struct Ignition {
 struct SkinHistory {
   double gap = 0;                       ///< m
   std::vector<double> time;             ///< s, those of the trace
-  std::vector<double> air_temperature;  ///< K; of a film the mean over its mass and over the stations' areas
-  std::vector<double> temperature;      ///< K, [sample * stations + station]; under a film the surface's,
-  /// in a gap that closes the highest at any depth since the sample before.
-  /// K, at any depth and time of a station that tiles the bottom; under a film, whose base cools the surface.
-  /// 0 elsewhere.
-  double hottest_depth = 0;
-  std::optional<Ignition> ignition;  ///< the first over the stations that tile the bottom
-  /// Energy made or lost by a film, relative to all that passed at the worst station (FilmEnergy::residual).
-  /// 0 under AirModel::reservoir.
-  double energy_residual = 0;
-
+  std::vector<double> air_temperature;  ///< K
+  std::vector<double> temperature;      ///< K, [sample * stations + station]
+  std::optional<Ignition> ignition;     ///< the first over the stations that tile the bottom
   /// Takes in the ignition of a station that tiles the bottom, at `time` (s), if it is the first so far.
   void note_ignition(std::size_t station, double time, double chemical_share);
 };
@@ -48,13 +38,7 @@ struct SkinModel {
   materials::KineticsParameters kinetics;
   double charge_density = 1717.0;      ///< kg/m3
   double specific_heat = 1780.0;       ///< J/(kg K)
-  double charge_conductivity = 0.246;  ///< W/(m K); this and the base count under AirModel::film only
-  double base_density = 7830.0;        ///< kg/m3, of the body under the charge
-  double base_specific_heat = 460.0;   ///< J/(kg K)
-  double base_conductivity = 38.0;     ///< W/(m K)
   double initial_temperature = 300.0;  ///< K
-  double melting_temperature = 353.0;  ///< K, of the charge; this and its heat where scene::Surface::melts
-  double heat_of_melting = 0.0;        ///< J/kg
   double relative_tolerance = 1e-8;    ///< of the time integration
 };
 SkinModel skin_model(const scene::Scene& scene);
@@ -65,9 +49,7 @@ double heat_capacity_ratio(const SkinModel& model, double gap);
 /// Integrates dT/dt = (kappa h/tau_ex)(T_air - T) + friction/(rho c) + (Q Z/c)(1 - lambda) exp(-(E/R)/T) at
 /// every station. The exchange is stiff for small tau_ex and the reaction runs away: an L-stable Rosenbrock
 /// method with step control follows both. At T1 the station ignites and goes to T2; from there only the
-/// exchange acts. Under AirModel::film it is integrate_film instead; without a gap friction acts
-/// alone under every model of the air. Of a gap that closes in the mechanics (scene::closes) the trace of
-/// another launch says nothing, and the temperatures are NaN.
+/// exchange acts. Without a gap friction acts alone.
 SkinHistory integrate_skin(const SkinModel& model, const trace::BottomTrace& trace, double gap);
 
 /// Whether gaps ignite on one trace, as integrate_skin finds, sooner: a skin is followed up to ignition,
@@ -128,55 +110,6 @@ Maximum maximum_until(const SkinHistory& history, const trace::BottomTrace& trac
 Maximum maximum_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 double spread_at_time(const SkinHistory& history, const trace::BottomTrace& trace, double time);
 
-/// How finely columns are resolved. Both orders are second.
-struct FilmNumerics {
-  std::size_t charge_cells = 40;  ///< from 0.4 µm at the surface over a launch of 18 ms to 300 µm deep
-  std::size_t gas_cells = 32;     ///< by mass, from 0.3 % of it at each wall
-  std::size_t base_cells = 24;    ///< from 8 µm at the surface to 3.5 mm deep
-  double tolerance = 1e-5;        ///< local error of a step, relative to the temperature
-};
-
-/// Where the energy of one column came from and went to since the start, J/m2 of bottom:
-/// charge + base + gas = work + friction + reaction + inflow.
-struct FilmEnergy {
-  double charge = 0;    ///< gained by the charge
-  double base = 0;      ///< gained by the steel
-  double gas = 0;       ///< enthalpy gained by the air
-  double work = 0;      ///< integral of V dp over the air
-  double friction = 0;  ///< friction heat in the charge, as deep as the column reaches
-  double reaction = 0;  ///< heat of reaction in the charge, less what melted it
-  double inflow = 0;    ///< enthalpy of air that came from other columns, less that of what left
-  /// Difference of the two sides over the sum of magnitudes; 0 where nothing happened.
-  double residual() const;
-};
-
-struct FilmHistory {
-  SkinHistory skin;
-  std::vector<FilmEnergy> energy;  ///< by station, up to the end of the trace or the step before ignition
-};
-
-/// Integrates one column of charge, air and steel for every station and a gap (m) > 0: in the air, with mass
-/// m (kg/m2) as the coordinate and the pressure p of the trace the same everywhere,
-///
-///   c_p dT/dt = (1/rho) dp/dt + d/dm(rho k dT/dm),   rho = p/(R T),   R = c_p (gamma - 1)/gamma,
-///
-/// the energy of an ideal gas at small Mach number (Majda & Sethian, Combust. Sci. Technol. 42, 1985), with k
-/// of materials::air_conductivity; in charge and base rho c dT/dt = k d2T/dx2 + sources. The air's mass is
-/// p0 h/(R T0), so its density at rest is that of the ideal gas. Friction heats the charge evenly in depth
-/// and the base draws on that too. Left out: radiation, dissociation, what a gas of such density has beyond
-/// an ideal one, and the jump of temperature at walls nearer to each other than molecules fly. Below p0 the
-/// air stays at p0, as in materials::adiabatic_temperature.
-///
-/// So the thinnest film is not the missing gap of integrate_skin: there friction heats the surface as if
-/// nothing touched it (416 K on the 155 mm shell), here the base takes that heat (308 K).
-///
-/// The skin's temperature is that of the charge's surface; that of the air is the mean over its mass, and
-/// over the stations by their areas. Arrhenius heat acts in the whole depth of the charge, and a station
-/// ignites where its surface or any depth reaches the trigger: where the base cools the surface below what
-/// friction alone would give, that is inside. From ignition on it is at T2 and its air as it was then.
-FilmHistory integrate_film(const SkinModel& model, const trace::BottomTrace& trace, double gap,
-                           const FilmNumerics& numerics = {});
-
 /// Energies per area of the charge's bottom, J/m2, until the end of the history or the first ignition. NaN
 /// where nothing was computed; all are 0 without a gap.
 struct AirEnergy {
@@ -184,22 +117,16 @@ struct AirEnergy {
   double taken = math::not_a_number;
   /// At the most that a history of this pressure can supply: see compression_supply.
   double supplied = math::not_a_number;
-  /// m c_v (T - T0): stored in the air by adiabatic compression to the highest pressure.
-  double stored = math::not_a_number;
-  /// p0 h ln(p/p0): work of isothermal compression to the highest pressure.
-  double isothermal = math::not_a_number;
   /// How many times what can be supplied was taken; above 1 the energy of the air is not conserved. NaN
   /// without a supply.
   double ratio() const { return supplied > 0.0 ? taken / supplied : math::not_a_number; }
 };
 
 /// J/m2: rho c h_ex (T - T0) less the heats of friction and reaction, which is rho c h_ex times the integral
-/// of (kappa h/tau_ex)(T_air - T), without reference to the air: it holds for every AirModel beside a skin of
-/// one temperature and the thickness h_ex, not for one that resolves the charge in depth, whose heat is its
-/// own to count. The largest value over time, since a net heat is what the first law bounds; heat that went
-/// back to the air can be taken again. Of the station that ignites first, or else of the one where T max is,
-/// and until then. Reaction is integrated along straight lines between the samples of the history, which must
-/// be those of the trace.
+/// of (kappa h/tau_ex)(T_air - T), without reference to the air. The largest value over time, since a net
+/// heat is what the first law bounds; heat that went back to the air can be taken again. Of the station that
+/// ignites first, or else of the one where T max is, and until then. Reaction is integrated along straight
+/// lines between the samples of the history, which must be those of the trace.
 double heat_taken(const SkinModel& model, const trace::BottomTrace& trace, const SkinHistory& history);
 
 /// J/m2, upper bound of the heat that air of m = rho_a0 h kg/m2 can give up under the trace's pressure p(t)
@@ -211,8 +138,7 @@ double heat_taken(const SkinModel& model, const trace::BottomTrace& trace, const
 /// adiabat, whose integral of v dp over a rise is c_p times its rise in temperature; an expansion only takes
 /// energy out. For a single rise to a peak this is m c_p (T_adiabat(p_peak) - T0): air that is compressed
 /// before it gives up heat, and then cools down to T0 under the peak pressure, which goes on doing work on
-/// it. That is gamma times what the adiabat stores, m c_v (T_adiabat - T0), and more than what isothermal
-/// compression supplies, p0 h ln(p_peak/p0).
+/// it.
 double compression_supply(const SkinModel& model, const trace::BottomTrace& trace, double gap, double end);
 
 /// All of it for a history that was integrated on the trace, or inside the mechanics that recorded it. NaN

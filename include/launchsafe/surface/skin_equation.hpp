@@ -25,14 +25,6 @@ struct Trigger {
 };
 Trigger trigger_of(const SkinModel& model);
 
-/// Share of Arrhenius heat in all that heats a solid at temperature T, 0 to 1. `outside` in K/s.
-double chemical_share(const SkinModel& model, double temperature, double outside);
-
-/// Heat of reaction where something outside carried a solid within h (s) from the temperature `before` (K)
-/// past the trigger. It did so at `outside` K/s; `time` (s) is that of the begin.
-void release(const SkinModel& model, const Trigger& trigger, SkinPoint& point, double before, double outside,
-             double time, double h);
-
 /// The point after dt >= 0 (s). A point or an equation that is not finite gives NaN and no ignition.
 SkinPoint advance(const SkinModel& model, const SkinEquation& equation, SkinPoint point, double dt);
 
@@ -46,10 +38,6 @@ void advance(const SkinModel& model, const SkinEquation& equation, std::span<con
 /// Pressure on the air over one interval, Pa: its ends and its mean.
 struct IntervalPressure {
   double begin = 0, end = 0, mean = 0;
-  /// The parabola through both ends with this mean, at the share s of the interval in [0, 1].
-  double at(double s) const {
-    return begin + s * (end - begin) + 3.0 * (2.0 * mean - begin - end) * s * (1.0 - s);
-  }
 };
 
 /// Air temperature over one interval as a straight line, K.
@@ -75,7 +63,7 @@ class Intervals {
   IntervalPressure pressure(std::size_t interval) const;
   double pressure_at(std::size_t sample) const { return pressure_[sample]; }
   /// Rate (1/s) at which the skin takes on the air's temperature.
-  double exchange_rate(std::size_t interval) const;
+  double exchange_rate() const { return exchange_rate_; }
   /// Friction heating (K/s) of a station, the traced energy spread evenly over the interval; NaN where the
   /// trace holds no energies for the closure asked for.
   double friction_heating(std::size_t interval, std::size_t station) const;
@@ -86,11 +74,7 @@ class Intervals {
   const std::vector<double>& pressure_;
   const std::vector<double>& mean_;
   const std::vector<double>* friction_;  ///< nothing for the closure `none`
-  double ratio_;                         ///< kappa h
-  double rate_of_step_;                  ///< per_step_rate of one step in a second
+  double exchange_rate_;                 ///< 1/s
 };
-
-/// Rate (1/s) of the printed exchange, a factor 1 - kappa h in each of `steps` steps over `length` seconds.
-double per_step_rate(double ratio, double steps, double length);
 
 }  // namespace launchsafe::surface::detail

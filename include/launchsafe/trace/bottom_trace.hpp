@@ -31,7 +31,6 @@ struct BottomTrace {
   std::vector<double> bottom_pressure;        ///< Pa, area mean of the axial compression over the bottom row
   std::vector<double> mean_chamber_pressure;  ///< Pa, over the interval ending here (first entry: the value)
   std::vector<double> mean_bottom_pressure;   ///< Pa, likewise
-  std::vector<double> steps;                  ///< time steps taken since the start
   /// friction[closure][sample * stations + station]: friction energy since the start, J per m3 of charge,
   /// with localisation 1 (bulk).
   std::array<std::vector<double>, traced_closures> friction;
