@@ -20,8 +20,8 @@ struct CommandLine {
 
 /// Adds a subcommand, which sets what is performed.
 using AddCommand = void(CLI::App& app, CommandLine& line);
-AddCommand add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify, add_explain, add_plot,
-    add_init, add_import_curve, add_report;
+AddCommand add_run, add_study, add_status, add_merge, add_emit, add_verify, add_explain, add_plot, add_init,
+    add_import_curve, add_report;
 
 using scene::Dimension;
 

@@ -44,7 +44,7 @@ Json values_of(const InitArguments& arguments, const std::optional<scene::Pressu
 
 NamedTexts files_of(const Json& values) {
   NamedTexts files;
-  for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml", "firings.toml"})
+  for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml"})
     files.push_back({name, told(name, values)});
   files.insert(files.end(), {{"calibration.json", shipped_calibration},
                              {"scene.schema.json", scene_schema().dump(1) + "\n"},

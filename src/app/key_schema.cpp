@@ -70,11 +70,6 @@ Json type_of(const KeyDescription& key) {
       // "a, b", each one of the words.
       return text_of_pattern(fmt::format("({0}(\\s*,\\s*{0})*)?", any_of(key.words)));
     case KeyKind::text:
-      if (key.list_length > 0)
-        return {{"type", "array"},
-                {"items", {{"type", "string"}}},
-                {"minItems", key.list_length},
-                {"maxItems", key.list_length}};
       return {{"type", "string"}};
     case KeyKind::list:
       return list_schema(key);

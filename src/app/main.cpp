@@ -108,8 +108,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   };
   app.add_flag_callback("--bash-completion", print_completion,
                         "A script by which bash completes commands, options and their values: eval it");
-  for (AddCommand* add : {add_run, add_study, add_status, add_merge, add_emit, add_ask, add_verify,
-                          add_explain, add_plot, add_init, add_import_curve, add_report})
+  for (AddCommand* add : {add_run, add_study, add_status, add_merge, add_emit, add_verify, add_explain,
+                          add_plot, add_init, add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     add(*command, "--json", line.json);

@@ -217,7 +217,9 @@ void compare_stations(CalibrationResult& result) {
 /// Runs, fits, compares and recommends; all but what an interruption is told by.
 void calibrate_study(CalibrationResult& result, const StudyOptions& options) {
   const StudyFile& study = result.study;
-  result.in_scene = surface::constants_of(surface::skin_model(study.scene.scene));
+  const Scene& own = study.scene.scene;
+  result.in_scene = {own.surface.localisation, own.surface.exchange_time,
+                     own.charge().kinetics.ignition_temperature};
   const CalibrationTargets targets = calibration_targets(study);  // reading refuses a study without them
   if (targets.load_fitted) result.load = fit_load(study, targets, options, result.timing);
   for (const StudyCase& input : study.cases) {

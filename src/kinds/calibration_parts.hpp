@@ -7,8 +7,6 @@
 
 namespace launchsafe::kinds {
 
-using math::Estimate, surface::SurfaceConstants;
-
 /// Weights of the fit: standard deviations of what is published.
 inline constexpr double temperature_weight = 0.5;  ///< K
 inline constexpr double instant_weight = 0.5e-3;   ///< s: the text reads to half a millisecond
@@ -42,10 +40,6 @@ CalibrationTargets calibration_targets(const StudyFile& study);
 
 /// Fills the compared numbers, the placements and the root mean squares of a row.
 void compare(const Study& study, const SkinModel& model, const BottomTrace& trace, CalibrationRow& row);
-
-/// Of every firing, the place of its pressure and temperature among those that differ, in their order.
-std::vector<std::size_t> conditions_of(const std::vector<study::Firing>& firings);
-std::vector<ReportTable> firing_results();
 
 /// How the runs of a calibration went.
 Table run_table(const std::vector<CalibrationRun>& runs);

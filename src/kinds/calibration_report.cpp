@@ -292,18 +292,14 @@ Report report_of(const CalibrationResult& result) {
 }
 
 std::vector<ReportTable> calibration_results() {
-  std::vector<ReportTable> results = firing_results();
-  const std::vector<ReportTable> of_rows{
-      {table_of({}, scene_quantities, {}), "", "constants"},
-      {table_of({}, fitted_quantities(), {}), "", "fitted"},
-      {table_of({}, calibration_quantities({}), {}), "calibration.csv", "calibrations"},
-      {table_of({}, selection_quantities, {}), "", "selection"},
-      {table_of({}, convergence_quantities, {}), "", "convergence"},
-      {table_of_all({}, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared"},
-      {table_of_all({}, placement_quantities, &CalibrationRow::placements), "", "placements"},
-      {report::run_table({}), "", "runs"}};
-  results.insert(results.end(), of_rows.begin(), of_rows.end());
-  return results;
+  return {{table_of({}, scene_quantities, {}), "", "constants"},
+          {table_of({}, fitted_quantities(), {}), "", "fitted"},
+          {table_of({}, calibration_quantities({}), {}), "calibration.csv", "calibrations"},
+          {table_of({}, selection_quantities, {}), "", "selection"},
+          {table_of({}, convergence_quantities, {}), "", "convergence"},
+          {table_of_all({}, compared_quantities(), &CalibrationRow::compared), "compared.csv", "compared"},
+          {table_of_all({}, placement_quantities, &CalibrationRow::placements), "", "placements"},
+          {report::run_table({}), "", "runs"}};
 }
 
 }  // namespace launchsafe::kinds

@@ -190,9 +190,6 @@ const std::vector<Key<CriticalGapSettings>> critical_gap_keys{
                          "through combustion. Of a study with more than {} cases it is false unless stated.",
                          most_cases_in_detail),
              &CriticalGapSettings::confirm),
-    flag_key("surrogate", Standing::assumed,
-             "A fit over the cases, held against those of inner values, from which launchsafe ask answers.",
-             &CriticalGapSettings::surrogate),
 };
 
 StudyKeys raised_load_keys() {
@@ -224,7 +221,6 @@ void check_raised_load(const StudyFile& study) {
 void make_critical_gap_cases(const StudySource& source, StudyFile& study) {
   read_references(source, study);
   read_cited_limits(source.root, study);
-  if (settings_of<CriticalGapSettings>(study.study).surrogate) check_sweep_surrogate(study);
   make_factorial(study);
   check_raised_load(study);
   const bool few = study.cases.size() <= most_cases_in_detail;
@@ -268,7 +264,7 @@ Kind critical_gap_kind() {
       .varies = {.values = true},
       .make_cases = make_critical_gap_cases,
       .run = outcome_of<run_critical_gap, critical_gap_failures>,
-      .files = {"temperature.svg", "critical_gap*.svg", "surrogate.json", "ask.html"},
+      .files = {"temperature.svg", "critical_gap*.svg"},
       .results = critical_gap_results,
   };
 }

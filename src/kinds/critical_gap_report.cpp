@@ -1,13 +1,19 @@
 // The answer, the page, the picture of T max and the files of a critical-gap study.
 #include "critical_gap_tables.hpp"
-#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "launchsafe/report/safety_report.hpp"
 
 namespace launchsafe::kinds {
 
-using surface::Extent;
-
 namespace {
+
+/// From the least to the largest of the values that it includes.
+struct Extent {
+  double lowest = math::infinity, highest = -math::infinity;
+  void include(double value) {
+    lowest = std::min(lowest, value);
+    highest = std::max(highest, value);
+  }
+};
 
 struct Effect {
   double temperature = not_a_number;  ///< K
@@ -229,11 +235,6 @@ Report report_of(const CriticalGapResult& result) {
   GapPictures drawn = gap_pictures(result);
   for (Picture& each : drawn.pictures) report.items.push_back(std::move(each));
   report.remarks = std::move(drawn.remarks);
-  if (settings_of<CriticalGapSettings>(result.study).surrogate) {
-    const study::SurrogateRecord record = sweep_surrogate(result);
-    report.add({surrogate_table(record), "", "surrogate"});
-    report.files = surrogate_files(record, result.study);
-  }
   report.add({axis_effect_table(result), "", "axis_effects", Shown::page});
   if (in_detail) add_details(result, report);
   report.say("## What it rests on\n\n" + report::friction_remark(result.study));

@@ -240,7 +240,6 @@ std::vector<ReportTable> critical_gap_results() {
       {table_of({}, comparison_quantities(file.study.early_time), {}), "", "comparison"},
       {table_of({}, cases, {}), "critical_gaps.csv", "cases"},
       {Table{.columns = report::cited_limit_columns()}, "", "cited_limits"},
-      {surrogate_table({}), "", "surrogate"},
       {axis_effect_table({}), "", "axis_effects"}};
   std::ranges::move(detail_results(), std::back_inserter(tables));
   return tables;

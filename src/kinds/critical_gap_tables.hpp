@@ -2,7 +2,6 @@
 #pragma once
 
 #include "launchsafe/kinds/critical_gap.hpp"
-#include "launchsafe/study/surrogate.hpp"
 #include "study_keys.hpp"
 
 namespace launchsafe::kinds {
@@ -23,14 +22,5 @@ void add_runs(const CriticalGapResult& result, Report& report);
 std::vector<ReportTable> detail_results();
 /// What must be said where limiters acted in cases of a study in detail.
 std::string limiter_remark(const CriticalGapResult& result);
-
-/// Refuses a study whose cases, all combinations of its axes, are none that can be fitted and held against
-/// others.
-void check_sweep_surrogate(const StudyFile& study);
-
-/// T max of every gap and the critical gap, fitted. Held out are all cases with an inner value that is, in
-/// their order, the third, sixth, ... of its axis: they lie between values that are fitted.
-study::SurrogateRecord sweep_surrogate(const CriticalGapResult& result);
-Table surrogate_table(const study::SurrogateRecord& record);
 
 }  // namespace launchsafe::kinds

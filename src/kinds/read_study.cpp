@@ -129,7 +129,6 @@ void read_keys(const toml::table& root, const Kind& kind, const StudyKeys& keys,
 
 void settle_cases(const StudySource& source, const Kind& kind, const StudyKeys& keys, StudyFile& study) {
   if (kind.varies.values || kind.varies.distributions) read_vary(source, kind.varies, study);
-  if (kind.varies.distributions) read_correlations(source, study);
   check_load_axes(study);
   settle_acceptances(source.root, keys, study);
   settle_gaps(study);

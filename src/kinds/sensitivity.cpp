@@ -1,4 +1,3 @@
-#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 
 namespace launchsafe::kinds {
@@ -12,8 +11,7 @@ constexpr auto assumed = Standing::assumed;
 
 const std::vector<Key<SensitivitySettings>> sensitivity_keys{
     word_key("method", assumed,
-             "Sobol's indices by differences, or of a polynomial or a Gaussian process that is fitted to "
-             "fewer runs and held against others.",
+             "Sobol's indices by differences, or of a polynomial that is fitted to fewer runs.",
              {{"sobol", SensitivityMethod::sobol}, {"polynomial-chaos", SensitivityMethod::polynomial_chaos}},
              &SensitivitySettings::method),
     number_key("seed", Dimension::count, between(0, largest_seed), assumed,
@@ -31,18 +29,6 @@ const std::vector<Key<SensitivitySettings>> sensitivity_keys{
     number_key("samples", Dimension::count, between(2, 1e6), assumed,
                "Samples N of the inputs: each (inputs + 2) mechanical runs, of polynomial-chaos one.",
                &SensitivitySettings::samples),
-    number_key("held_out", Dimension::count, between(study::fewest_held_out, 1e6), assumed,
-               "Of polynomial-chaos: samples besides that are not fitted; its error is that there.",
-               &SensitivitySettings::held_out),
-    number_key("error_of_temperature", Dimension::temperature_difference, above(0), assumed,
-               "Of polynomial-chaos: runs are added where the fit is least sure until no prediction of T max "
-               "has a larger error.",
-               &SensitivitySettings::temperature_error),
-    number_key("error_of_critical_gap", Dimension::length, above(0), assumed, "Likewise of the critical gap.",
-               &SensitivitySettings::critical_gap_error),
-    number_key("most_samples", Dimension::count, between(2, 1e6), assumed,
-               "With such an error: samples that are fitted at the most.",
-               &SensitivitySettings::most_samples),
 };
 
 /// Beyond four deviations a normal without a range may still leave the limits of its key.
@@ -60,12 +46,46 @@ void check_limits(const StudyFile& study, const std::vector<double>& coordinates
   }
 }
 
+std::vector<std::size_t> columns_of(const Study& study) {
+  return of_each(inputs_of(study), &SensitivityInput::count);
+}
+
+/// Points of the unit cube of the axes, row by row.
+std::vector<double> design_points(const Study& study) {
+  const auto& own = settings_of<SensitivitySettings>(study);
+  const auto rows = static_cast<std::size_t>(own.samples);
+  if (is_by_fit(study)) return math::unit_points(own.design, rows, study.axes.size(), own.seed);
+  const math::SaltelliDesign design = math::saltelli_design(own.design, rows, columns_of(study), own.seed);
+  std::vector<double> points;
+  for (std::size_t evaluation = 0; evaluation < design.evaluations(); ++evaluation)
+    std::ranges::copy(design.point(evaluation), std::back_inserter(points));
+  return points;
+}
+
+/// SI, of all axes at a point of the unit cube. Its coordinates are shares of distributions; of the constants
+/// of a calibration, shares of the standard normals that they are made of.
+std::vector<double> values_at(const Study& study, const std::vector<double>& point) {
+  static const math::Distribution standard_normal = math::Distribution::normal(0.0, 1.0);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < point.size(); ++i)
+    values.push_back(math::quantile(*study.axes[i].distribution, point[i]));
+  const auto& calibrated = settings_of<SensitivitySettings>(study).calibrated;
+  if (!calibrated) return values;
+  const auto& [first, count, factor] = *calibrated;
+  for (std::size_t i = 0; i < count; ++i) {
+    double logarithm = 0.0;
+    for (std::size_t j = 0; j <= i; ++j)
+      logarithm += factor[i * count + j] * math::quantile(standard_normal, point[first + j]);
+    values[first + i] = study.axes[first + i].distribution->centre * std::exp(logarithm);
+  }
+  return values;
+}
+
 void add_evaluations(StudyFile& study, const std::function<std::string(std::size_t evaluation)>& label) {
-  const study::UncertainInputs drawn = uncertain_inputs(study.study);
   const std::vector<double> points = design_points(study.study);
   const std::size_t axes = study.study.axes.size(), count = points.size() / axes;
   const auto coordinates = [&](std::size_t evaluation) {
-    return drawn.values_at(math::point_of_row(points, evaluation, axes));
+    return values_at(study.study, math::point_of_row(points, evaluation, axes));
   };
   for (std::size_t evaluation = 0; evaluation < count; ++evaluation)
     check_limits(study, coordinates(evaluation));
@@ -74,10 +94,7 @@ void add_evaluations(StudyFile& study, const std::function<std::string(std::size
 }
 
 std::string short_name(const Study& study, const SensitivityInput& input) {
-  if (is_calibration(study, input)) return "calibration";
-  std::string name = study.axes[input.first].name;
-  for (std::size_t i = 1; i < input.count; ++i) name += " + " + study.axes[input.first + i].name;
-  return name;
+  return input.count > 1 ? "calibration" : study.axes[input.first].name;
 }
 
 void make_saltelli(StudyFile& study) {
@@ -98,37 +115,14 @@ void make_saltelli(StudyFile& study) {
   });
 }
 
-/// Errors are asked of a fit, and leave it room for more samples.
-void check_asked_errors(const StudyFile& study) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  for (const char* key : {"error_of_temperature", "error_of_critical_gap", "most_samples"})
-    if (study.places.contains(key) && !is_by_fit(study.study))
-      refuse_at(study, key, "method = \"sobol\", which fits nothing", "method = \"polynomial-chaos\"");
-  const bool asks = !std::isnan(own.temperature_error) || !std::isnan(own.critical_gap_error);
-  if (asks && own.most_samples < own.samples)
-    refuse_at(study, study.places.contains("most_samples") ? "most_samples" : "samples",
-              fmt::format("{} samples, and {} at the most", own.samples, own.most_samples),
-              "most_samples of at least samples");
-  if (!asks && study.places.contains("most_samples"))
-    refuse_at(study, "most_samples", "no error that is asked",
-              "error_of_temperature or error_of_critical_gap beside it");
-}
-
-/// The samples that a fit begins with, and those that it is held against.
 void make_chaos_samples(StudyFile& study) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  const auto fitted = static_cast<std::size_t>(own.samples),
-             all = fitted + static_cast<std::size_t>(own.held_out);
-  check_count(study, "samples", static_cast<double>(all),
-              fmt::format("{} samples and {} held out", own.samples, own.held_out));
+  const int samples = settings_of<SensitivitySettings>(study).samples;
+  check_count(study, "samples", samples, fmt::format("{} samples", samples));
   const std::size_t fewest = math::fewest_chaos_points(study.study.axes.size());
-  if (fitted < fewest)
-    refuse_at(study, "samples", fmt::format("{} samples for a fit", fitted),
+  if (static_cast<std::size_t>(samples) < fewest)
+    refuse_at(study, "samples", fmt::format("{} samples for a fit", samples),
               fmt::format("at least {}: two an input, and 8", fewest));
-  add_evaluations(study, [&](std::size_t evaluation) {
-    return evaluation < fitted ? fmt::format("sample {}", evaluation + 1)
-                               : fmt::format("held out {}", evaluation - fitted + 1);
-  });
+  add_evaluations(study, [](std::size_t evaluation) { return fmt::format("sample {}", evaluation + 1); });
 }
 
 void make_sensitivity_cases(const StudySource&, StudyFile& study) {
@@ -138,7 +132,6 @@ void make_sensitivity_cases(const StudySource&, StudyFile& study) {
     refuse_at(study, "gaps", fmt::format("{}{} gaps", whose, gaps.size()), "one gap",
               fmt::format("gaps = \"{}\"", format_quantity(gaps.back(), Dimension::length)));
   }
-  check_asked_errors(study);
   if (is_by_fit(study.study)) return make_chaos_samples(study);
   make_saltelli(study);
 }
@@ -162,19 +155,81 @@ void summarise(const Study& study, OutputSensitivity& output) {
   output.deviation = std::sqrt(squares / static_cast<double>(sample.size() - 1));
 }
 
-void estimate(const SensitivityResult& result, OutputSensitivity& output) {
-  const Study& study = result.study.study;
-  if (is_by_fit(study)) return estimate_by_chaos(result, output);
+/// Why critical gaps, some of which are bounds, have no indices; with the first that is none.
+std::string bounds_reason(const OutputSensitivity& output, const std::vector<CaseAnswer>& answers) {
+  const CaseAnswer& first = *std::ranges::find_if(
+      answers, [](const CaseAnswer& answer) { return std::isnan(critical_gap_number(answer)); });
+  return fmt::format("{} of {} critical gaps are bounds, not numbers (the first without a number: {})",
+                     output.bounds, answers.size(), gap_remark(first));
+}
+
+/// Why an output has no statistics: an evaluation of it has no number. Empty where all have one.
+std::string missing_reason(const OutputSensitivity& output, const std::vector<CaseAnswer>& answers) {
+  const std::size_t failed = count_failed(answers);
+  if (failed > 0) return fmt::format("{} of {} evaluations failed", failed, answers.size());
+  if (output.bounds > 0) return bounds_reason(output, answers);
+  if (output.missing == 0) return {};
+  return fmt::format("{} of {} evaluations have no number", output.missing, answers.size());
+}
+
+math::ChaosBasis basis_of(const Axis& axis) {
+  using Kind = math::Distribution::Kind;
+  const Kind kind = axis.distribution->kind;
+  return kind == Kind::normal || kind == Kind::log_normal ? math::ChaosBasis::hermite
+                                                          : math::ChaosBasis::legendre;
+}
+
+/// Fits a polynomial, whose terms have the indices. Their intervals are widened by the share of the variance
+/// that the fit misses of what it leaves out; where that is too large there are none.
+void estimate_by_chaos(const Study& study, OutputSensitivity& output) {
+  constexpr double most_unexplained = 0.1;
+  const std::vector<double> points = design_points(study);
+  const math::PolynomialChaos& fit =
+      output.fit.emplace(math::fit_chaos(of_each(study.axes, basis_of), points, output.values));
+  output.reason = fit.reason;
+  if (!output.reason.empty()) return;
+  const double unexplained = std::pow(fit.leave_one_out / output.deviation, 2);
+  if (unexplained > most_unexplained) {
+    output.reason =
+        fmt::format("the polynomial misses {:.2g} % of the variance of evaluations left out of its fit",
+                    100.0 * unexplained);
+    return;
+  }
+  std::vector<std::size_t> begins = of_each(inputs_of(study), &SensitivityInput::first);
+  begins.push_back(study.axes.size());
+  output.sobol = math::chaos_indices(fit, points, output.values, begins,
+                                     settings_of<SensitivitySettings>(study).bootstrap());
+  output.reason = output.sobol.reason;
+  for (math::InputIndices& each : output.sobol.inputs)
+    for (Estimate* estimate : {&each.first, &each.total}) {
+      estimate->lower = std::max(0.0, estimate->lower - unexplained);
+      estimate->upper = std::min(1.0, estimate->upper + unexplained);
+    }
+}
+
+void estimate(const Study& study, OutputSensitivity& output) {
+  if (is_by_fit(study)) return estimate_by_chaos(study, output);
   output.sobol = math::sobol_indices(inputs_of(study).size(), output.values,
                                      settings_of<SensitivitySettings>(study).bootstrap());
   output.reason = output.sobol.reason;
 }
 
 OutputSensitivity sensitivity_of(const SensitivityResult& result, SensitivityOutput which) {
-  OutputSensitivity output = values_of(result, which);
+  const Study& study = result.study.study;
+  OutputSensitivity output;
+  output.output = which;
+  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
+  for (std::size_t i = 0; i < result.answers.size(); ++i) {
+    const CaseAnswer& answer = result.answers[i];
+    output.values.push_back(number_of(output, result, i));
+    if (std::isfinite(output.values.back())) continue;
+    ++output.missing;
+    if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
+  }
+  output.reason = missing_reason(output, result.answers);
   if (!output.reason.empty()) return output;
-  summarise(result.study.study, output);
-  estimate(result, output);
+  summarise(study, output);
+  estimate(study, output);
   return output;
 }
 
@@ -188,70 +243,29 @@ Kind sensitivity_kind() {
                  .keeps_answers = true},
       .keys = joined({gaps_keys(), judging_keys(), calibration_record_keys(), uncertainty_keys(),
                       own_keys(sensitivity_keys)}),
-      .tables = {vary_table(), correlation_table()},
+      .tables = {vary_table()},
       .varies = {.distributions = true, .needed = "with key and distribution, or a calibration"},
       .make_cases = make_sensitivity_cases,
       .run = outcome_of<run_sensitivity, failures_of<SensitivityResult>>,
-      .files = {"histogram.svg", "surrogate.json", "ask.html", "sensitivity_*.svg"},
+      .files = {"histogram.svg", "sensitivity_*.svg"},
       .results = sensitivity_results,
   };
 }
 
 bool SensitivityResult::any_indeterminate() const {
-  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); }) ||
-         !std::ranges::all_of(asked_errors(*this), &AskedError::reached);
+  return std::ranges::any_of(outputs, [](const auto& each) { return !each.reason.empty(); });
 }
 
 std::vector<SensitivityInput> inputs_of(const Study& study) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  const std::size_t axes = study.axes.size();
+  const auto& calibrated = settings_of<SensitivitySettings>(study).calibrated;
   std::vector<SensitivityInput> inputs;
-  for (std::size_t axis = 0; axis < axes; axis += inputs.back().count) {
-    std::size_t end = axis + 1;
-    for (std::size_t i = axis; i < end; ++i)
-      for (std::size_t j = end; j < axes; ++j)
-        if (own.vary_together(i, j, axes)) end = j + 1;
-    inputs.push_back({axis, end - axis});
-  }
+  for (std::size_t axis = 0; axis < study.axes.size(); axis += inputs.back().count)
+    inputs.push_back({axis, calibrated && calibrated->first == axis ? calibrated->count : 1});
   return inputs;
 }
 
-bool is_calibration(const Study& study, const SensitivityInput& input) {
-  const auto& correlated = settings_of<SensitivitySettings>(study).correlated;
-  return correlated && correlated->first == input.first && correlated->count == input.count;
-}
-
-study::UncertainInputs uncertain_inputs(const Study& study) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  return {of_each(study.axes, [](const Axis& axis) { return *axis.distribution; }), own.correlated,
-          own.correlation};
-}
-
 bool samples_inputs(const Study& study, std::size_t evaluation) {
-  const auto& own = settings_of<SensitivitySettings>(study);
-  if (!is_by_fit(study)) return evaluation % (inputs_of(study).size() + 2) < 2;
-  return evaluation < static_cast<std::size_t>(own.samples + own.held_out);
-}
-
-OutputSensitivity values_of(const SensitivityResult& result, SensitivityOutput which) {
-  OutputSensitivity output;
-  output.output = which;
-  output.inert = which != SensitivityOutput::critical_gap && any_ignites(result.answers, 0);
-  for (std::size_t i = 0; i < result.answers.size(); ++i) {
-    const CaseAnswer& answer = result.answers[i];
-    output.values.push_back(number_of(output, result, i));
-    if (std::isfinite(output.values.back())) continue;
-    ++output.missing;
-    if (which == SensitivityOutput::critical_gap && is_bound(answer)) ++output.bounds;
-  }
-  const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
-  if (failed > 0)
-    output.reason = fmt::format("{} of {} evaluations failed", failed, all);
-  else if (output.missing > 0)
-    output.reason = fmt::format("{} of {} evaluations have no number", output.missing, all);
-  if (failed == 0 && which == SensitivityOutput::critical_gap)
-    output.reason = gap_reason(result.answers, output.reason);
-  return output;
+  return is_by_fit(study) || evaluation % (inputs_of(study).size() + 2) < 2;
 }
 
 SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& options) {
@@ -260,9 +274,6 @@ SensitivityResult run_sensitivity(const StudyFile& study, const StudyOptions& op
       [&](SensitivityResult& result) {
         study::ProgressTracker tracker(options.progress);
         result.answers = answer_cases(study, options, result.timing, tracker);
-        if (!is_by_fit(study.study)) return;
-        result.points = design_points(study.study);
-        add_launches(result, options, tracker);
       },
       [](SensitivityResult& result) {
         for (const auto output : {SensitivityOutput::maximum_temperature, SensitivityOutput::critical_gap,

@@ -1,5 +1,4 @@
 // The answer, the tables, the pictures, the page and the files of a sensitivity study.
-#include "launchsafe/kinds/shown_surrogate.hpp"
 #include "sensitivity_parts.hpp"
 
 namespace launchsafe::kinds {
@@ -21,16 +20,11 @@ std::vector<ShownInput> shown_inputs(const Study& study) {
     };
     ShownInput& shown = inputs.emplace_back(ShownInput{keys[input.first].heading, text(input.first)});
     if (input.count == 1) continue;
-    shown = {"", "together"};
+    shown = {"constants of the calibration", "together"};
     for (std::size_t axis = input.first; axis < input.first + input.count; ++axis) {
       const bool first = axis == input.first;
-      shown.name += (first ? "" : " + ") + keys[axis].heading;
       shown.distribution += fmt::format("{}{} {}", first ? ": " : "; ", keys[axis].heading, text(axis));
-      for (const StatedCorrelation& each : settings_of<SensitivitySettings>(study).stated)
-        if (each.one == study.axes[axis].key.name)
-          shown.distribution += fmt::format(", correlation {:g} with {}", each.coefficient, each.other);
     }
-    if (is_calibration(study, input)) shown.name = "constants of the calibration";
   }
   return inputs;
 }
@@ -44,13 +38,6 @@ std::string estimate_text(const math::Estimate& estimate) {
 std::string text_of(math::Design design) {
   constexpr std::array names{"independent random points", "a Latin hypercube", "a scrambled Sobol sequence"};
   return names.at(static_cast<std::size_t>(design));
-}
-
-/// Launches besides those of the design of a fit.
-std::size_t added_launches(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study);
-  const std::size_t launches = own.method == SensitivityMethod::sobol ? 0 : result.answers.size();
-  return launches - std::min(launches, static_cast<std::size_t>(own.samples + own.held_out));
 }
 
 Row method_facts(const SensitivityResult& result) {
@@ -68,13 +55,10 @@ std::string method_text(const SensitivityResult& result) {
   const auto& own = settings_of<SensitivitySettings>(result.study);
   Row facts = method_facts(result);
   facts.update({{"is_fit", is_by_fit(result.study.study)},
-                {"held_out", own.held_out},
-                {"added", added_launches(result)},
                 {"design", text_of(own.design)},
                 {"confidence_percent", shown_value(own.confidence, significant(6, percent))},
                 {"few", own.design == math::Design::scrambled_sobol && own.samples < 256},
-                {"correlated", own.correlated.has_value()},
-                {"stated", !own.stated.empty()}});
+                {"calibrated", own.calibrated.has_value()}});
   return said("sensitivity.method", facts).front();
 }
 
@@ -131,21 +115,6 @@ std::string output_text(const SensitivityResult& result, const OutputSensitivity
   return what + ": " + said("sensitivity.answer", facts).front();
 }
 
-std::vector<std::string> asked_text(const SensitivityResult& result) {
-  const auto& own = settings_of<SensitivitySettings>(result.study);
-  const std::size_t fitted = static_cast<std::size_t>(own.samples) + added_launches(result);
-  return of_each(asked_errors(result), [&](const AskedError& error) {
-    const ShownOutput& shown = shown_output(error.output);
-    const Form form = significant(3, {shown.column.form.dimension, shown.column.form.unit});
-    Row facts{
-        {"output", shown.phrase},     {"asked", in_words(error.asked, form)},
-        {"reached", error.reached()}, {"fitted", fitted},
-        {"most", own.most_samples},   {"used_up", fitted >= static_cast<std::size_t>(own.most_samples)}};
-    if (std::isfinite(error.found)) facts["found"] = in_words(error.found, form);
-    return said("sensitivity.asked", facts).front();
-  });
-}
-
 // --- tables ---
 
 struct IndexRow {
@@ -195,20 +164,26 @@ Quantities<OutputSensitivity> output_quantities() {
   const auto shown = [](double OutputSensitivity::*member) {
     return [member](const OutputSensitivity& row) { return shown_output(row.output).value(row.*member); };
   };
-  return joined<OutputSensitivity>(
-      {{{quantity::output, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::name},
-        {quantity::unit, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::form,
-         &Form::unit},
-        {"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs.",
-         shown(&OutputSensitivity::mean)},
-        {"standard_deviation", "standard deviation", significant(3), "Standard deviation over them.",
-         shown(&OutputSensitivity::deviation)},
-        {"missing", "without a number", count(), "Evaluations without a number.",
-         &OutputSensitivity::missing},
-        {"bounds", "bounds", count(), "Of these, critical gaps that are bounds.",
-         &OutputSensitivity::bounds}},
-       of_part<OutputSensitivity>(fit_quantities(), &OutputSensitivity::fit),
-       {{quantity::reason, &OutputSensitivity::reason}}});
+  return {
+      {quantity::output, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::name},
+      {quantity::unit, &OutputSensitivity::output, shown_output, &ShownOutput::column, &Column::form,
+       &Form::unit},
+      {"mean", "mean", significant(4), "Mean over the evaluations that sample the inputs.",
+       shown(&OutputSensitivity::mean)},
+      {"standard_deviation", "standard deviation", significant(3), "Standard deviation over them.",
+       shown(&OutputSensitivity::deviation)},
+      {"missing", "without a number", count(), "Evaluations without a number.", &OutputSensitivity::missing},
+      {"bounds", "bounds", count(), "Of these, critical gaps that are bounds.", &OutputSensitivity::bounds},
+      {"fitted", "fitted", count(), "Evaluations that were fitted.", &OutputSensitivity::fit,
+       &math::PolynomialChaos::points},
+      {"terms", "terms", count(), "Terms of the polynomial.", &OutputSensitivity::fit,
+       [](const math::PolynomialChaos& fit) { return fit.terms.size(); }},
+      {"leave_one_out", "leave-one-out error", significant(2),
+       "Root mean square of what the fit misses of evaluations left out of it.",
+       [](const OutputSensitivity& row) {
+         return row.fit ? shown_output(row.output).value(row.fit->leave_one_out) : not_a_number;
+       }},
+      {quantity::reason, &OutputSensitivity::reason}};
 }
 
 Quantities<AnsweredCase> evaluation_quantities(const Study& study,
@@ -245,7 +220,6 @@ std::vector<std::string> notes_of(const SensitivityResult& result, const OutputS
             {"unit", unit.empty() ? "" : " " + unit},
             {"method", method_text(result)},
             {"inert", output.inert},
-            {"by_process", is_by_fit(result.study.study) && output.fit && output.fit->fit.by_process()},
             {"apart", false}};
   // Inputs that show sampling error by their estimates, with their intervals.
   const auto inputs = shown_inputs(result.study.study);
@@ -278,7 +252,6 @@ std::string answer(const SensitivityResult& result) {
   std::vector<std::string> lines;
   for (const OutputSensitivity& output : result.outputs) lines.push_back(output_text(result, output));
   if (result.outputs.empty()) lines.emplace_back("There are no indices: the study did not come to its end.");
-  std::ranges::move(asked_text(result), std::back_inserter(lines));
   lines.push_back(samples_text(result));
   const std::size_t all = result.answers.size(), failed = count_failed(result.answers);
   const double share = static_cast<double>(failed) / static_cast<double>(all);
@@ -313,8 +286,6 @@ Report report_of(const SensitivityResult& result) {
   report.say(said_below("sensitivity.rests"));
   report.say("## Setup\n\n" + report::setup_text(result.study));
   report.add({evaluation_table(result), "evaluations.csv", "evaluations", Shown::file});
-  if (is_by_fit(result.study.study) && !result.outputs.empty())
-    report.files = surrogate_files(surrogate_record(result), result.study);
   Row method = method_facts(result);
   method["text"] = method_text(result);
   Row facts{{"method", method},
@@ -323,8 +294,6 @@ Report report_of(const SensitivityResult& result) {
             {"ignition", ignition_json(result)},
             {"failed", count_failed(result.answers)},
             {"notes", report::mesh_notes(result.study)}};
-  for (const auto& [one, other, coefficient] : settings_of<SensitivitySettings>(result.study).stated)
-    facts["correlations"].push_back({{"between", {one, other}}, {"coefficient", coefficient}});
   report.json = study_json(result.study, report, facts);
   return report;
 }

@@ -219,18 +219,9 @@ Row ignition_json(const SensitivityResult& result) {
 std::string samples_text(const SensitivityResult& result) {
   Row facts = ignition_json(result);
   if (facts["sound"] == 0 && facts["unsound"] == 0) return {};
-  facts["together"] = !settings_of<SensitivitySettings>(result.study).stated.empty();
   facts["gap"] = centimetres(result.study.study.gaps.front());
   if (const OutputSensitivity* gap = output_of(result, SensitivityOutput::critical_gap)) {
     const OutputSample sample = sample_of(result, *gap);
-    const study::SurrogateRecord record = gap->fit ? surrogate_record(result) : study::SurrogateRecord{};
-    if (gap->reason.empty() && record.predicted(report::quantity::critical_gap.name) != nullptr) {
-      const study::PredictedIgnitions of = ignitions_of(study::drawn_critical_gaps(record), record.gap);
-      facts["fit"] = {{"draws", of.draws},
-                      {"predicted", of.predicted},
-                      {"at_most", of.at_most},
-                      {"uncovered", of.uncovered}};
-    }
     for (const auto& [name, share] : {std::pair{"lowest", 0.025}, {"low", 0.05}, {"half", 0.5}})
       if (sample.all_known && !sample.values.empty())
         facts["quantiles"][name] = quantile_text(result, sample.quantile(share));

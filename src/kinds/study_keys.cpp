@@ -135,8 +135,7 @@ const StudyKeys& common_keys() {
                "scene_155mm.toml", &Study::scene) |
           required(),
       flag_key("demonstration", Standing::input,
-               "True where the shell, its launch or its firings are invented: every verdict and every page "
-               "says so, of studies that rest on such firings too.",
+               "True where the shell or its launch is invented: every verdict and every page says so.",
                &Study::demonstration),
       study_number("early_time", Dimension::time, above_to(0, 1),
                    "An instant at which temperatures are listed and compared too.", &Study::early_time),

@@ -67,9 +67,6 @@ std::vector<std::string> said(const std::string& name, const Row& facts = Row::o
 /// The same below each other, as part of a page: with a line break behind each.
 std::string said_below(const std::string& name, const Row& facts = Row::object());
 
-/// The panel of a fit, to be filled: src/kinds/templates/ask.html.
-const std::string& ask_template();
-
 /// Whether a gap of the study ignites in any case, so that T max jumps to that of a burning skin.
 inline bool any_ignites(const std::vector<CaseAnswer>& answers, std::size_t gap) {
   return std::ranges::any_of(answers, [gap](const CaseAnswer& answer) {
@@ -219,7 +216,7 @@ StudyTable study_table_of(const std::string& name, const std::vector<Key<Owner>>
   return table;
 }
 
-StudyTable reference_table(), cited_limit_table(), vary_table(), correlation_table();
+StudyTable reference_table(), cited_limit_table(), vary_table();
 
 /// Reads [[reference]], or the file that holds them, into Study::references.
 void read_references(const StudySource& source, StudyFile& study);
@@ -253,9 +250,6 @@ void settle_acceptances(const toml::table& table, const StudyKeys& keys, StudyFi
 /// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
 /// kind does not admit is refused.
 void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study);
-
-/// Reads which of these axes vary together, and brings those next to each other.
-void read_correlations(const StudySource& source, StudyFile& study);
 
 /// Of one of the variants of an entry, besides its tables.
 std::vector<Key<Variant>> variant_keys();

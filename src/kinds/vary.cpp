@@ -231,7 +231,7 @@ void check_variants(const VaryReader& reader, const Varied& admitted) {
 /// Whether the study's scene and keys allow constants of a record to vary.
 void check_place_of_record(const VaryReader& reader) {
   const StudyFile& study = reader.study;
-  if (settings_of<SensitivitySettings>(study.study).correlated)
+  if (settings_of<SensitivitySettings>(study.study).calibrated)
     reader.refuse("calibration", "a second calibration", "one calibration among what varies");
   if (!study.study.calibration_record.empty())
     reader.refuse("calibration", "a calibration beside that of the study",
@@ -271,7 +271,7 @@ void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
     reader.refuse("calibration", "a record whose covariance is not positive definite",
                   "the record of a calibration whose fit is not singular");
   Study& study = reader.study.study;
-  settings_of<SensitivitySettings>(study).correlated = {study.axes.size(), count, std::move(*factor)};
+  settings_of<SensitivitySettings>(study).calibrated = {study.axes.size(), count, std::move(*factor)};
   for (std::size_t i = 0; i < count; ++i) {
     const std::string key_name = study::fitted_keys[i];
     check_free(reader.study, key_name, place, "vary.calibration");

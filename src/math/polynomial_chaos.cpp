@@ -1,4 +1,4 @@
-#include "launchsafe/math/surrogates.hpp"
+#include "launchsafe/math/polynomial_chaos.hpp"
 
 #include <Eigen/Dense>
 #include <boost/math/distributions/normal.hpp>
@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 namespace launchsafe::math {
 namespace {
@@ -24,8 +23,8 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 Eigen::Index index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-/// Lengths of the polynomials of degree 0 to `highest_chaos_degree`, by which they become orthonormal.
-using Lengths = std::array<double, highest_chaos_degree + 1>;
+/// Lengths of the polynomials of degree 0 to `highest_tried_degree`, by which they become orthonormal.
+using Lengths = std::array<double, highest_tried_degree + 1>;
 Lengths lengths_of(ChaosBasis basis) {
   Lengths lengths{};
   for (std::size_t n = 0; n < lengths.size(); ++n) {
@@ -34,6 +33,13 @@ Lengths lengths_of(ChaosBasis basis) {
                                                : std::sqrt(std::tgamma(degree + 1.0));
   }
   return lengths;
+}
+
+/// The place of an input in its polynomials: 2 u - 1, or the standard normal at u.
+double coordinate(ChaosBasis basis, double u) {
+  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  using Normal = boost::math::normal_distribution<double, InDouble>;
+  return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(Normal(), u);
 }
 
 /// Orthonormal polynomials of degree 0 to `degree` of one input at u.
@@ -203,16 +209,10 @@ Vector vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Vector>(values.data(), index(values.size()));
 }
 
-}  // namespace
-
-double coordinate(ChaosBasis basis, double u) {
-  // In double alone: by default Boost computes it in long double, which is a third of the time of a
-  // prediction.
-  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-  using Normal = boost::math::normal_distribution<double, InDouble>;
-  return basis == ChaosBasis::legendre ? 2.0 * u - 1.0 : boost::math::quantile(Normal(), u);
-}
-
+/// Points and values of the rows whose value is finite.
+struct FiniteRows {
+  std::vector<double> points, values;
+};
 FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
                        const std::vector<double>& values) {
   FiniteRows rows;
@@ -225,13 +225,7 @@ FiniteRows finite_rows(std::size_t inputs, const std::vector<double>& points,
   return rows;
 }
 
-FitValue FittedForm::at(const std::vector<double>& functions) const {
-  assert(functions.size() == weights.size());
-  const Eigen::Map<const Vector> of(functions.data(), index(functions.size()));
-  const Eigen::Map<const Vector> by(weights.data(), of.size());
-  const Eigen::Map<const Matrix> products(matrix.data(), of.size(), of.size());
-  return {of.dot(by), offset + of.dot(products * of)};
-}
+}  // namespace
 
 double PolynomialChaos::variance() const {
   double sum = 0.0;
@@ -267,24 +261,6 @@ PolynomialChaos fit_chaos(const std::vector<ChaosBasis>& inputs, const std::vect
   }
   if (chaos.terms.empty()) chaos.reason = "no polynomial can be fitted to the evaluations";
   return chaos;
-}
-
-FittedChaos::FittedChaos(PolynomialChaos chaos, const std::vector<double>& points)
-    : chaos_(std::move(chaos)) {
-  const Matrix terms = matrix_of(chaos_.inputs, chaos_.terms, chaos_.degree, points);
-  const Matrix inverse =
-      (terms.transpose() * terms).ldlt().solve(Matrix::Identity(terms.cols(), terms.cols()));
-  form_.matrix.assign(inverse.data(), inverse.data() + inverse.size());
-  for (const ChaosTerm& term : chaos_.terms) form_.weights.push_back(term.coefficient);
-}
-
-FitValue FittedChaos::at(const std::vector<double>& point) const {
-  assert(point.size() == chaos_.inputs.size());
-  const auto of_inputs = polynomials_at(chaos_.inputs, chaos_.degree, point.data());
-  std::vector<double> terms;
-  terms.reserve(chaos_.terms.size());
-  for (const ChaosTerm& term : chaos_.terms) terms.push_back(product(term.degrees, of_inputs));
-  return form_.at(terms);
 }
 
 SobolIndices chaos_indices(const PolynomialChaos& chaos, const std::vector<double>& points,

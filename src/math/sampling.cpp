@@ -1,6 +1,5 @@
 #include "launchsafe/math/sampling.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <boost/math/constants/constants.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/random/sobol.hpp>
@@ -57,9 +56,9 @@ double normal_quantile(const Distribution& distribution, double u) {
   return distribution.centre + distribution.deviation * z;
 }
 
-/// ln(x/lower), also close to the lower end.
-double log_ratio(const Distribution& distribution, double x) {
-  return std::log1p((x - distribution.lower) / distribution.lower);
+/// ln(upper/lower), also of ends close to each other.
+double log_ratio(const Distribution& distribution) {
+  return std::log1p((distribution.upper - distribution.lower) / distribution.lower);
 }
 
 /// (bits + 1/2)/2^52 of the 52 leading bits: never 0 and never 1, and exact.
@@ -142,7 +141,7 @@ double quantile(const Distribution& distribution, double u) {
       case Distribution::Kind::uniform:
         return (1.0 - u) * lower + u * upper;
       case Distribution::Kind::log_uniform:
-        return lower * std::exp(u * log_ratio(distribution, upper));
+        return lower * std::exp(u * log_ratio(distribution));
       case Distribution::Kind::log_normal:
         return distribution.centre * std::exp(distribution.deviation * standard_normal_quantile(u));
       case Distribution::Kind::normal:
@@ -151,25 +150,6 @@ double quantile(const Distribution& distribution, double u) {
     return normal_quantile(distribution, u);
   };
   return std::clamp(inside(), lower, upper);
-}
-
-double cumulative(const Distribution& distribution, double x) {
-  assert(is_valid(distribution));
-  const double lower = distribution.lower, upper = distribution.upper;
-  if (x <= lower) return 0.0;
-  if (x >= upper) return 1.0;
-  switch (distribution.kind) {
-    case Distribution::Kind::uniform:
-      return (x - lower) / (upper - lower);
-    case Distribution::Kind::log_uniform:
-      return log_ratio(distribution, x) / log_ratio(distribution, upper);
-    case Distribution::Kind::log_normal:
-      return normal_below(std::log(x / distribution.centre) / distribution.deviation);
-    case Distribution::Kind::normal:
-      break;
-  }
-  const auto [begin, end] = standard_ends(distribution);
-  return normal_between(begin, standardised(distribution, x)) / normal_between(begin, end);
 }
 
 std::optional<std::vector<double>> covariance_factor(const std::vector<double>& covariance,
@@ -213,46 +193,6 @@ std::vector<double> unit_points(Design design, std::size_t points, std::size_t d
 std::vector<double> point_of_row(const std::vector<double>& points, std::size_t row, std::size_t dimensions) {
   const auto begin = points.begin() + static_cast<std::ptrdiff_t>(row * dimensions);
   return {begin, begin + static_cast<std::ptrdiff_t>(dimensions)};
-}
-
-// --- correlated draws ---
-
-double smallest_eigenvalue(const std::vector<double>& matrix, std::size_t rows) {
-  const auto size = static_cast<Eigen::Index>(rows);
-  const Eigen::Map<const Eigen::MatrixXd> symmetric(matrix.data(), size, size);
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()(0);
-}
-
-CopulaDraws::CopulaDraws(const std::vector<double>& correlation, std::vector<std::optional<double>> fixed)
-    : fixed_(std::move(fixed)) {
-  if (correlation.empty()) return;
-  const std::size_t size = fixed_.size();
-  assert(correlation.size() == size * size);
-  order_.resize(size);
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  std::ranges::stable_partition(order_, [this](std::size_t i) { return fixed_[i].has_value(); });
-  std::vector<double> ordered;
-  for (const std::size_t i : order_)
-    for (const std::size_t j : order_) ordered.push_back(correlation[i * size + j]);
-  factor_ = covariance_factor(ordered, size).value();
-}
-
-std::vector<double> CopulaDraws::at(std::vector<double> point) const {
-  constexpr double end = 1e-15;  // no score is infinite
-  static const Distribution standard_normal = Distribution::normal(0.0, 1.0);
-  for (std::size_t i = 0; i < point.size(); ++i) point[i] = fixed_[i].value_or(point[i]);
-  std::vector<double> independent;
-  for (std::size_t row = 0; row < order_.size(); ++row) {
-    double& share = point[order_[row]];
-    const double own = quantile(standard_normal, std::clamp(share, end, 1.0 - end));
-    const double* factor = &factor_[row * order_.size()];
-    const double of_others = std::inner_product(independent.begin(), independent.end(), factor, 0.0);
-    const bool is_fixed = fixed_[order_[row]].has_value();
-    independent.push_back(is_fixed ? (own - of_others) / factor[row] : own);
-    if (!is_fixed)
-      share = std::clamp(cumulative(standard_normal, of_others + factor[row] * own), end, 1.0 - end);
-  }
-  return point;
 }
 
 }  // namespace launchsafe::math

@@ -1,7 +1,6 @@
 #include "launchsafe/math/statistics.hpp"
 
 #include <Eigen/Dense>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -121,14 +120,6 @@ std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::ve
   std::vector<std::vector<double>> rows;
   for (const double value : x) rows.push_back(polynomial_row(value, 1));
   return least_squares(rows, y);
-}
-
-double exponential_tolerance_factor(int n, double coverage, double confidence) {
-  // Twice the sum of magnitudes over their scale is chi-squared; of the scale, half of 1 - coverage is beyond
-  // -ln(2 (1 - coverage)) on one side.
-  const boost::math::chi_squared magnitudes(2.0 * n);
-  const double largest_scale = 2.0 * n / boost::math::quantile(magnitudes, 1.0 - confidence);
-  return -std::log(2.0 * (1.0 - coverage)) * largest_scale;
 }
 
 double one_sided_student_factor(int n, double level) {

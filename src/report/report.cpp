@@ -144,11 +144,6 @@ std::string study_json(const study::StudyFile& study, const Report& report,
                               {"answer", report.answer},         {"kinetics", kinetics_json(study.scene)}};
   if (study.study.demonstration) head["demonstration"] = true;
   head.update(members);
-  if (const auto& evidence = study.study.calibration.firings; evidence && study.study.kind.gives_verdicts) {
-    int rounds[2] = {0, 0};
-    for (const study::Firing& each : evidence->firings) rounds[each.ignited ? 1 : 0] += each.rounds;
-    head["firings"] = {{"quiet", rounds[0]}, {"ignited", rounds[1]}};
-  }
   for (const study::StatedUncertainty& each : study.study.stated)
     head["stated_by_hand"].push_back(
         {{"key", each.key}, {"K", each.value}, {"assumed_K", each.assumed}, {"because", each.because}});

@@ -281,8 +281,7 @@ std::string friction_remark(const study::StudyFile& study) {
   Row facts{{"closure", study::to_string(scene.surface.friction)},
             {"localisation", scene.surface.localisation},
             {"exchange_time_ms", shown_value(scene.surface.exchange_time, quantity::exchange_time.form)},
-            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature},
-            {"firings", study.study.calibration.firings != nullptr}};
+            {"ignition_temperature_K", scene.charge().kinetics.ignition_temperature}};
   for (const char* key : {"friction.localisation", "gap.exchange_time", "kinetics.ignition_temperature"})
     if (varies(study.study, key)) facts["varied"].push_back(fmt::format("`{}`", key));
   return fmt::format("{}\n", fmt::join(noted("friction", facts), "\n"));
@@ -325,8 +324,6 @@ std::string uncertainty_remark(const study::StudyFile& file) {
             // Where that of the calibrated constants comes from, and how it grows.
             {"fit_K", stated ? study.fit_uncertainty : evidence.fit_uncertainty},
             {"fit_stated", stated},
-            {"firings", study.calibration.firings != nullptr},
-            {"firing_risk_percent", percent_of(study::firing_risk)},
             {"friction_rise_K", evidence.friction_rise},
             {"air_rise_K", evidence.air_rise},
             {"other_load_shape_K", study::assumed_other_load_shape},

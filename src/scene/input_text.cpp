@@ -153,7 +153,8 @@ std::string lower_case(std::string_view text) {
 void check_encoding(std::string_view text, const std::string& file) {
   for (const char* at = text.data(); at != text.data() + text.size();) {
     const char* const character = at;
-    // Neither overlong forms nor surrogates nor what is beyond U+10FFFF are characters (Unicode, table 3-7).
+    // Neither overlong forms nor halves of UTF-16 pairs nor what is beyond U+10FFFF are characters (Unicode,
+    // table 3-7).
     const auto code = boost::locale::utf::utf_traits<char>::decode(at, text.data() + text.size());
     if (code != 0 && boost::locale::utf::is_valid_codepoint(code)) continue;
     const std::string found = code == 0 ? "a NUL byte, as in UTF-16 or in a file that is no text"

@@ -94,7 +94,7 @@ std::string example_of(const KeyDescription& key) {
     case KeyKind::words:
       return fmt::format("\"{}\"", key.words.front());
     case KeyKind::text:
-      return key.list_length > 0 ? fmt::format("[{}]", key.example) : fmt::format("\"{}\"", key.example);
+      return fmt::format("\"{}\"", key.example);
     case KeyKind::list:
       return example_of_numbers(key, {0, 1.5, 2}, ", ");
     case KeyKind::range:
@@ -119,15 +119,13 @@ std::string allowed_text(const KeyDescription& key) {
     case KeyKind::words:
       return "any of " + quoted_list(key.words) + ", with commas between";
     case KeyKind::text:
-      if (key.list_length > 0)
-        return fmt::format("an array of {} texts, such as {}", key.list_length, example_of(key));
       return key.example.empty() ? "a text in quotation marks"
                                  : "a text in quotation marks, such as " + example_of(key);
     case KeyKind::number:
       return fmt::format("a {}{}, such as {}{}", name, limits, example_of(key), units);
     case KeyKind::range:
-      return fmt::format("{}a range, lower end first, of a {}{}, such as {}{}",
-                         key.may_be_value ? "a value or " : "", name, limits, example_of(key), units);
+      return fmt::format("a range, lower end first, of a {}{}, such as {}{}", name, limits, example_of(key),
+                         units);
     case KeyKind::list:
       return fmt::format(
           "a list of {}, each a {}{}, such as {}{}",

@@ -9,7 +9,6 @@
 namespace launchsafe::scene {
 namespace {
 
-constexpr std::string_view between_ends = " to ";
 constexpr std::size_t dimension_count = static_cast<std::size_t>(Dimension::duration) + 1;
 
 /// Most units are powers of ten of the SI unit, so that a decimal number converts without rounding twice. A
@@ -278,8 +277,6 @@ Expected<double> parse_quantity(std::string_view text, Dimension dimension) {
   return caught([&] { return convert(split(text, text, dimension), text, dimension); });
 }
 
-bool is_range(std::string_view text) { return text.find(between_ends) != std::string_view::npos; }
-
 Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension) {
   const auto two_values = [&](std::string found) {
     InputError result = fault(std::move(found), dimension);
@@ -289,7 +286,7 @@ Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimen
         fmt::format("a range of {}, lower end first, such as \"0 to 2.5{}\"", name_of(dimension), unit);
     return result;
   };
-  const std::size_t separator = text.find(between_ends);
+  const std::size_t separator = text.find(" to ");
   if (separator == std::string_view::npos) return two_values(fmt::format("\"{}\", without \"to\"", text));
   return caught([&] {
     std::vector<double> values =

@@ -96,8 +96,6 @@ std::vector<double> parse_numbers(const std::string& text, const KeyDescription&
 }
 
 std::vector<double> read_numbers(const toml::node& node, const KeyDescription& key, const Place& place) {
-  if (key.may_be_value && (node.is_number() || (node.is_string() && !is_range(node.ref<std::string>()))))
-    return std::vector<double>(2, read_number(node, key, place));
   if (const auto text = node.value<std::string>()) return parse_numbers(*text, key, place);
   if (node.is_number() && key.kind == KeyKind::list) return {read_number(node, key, place)};
   const toml::array* array = node.as_array();
@@ -137,15 +135,6 @@ std::string checked_text(const std::string& text, const KeyDescription& key, con
   throw error_for(place, key, '"' + text + "\", with a NUL character");
 }
 
-std::string checked_texts(const toml::node& node, const KeyDescription& key, const Place& place) {
-  std::vector<std::string> texts;
-  if (const toml::array* array = node.as_array(); array && array->size() == key.list_length)
-    for (const toml::node& each : *array)
-      if (const auto* text = each.as_string()) texts.push_back(checked_text(text->get(), key, place));
-  if (texts.size() != key.list_length) throw error_for(place, key, found_text(node));
-  return fmt::format("{}", fmt::join(texts, ", "));
-}
-
 /// What was perhaps meant by a value without quotation marks, in which the parser stopped: "1.3" of 1,3, and
 /// "\"2.5 mm\"" of 2.5 mm. Empty for anything else.
 std::string with_quotes_or_point(std::string_view text, const toml::source_position& stop) {
@@ -180,7 +169,6 @@ Value value_at(const toml::node& node, const KeyDescription& key, const Place& p
   if (key.kind == KeyKind::flag && node.is_boolean()) return node.as_boolean()->get();
   if (key.kind == KeyKind::word && text) return checked_word(text->get(), key, place);
   if (key.kind == KeyKind::words && text) return checked_words(text->get(), key, place);
-  if (key.kind == KeyKind::text && key.list_length > 0) return checked_texts(node, key, place);
   if (key.kind == KeyKind::text && text) return checked_text(text->get(), key, place);
   if (key.kind == KeyKind::number)
     return within_limits({read_number(node, key, place)}, found_text(node), key, place).front();

@@ -15,7 +15,7 @@ bool is_as_uncertain(const GapVerdict& row, const std::vector<std::string>& cali
   const Uncertainty& u = row.uncertainty;
   return std::ranges::equal(row.as_calibrated, calibrated_keys, {}, &AsCalibrated::key) &&
          !(u.numerical < input.numerical_uncertainty) &&
-         !(u.fit < fit_share(study, statements.distance, {}, 1.0)) &&
+         !(u.fit < fit_share(study, statements.distance, {})) &&
          !(u.model_form < stated_model_form_share(study, input, statements.model_form).value_or(0.0)) &&
          !(u.input < stated_input_share(study, input));
 }
@@ -33,7 +33,7 @@ bool has_all_shares(const CriticalGap& critical, const Study& study, const Study
       {initial_temperature, spreads},
       {accepted, !skin_keys(statements.to_be_accepted()).empty()},
       {computation, input.numerical_uncertainty > 0.0},
-      {fit, fit_share(study, statements.distance, {}, 1.0) > 0.0},
+      {fit, fit_share(study, statements.distance, {}) > 0.0},
       {stated_inputs, stated_input_share(study, input) > 0.0},
       {model_form, stated_model_form_share(study, input, statements.model_form).value_or(1.0) > 0.0}};
   return std::ranges::all_of(needed, [&](const auto& each) {
@@ -146,18 +146,11 @@ struct AnswerRunner {
   std::vector<CaseAnswer> answer_all() {
     fetch_stored();
     drop_answered();
-    run_cases(cases, options, tracker, timing, [&](std::size_t i, std::vector<FinishedRun>& runs) {
-      answer_members(cases[i].members, runs);
-      for (const std::size_t member : cases[i].members) tell(member);
-    });
+    run_cases(cases, options, tracker, timing,
+              [&](std::size_t i, std::vector<FinishedRun>& runs) { answer_members(cases[i].members, runs); });
     std::vector<CaseAnswer> result;
     for (auto& answer : answers) result.push_back(std::move(*answer));
     return result;
-  }
-
-  void tell(std::size_t i) const {
-    if (answers[i]->critical.kind == CriticalGapKind::value)
-      tracker.found({study.cases.label(i), answers[i]->critical.lower, answers[i]->critical.upper});
   }
 
   /// The key of the stored answer of a case.
@@ -179,19 +172,17 @@ struct AnswerRunner {
 
   /// Leaves the runs behind which some case still needs an answer.
   void drop_answered() {
-    std::map<std::string, std::size_t> answered_cases;  // by the reason why they failed, empty for none
+    std::ptrdiff_t answered = 0, failed = 0;  // cases
     const auto is_answered = [this](std::size_t member) { return answers[member].has_value(); };
     std::erase_if(cases, [&](const CaseRuns& each) {
       if (!std::ranges::all_of(each.members, is_answered)) return false;
       timing.reused += own_runs(each);
       tracker.expect_cases(each.members.size());
-      for (const std::size_t member : each.members) {
-        tell(member);
-        ++answered_cases[answers[member]->failure];
-      }
+      for (const std::size_t member : each.members) ++(answers[member]->failure.empty() ? answered : failed);
       return true;
     });
-    for (const auto& [failure, count] : answered_cases) tracker.cases_ended(count, failure);
+    tracker.cases_ended(answered, false);
+    tracker.cases_ended(failed, true);
   }
 
   void answer_members(const std::vector<std::size_t>& members, std::vector<FinishedRun>& runs) {

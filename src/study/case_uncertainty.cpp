@@ -82,36 +82,13 @@ void complete_recorded(const std::shared_ptr<const AccuracyRecords>& records, St
 
 }  // namespace
 
-double heat_factor(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
-                   double gap) {
-  if (!study.kind.gives_verdicts || !study.calibration.firings) return 1.0;
-  const FiringEvidence& evidence = *study.calibration.firings;
-  const surface::SkinModel model = surface::skin_model(scene);
-  const surface::SurfaceConstants constants = surface::constants_of(model);
-  double largest = 1.0;
-  for (const double each : {0.0, gap}) {
-    for (const Posterior* posterior : {&evidence.posterior, &evidence.of_doubled_prior}) {
-      const auto boundary = boundary_for(*posterior, model, trace, each);
-      const double factor = boundary ? heat_factor(*posterior, *boundary, constants) : math::infinity;
-      largest = std::max(largest, factor);
-    }
-  }
-  return largest;
-}
-
-double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises, double heat_factor) {
+double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises) {
   if (!study.kind.gives_verdicts) return 0.0;
   const CalibrationEvidence& evidence = study.calibration.evidence;
   double fit = std::isfinite(study.fit_uncertainty) ? study.fit_uncertainty : evidence.fit_uncertainty;
   if (distance.other_load_shape) fit = std::max(fit, assumed_other_load_shape);
-  if (study.calibration.firings) {
-    // Written so that what is not a number leaves none.
-    const double of_firings = (heat_factor - 1.0) * (rises.friction + rises.air);
-    fit = of_firings <= fit ? fit : of_firings;
-  } else {
-    const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
-    fit *= growth <= 1.0 ? 1.0 : growth;
-  }
+  const double growth = std::hypot(rises.friction / evidence.friction_rise, rises.air / evidence.air_rise);
+  fit *= growth <= 1.0 ? 1.0 : growth;
   return distance.other_numerics ? std::hypot(fit, assumed_numerical_uncertainty) : fit;
 }
 

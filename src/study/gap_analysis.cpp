@@ -79,7 +79,7 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const OfAllRows&
   const double initial = outcome.input.scene.scene.initial_temperature;
   row.uncertainty.numerical = numerical_share(outcome.input, row.gap, row.maximum.temperature - initial);
   const Rises rises{outcome.heated_without_gap - initial, row.heated - outcome.heated_without_gap};
-  row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises, outcome.heat_factor);
+  row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises);
   row.uncertainty.input = input_share(study, outcome, all, row);
   row.uncertainty.load_curve = all.load_curve * (rises.friction + rises.air);
   row.uncertainty.model_form = model_form_share(study, outcome, row);
@@ -296,13 +296,6 @@ void evaluate(const Study& study, CaseOutcome& outcome) {
         heated_temperature(outcome.input.scene.scene, outcome.result.mechanics.trace, 0.0);
   outcome.evidence = std::make_shared<const CaseEvidence>(evidence_of(study, outcome));
   find_critical_gaps(study, outcome);
-  if (has_trace(outcome)) {
-    // At the largest gap that does not ignite; without one, without a gap.
-    const CriticalGapKind kind = outcome.critical.kind;
-    const bool bounded = kind == CriticalGapKind::value || kind == CriticalGapKind::all_safe;
-    outcome.heat_factor = heat_factor(study, outcome.input.scene.scene, outcome.result.mechanics.trace,
-                                      bounded ? outcome.critical.lower : 0.0);
-  }
   evaluate_gaps(study, outcome);
 }
 

@@ -40,7 +40,8 @@ std::set<std::string> changed_tables(const ModelFormEntry& own, const ModelFormE
 /// rows, or without a finer mesh to compare with, or it would count and has a critical gap that is not known.
 std::string why_unfit(const ModelFormEntry& own, const ModelFormEntry& other, std::size_t pressures) {
   const bool calibrated = other.calibration->failure.empty();
-  const RecordDistance distance = distance_to_calibration(other.scene, other.calibration->calibration);
+  const RecordDistance distance =
+      distance_to_record(RecordKind::calibration, other.scene, other.calibration->calibration.scene);
   if (calibrated && !distance.inside())
     return fmt::format("its sweep is not of the calibrated launch ({})", fmt::join(distance.names(), ", "));
   if (other.critical_gap.size() != pressures) return "other peak pressures than " + own.name;

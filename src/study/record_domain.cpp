@@ -243,16 +243,16 @@ std::string name_for_people(const std::string& key) {
 enum class Effect { none, carried, foreign, carried_if_hotter };
 Effect effect_on(RecordKind record, const Difference& difference) {
   using enum Effect;
-  // Of each part to the kinds of record, in their orders. Firings tell nothing of what was not fired.
-  constexpr std::array<std::array<Effect, 4>, 8> effects{{
-      {carried_if_hotter, foreign, foreign, carried_if_hotter},  // constant
-      {foreign, foreign, foreign, foreign},                      // model
-      {carried_if_hotter, foreign, none, carried_if_hotter},     // calibrated
-      {carried, foreign, none, carried},                         // range
-      {carried, foreign, none, carried},                         // load_shape
-      {carried, carried, none, none},                            // setting
-      {none, none, none, none},                                  // minor_setting
-      {none, none, none, none},                                  // free
+  // Of each part to the kinds of record, in their orders.
+  constexpr std::array<std::array<Effect, 3>, 8> effects{{
+      {carried_if_hotter, foreign, carried_if_hotter},  // constant
+      {foreign, foreign, foreign},                      // model
+      {carried_if_hotter, none, carried_if_hotter},     // calibrated
+      {carried, none, carried},                         // range
+      {carried, none, carried},                         // load_shape
+      {carried, none, none},                            // setting
+      {none, none, none},                               // minor_setting
+      {none, none, none},                               // free
   }};
   const keys::Role role = difference.key.role();
   // Models are compared over the peak pressures of their record.

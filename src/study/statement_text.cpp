@@ -16,7 +16,7 @@ struct RuleWords {
   const char *name, *text;
 };
 /// In the order of ReasonCode.
-constexpr std::array<RuleWords, 19> rules{{
+constexpr std::array<RuleWords, 18> rules{{
     {"not-judged", "nothing was judged"},
     {"failed", "{failure}"},
     {"no-temperature", "the temperature is not a number"},
@@ -25,8 +25,6 @@ constexpr std::array<RuleWords, 19> rules{{
     {"unaccepted", "validity warning: {unaccepted}"},
     {"no-margin", "no margin to the ignition temperature"},
     {"optimistic", "{optimistic}"},
-    {"beyond-firings",
-     "no round with a gap as thick was fired without ignition at such a pressure and temperature"},
     {"critical-gap-indeterminate", "the critical gap is indeterminate: {critical_gap}"},
     {"several-crossings", "ignition comes and goes with the gap: {critical_gap}"},
     {"smaller-gaps-ignite", "no ignition here, but at smaller gaps"},
@@ -154,7 +152,7 @@ std::string reason_text(const GapVerdict& row) {
   add(limiters.empty() ? limiters : "limiters acted: " + limiters);
   add(models_text(row));
   add(extrapolated_text(row));
-  if (of_case.input.demonstration) add("a demonstration, with an invented shell or invented firings");
+  if (of_case.input.demonstration) add("a demonstration, with an invented shell");
   // The user's words come last: what the program says stands before them, whatever they are.
   add(accepted_text(of_case.input));
   return text;

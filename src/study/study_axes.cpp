@@ -192,7 +192,7 @@ const std::vector<scene::Key<CitedLimit>>& cited_limit_keys() {
           "peak_pressure", scene::Dimension::pressure, scene::above(0), scene::Standing::literature,
           "Peak pressure that it was found for; absent where none was stated.", &CitedLimit::peak_pressure),
       scene::text_key("source", scene::Standing::literature, "Who found it, and how.",
-                      "firing tests of 1998, table 3", &CitedLimit::source) |
+                      "gun tests of 1998, table 3", &CitedLimit::source) |
           scene::required(),
   };
   return keys;

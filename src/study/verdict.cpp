@@ -21,21 +21,11 @@ std::optional<scene::Implausible> pressure_beyond_models(const Study& study, con
                   scene::pressure_text(compared.lowest), scene::pressure_text(compared.highest)));
 }
 
-/// Whether of what is foreign to firings it cannot be told that it is milder than what was fired: all but the
-/// peak pressure and the temperature, which were held against them.
-bool no_firing_speaks_of(const scene::Implausible& foreign) {
-  return foreign.key != "load.peak" && foreign.key != "initial_temperature";
-}
-
 std::vector<scene::Implausible> implausible_in(const Study& study, const StudyCase& input,
                                                const scene::RigidMotion& launch) {
   std::vector<scene::Implausible> values = study.implausible;
   if (auto beyond = pressure_beyond_models(study, input)) values.push_back(std::move(*beyond));
-  for (scene::Implausible& each : scene::implausible_values(input.scene.scene, launch)) {
-    // One that firings gave its value, about a plausible one: another value is foreign to them.
-    if (!study.calibration.firings || scene::role_of(each.key).part != keys::Part::calibrated)
-      values.push_back(std::move(each));
-  }
+  std::ranges::move(scene::implausible_values(input.scene.scene, launch), std::back_inserter(values));
   return values;
 }
 
@@ -138,15 +128,12 @@ CaseStatements statements_of(const Study& study, const StudyCase& input) {
   if (study.model_form) all.model_form = model_form_shift(*study.model_form, scene);
   // No stress case of a stability study may pass because its input is called implausible.
   if (!study.kind.gives_verdicts) return all;
-  all.distance = distance_to_calibration(scene, study.calibration);
+  all.distance = distance_to_record(RecordKind::calibration, scene, study.calibration.scene);
   all.implausible = implausible_in(study, input, launch);
   all.extrapolated = all.distance.names();
   if (const double over = scene.load.smoothing; over > 0.0)
     all.extrapolated.push_back("load smoothed over " + scene::format_quantity(over, scene::Dimension::time));
-  all.calibrated_gap = calibrated_gap(study.calibration, scene);
-  if (study.calibration.firings && std::ranges::any_of(all.distance.foreign, no_firing_speaks_of))
-    all.calibrated_gap = -1.0;
-  all.calibrated_by_firings = study.calibration.firings != nullptr;
+  all.calibrated_gap = study.calibration.evidence.largest_gap;
   all.demonstration = study.demonstration;
   return all;
 }
@@ -177,8 +164,6 @@ Judgement judge(const GapVerdict& row, const CriticalGap& critical) {
   if (!(row.margin > 0.0)) return indeterminate(ReasonCode::no_margin, critical);
   if (!of_case.input.optimistic.empty() || !optimistic_by_run(of_case.friction_rise).empty())
     return indeterminate(ReasonCode::optimistic, critical);
-  if (of_case.input.calibrated_by_firings && of_case.input.is_beyond(row.gap))
-    return indeterminate(ReasonCode::beyond_firings, critical);
   return judge_in_gap(row, critical);
 }
 

@@ -90,12 +90,10 @@ TEST_F(CommandLineProgram, AMistypedWordIsToldWithTheNearestThereIs) {
 }
 
 TEST_F(CommandLineProgram, AnOptionOfAnotherCommandIsToldWithThatCommand) {
-  EXPECT_TRUE(run({"run", "scene.toml", "--csv"}).says("--csv is an option of ask, plot"));
-  // That of ask would lead away.
+  EXPECT_TRUE(run({"run", "scene.toml", "--csv"}).says("--csv is an option of plot"));
   const Outcome set = run({"study", "study.toml", "-o", "out", "--set", "load.peak=500 MPa"});
   EXPECT_TRUE(set.says("file sets values: set = { load.peak = \"500 MPa\" } above its first [table]"))
       << set.err;
-  EXPECT_FALSE(set.says("an option of ask"));
 }
 
 TEST_F(CommandLineProgram, WhatIsMissingIsCalledAsInTheHelpOfItsCommand) {
@@ -190,7 +188,6 @@ TEST_F(CommandLineProgram, BashCompletesCommandsOptionsAndWhatTheyTake) {
                                                         {"report --i", "--index\n"},
                                                         {"plot --what histories,fi", "histories,fields\n"},
                                                         {"plot --what = air", "air\n"},
-                                                        {"ask out --set gap.th", "gap.thickness=\n"},
                                                         {"explain --schema s", "scene study\n"},
                                                         {"emit sl", "slurm\n"},
                                                         {"run ''", "folder a.toml\n"},

@@ -22,7 +22,7 @@ double maximum_at(const surface::SkinModel& model, const trace::BottomTrace& tra
 const std::string own_launch = "scene = \"scene_155mm.toml\"";
 
 /// Rows as a shell with the given constants would have published them.
-std::string published(const surface::SurfaceConstants& truth, const trace::BottomTrace& trace) {
+std::string published(const SurfaceConstants& truth, const trace::BottomTrace& trace) {
   surface::SkinModel model = surface::skin_model(study_of(critical_text + synthetic_constants).scene.scene);
   model.surface.friction = scene::FrictionClosure::total_strain_rate;
   model.surface.localisation = truth.localisation;
@@ -44,7 +44,7 @@ const std::string calibration_text = "kind = \"calibration\"\nscene = \"scene_15
 
 TEST(Calibration, RecoversTheConstantsOfASyntheticTruth) {
   const trace::BottomTrace trace = synthetic_trace(496e6, friction_for(116.1));
-  const surface::SurfaceConstants truth{951.0, 4.2e-4, not_a_number};
+  const SurfaceConstants truth{951.0, 4.2e-4, not_a_number};
   const CalibrationResult result = run_calibration(
       study_of(calibration_text + published(truth, trace) + synthetic_constants), synthetic_options());
   ASSERT_EQ(result.rows.size(), 3u);  // total strain rate, inelastic, none
@@ -73,7 +73,7 @@ TEST(Calibration, FitsNothingButItsThreeRows) {
         .rows[0]
         .calibrated.constants;
   };
-  const surface::SurfaceConstants a = constants(rows), b = constants(changed);
+  const SurfaceConstants a = constants(rows), b = constants(changed);
   EXPECT_EQ(a.localisation, b.localisation);
   EXPECT_EQ(a.exchange_time, b.exchange_time);
   EXPECT_EQ(a.ignition_temperature, b.ignition_temperature);
@@ -251,7 +251,7 @@ TEST(CalibrationOfLoad, RecoversLoadAndConstantsOfASyntheticTruth) {
   EXPECT_NEAR(result.load->bell->width, truth.scene.load.width, 3e-3 * truth.scene.load.width);
   EXPECT_NEAR(result.load->bell->steepness, truth.scene.load.steepness, 3e-3 * truth.scene.load.steepness);
   ASSERT_TRUE(result.recommended()) << result.reason;
-  const surface::SurfaceConstants& constants = result.recommended()->calibrated.constants;
+  const SurfaceConstants& constants = result.recommended()->calibrated.constants;
   EXPECT_NEAR(constants.localisation, truth.localisation, 1e-3 * truth.localisation);
   EXPECT_NEAR(constants.exchange_time, truth.exchange_time, 3e-3 * truth.exchange_time);
 }

@@ -4,7 +4,6 @@
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/study/case_answer.hpp"
 #include "launchsafe/study/run_cases.hpp"
-#include "launchsafe/study/surrogate.hpp"
 #include "store/temporary_folder.hpp"
 #include "study/synthetic_launch.hpp"
 

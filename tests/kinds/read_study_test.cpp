@@ -71,7 +71,7 @@ TEST(ReadStudy, TakesWhatItDoesNotSayFromTheScene) {
 }
 
 TEST(ReadStudy, ACopyHasTheSettingsOfItsKindUntilEitherChangesThem) {
-  const StudyFile read = study_of(critical_kind + "surrogate = false\nconfirm = false\n");
+  const StudyFile read = study_of(critical_kind + "confirm = false\n");
   Study copy = read.study;
   EXPECT_FALSE(settings_of<CriticalGapSettings>(std::as_const(copy)).confirm);
   settings_of<CriticalGapSettings>(copy).confirm = true;
@@ -246,15 +246,6 @@ TEST(ReadStudy, ACalibrationNeedsTheLaunchOfItsRows) {
 }
 
 // A message that names what is allowed must not give an example that is not.
-TEST(ReadStudy, TheExampleOfSeveralNumbersHasNoneThatTheKeyRefuses) {
-  scene::KeyDescription key = *scene::find_key(scene::scene_keys(), "gap.roughness");
-  EXPECT_EQ(scene::example_of(key), "\"30 µm\"") << "an end of what is plausible";
-  key.kind = scene::KeyKind::list;
-  EXPECT_EQ(scene::example_of(key), "\"1 µm, 30 µm\"");
-  key.kind = scene::KeyKind::range;
-  EXPECT_EQ(scene::example_of(key), "\"1 µm to 30 µm\"");
-}
-
 TEST(ReadStudy, TheExampleOfANumberWithoutUnitIsOneThatTheKeyAllows) {
   int checked = 0;
   for (const scene::DocumentedKey& each : kinds::describe_study_keys()) {
@@ -265,7 +256,7 @@ TEST(ReadStudy, TheExampleOfANumberWithoutUnitIsOneThatTheKeyAllows) {
     EXPECT_TRUE(key.limits.contain(*value)) << key.name << ": " << scene::example_of(key);
     ++checked;
   }
-  EXPECT_GT(checked, 10);
+  EXPECT_GT(checked, 5);
 }
 
 }  // namespace

@@ -272,26 +272,4 @@ TEST(ReadVary, ThereIsAMostOfCases) {
                   {3, "vary.key", "1030301 mechanical runs, 101 of load.steepness x", "at most 1000000"});
 }
 
-// A fit over the cases: the key is line 3, an entry's key line 5, its values line 6.
-TEST(ReadVary, AFitOverTheCasesIsRefusedAcrossLeapsAndWithTooFewBetweenOthers) {
-  const auto fit_over = [](const std::string& entry) {
-    return critical_kind + "surrogate = true\n[[vary]]\n" + entry + "\n";
-  };
-  expect_error_in(critical_kind + "surrogate = true\n",
-                  {3, "surrogate", "nothing that varies", "for every input of the fit"});
-  expect_error_in(
-      fit_over("key = \"charge.face_friction\"\nvalues = [0.1, 0.2, 0.3, 0.4]"),
-      {5, "vary.key", "charge.face_friction, with which launches may change by leaps", "smoothly"});
-  expect_error_in(fit_over("key = \"numerics.cell_size\"\nvalues = \"1, 1.25, 2, 2.5 mm\""),
-                  {5, "vary.key", "numerics.cell_size, with which launches may change by leaps", "smoothly"});
-  expect_error_in(fit_over("key = \"numerics.particles_per_cell\"\nvalues = [1, 2, 3, 4]"),
-                  {5, "vary.key", "a whole number", "any number between two"});
-  expect_error_in(fit_over("key = \"peak_pressure\"\nvalues = \"400, 450, 496 MPa\""),
-                  {6, "vary.values", "3 values", "at least 4"});
-  expect_error_in(fit_over("key = \"peak_pressure\"\nrange = \"400 to 500 MPa\"\ncount = 20"),
-                  {3, "surrogate", "20 cases, 14 to be fitted and 6 between these", "30 held out"});
-  expect_error_in(fit_over("variants = [ { name = \"a\" } ]"),
-                  {5, "vary.variants", "variants", "comparison"});
-}
-
 }  // namespace

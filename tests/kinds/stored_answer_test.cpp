@@ -80,7 +80,6 @@ TEST(StoredAnswer, ThatContradictsItselfIsNone) {
       {"negative heat from the air", [](auto& a) { a.verdicts[1].air.taken = -1; }},
       {"heat from the air that is no number",
        [](auto& a) { a.verdicts[1].air.taken = std::numeric_limits<double>::quiet_NaN(); }},
-      {"compression that supplies less than the air stores", [](auto& a) { a.verdicts[1].air.supplied = 1; }},
   };
   ASSERT_TRUE(accepted(some_answer()));
   for (const auto& [name, edit] : edits) {

@@ -1,4 +1,4 @@
-#include "launchsafe/math/surrogates.hpp"
+#include "launchsafe/math/polynomial_chaos.hpp"
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,6 @@ TEST(PolynomialChaos, FindsAPolynomialOfUniformAndNormalInputsExactly) {
   EXPECT_NEAR(chaos.mean(), 2.0, 1e-10);
   EXPECT_NEAR(chaos.variance(), 3.0 + 16.0 + 25.0 / 3.0, 1e-9);
   EXPECT_LT(chaos.leave_one_out, 1e-9);
-  EXPECT_NEAR(FittedChaos(chaos, points).at({0.2, 0.9, 0.5}).value, output({0.2, 0.9, 0.5}), 1e-9);
   const SobolIndices indices = chaos_indices(chaos, points, values, {0, 1, 2, 3});
   const double variance = 82.0 / 3.0;
   EXPECT_NEAR(indices.inputs[0].first.value, 3.0 / variance, 1e-9);
@@ -98,22 +97,6 @@ TEST(PolynomialChaos, LeavesOutWhatHasNoNumberAndRefusesTooFew) {
   const std::vector<double> same(12, 7.0);
   EXPECT_EQ(chaos_indices(fit_chaos(inputs, points, same), points, same, {0, 1, 2}).reason,
             "the output does not vary");
-}
-
-// The leverages of all fitted points add up to the number of terms, as the trace of a projection is its rank.
-TEST(FittedChaos, HasTheLeverageOfItsPoints) {
-  const std::vector<double> points = unit_points(Design::scrambled_sobol, 64, 3, 1);
-  const PolynomialChaos chaos = fit_chaos({ChaosBasis::legendre, ChaosBasis::legendre, ChaosBasis::legendre},
-                                          points, values_at(ishigami, points, 3));
-  const FittedChaos fitted(chaos, points);
-  double sum = 0.0;
-  for (std::size_t row = 0; row < 64; ++row) {
-    const std::vector<double> point{points[3 * row], points[3 * row + 1], points[3 * row + 2]};
-    EXPECT_LT(fitted.at(point).leverage, 1.0);
-    sum += fitted.at(point).leverage;
-  }
-  EXPECT_NEAR(sum, static_cast<double>(chaos.terms.size()), 1e-9);
-  EXPECT_GT(fitted.at({0.999, 0.999, 0.999}).leverage, fitted.at({0.5, 0.5, 0.5}).leverage);
 }
 
 }  // namespace

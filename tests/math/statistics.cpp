@@ -116,13 +116,4 @@ TEST(ClopperPearson, IsThatOfTheTables) {
   expect(10, std::pow(0.025, 0.1), 1.0);
 }
 
-// Of one error e of scale b, e/b is exponential: the scale is below e/(-ln 0.95) with 95 % confidence, and 1
-// of 100 errors above b ln 50. Of many the mean magnitude is b.
-TEST(ExponentialTolerance, FollowsTheSumOfMagnitudes) {
-  EXPECT_NEAR(math::exponential_tolerance_factor(1, 0.99, 0.95), std::log(50.0) / -std::log(0.95), 1e-9);
-  EXPECT_NEAR(math::exponential_tolerance_factor(1000000, 0.99, 0.95), std::log(50.0), 0.01);
-  // 64 over the 5 % quantile of chi-squared with 64 degrees of freedom, 46.595 in printed tables.
-  EXPECT_NEAR(math::exponential_tolerance_factor(32, 0.99, 0.95), std::log(50.0) * 64.0 / 46.595, 1e-3);
-}
-
 }  // namespace

@@ -34,7 +34,8 @@ TEST(CalibrationRecord, ReadsBackWhatWasWritten) {
   const auto read = parse_calibration_record(to_json_text(record), "calibration.json");
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(to_json_text(*read), to_json_text(record));
-  EXPECT_TRUE(distance_to_calibration(read->calibration.scene, record.calibration).inside());
+  EXPECT_TRUE(distance_to_record(RecordKind::calibration, read->calibration.scene, record.calibration.scene)
+                  .inside());
 }
 
 TEST(CalibrationRecord, RefusesEveryEditedNumber) {
@@ -125,7 +126,7 @@ TEST_F(StudyWithRecord, TakesLoadAndConstants) {
   EXPECT_EQ(ours.surface.localisation, theirs.surface.localisation);
   EXPECT_EQ(ours.surface.exchange_time, theirs.surface.exchange_time);
   EXPECT_EQ(ours.charge().kinetics.ignition_temperature, theirs.charge().kinetics.ignition_temperature);
-  EXPECT_TRUE(distance_to_calibration(ours, read->study.calibration).inside());
+  EXPECT_TRUE(distance_to_record(RecordKind::calibration, ours, read->study.calibration.scene).inside());
 }
 
 TEST_F(StudyWithRecord, KeepsALoadThatTheStudyStates) {
@@ -135,7 +136,8 @@ TEST_F(StudyWithRecord, KeepsALoadThatTheStudyStates) {
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->scene.scene.load.peak_time, 4e-3);
   EXPECT_EQ(read->scene.scene.load.steepness, 1.5);
-  EXPECT_TRUE(distance_to_calibration(read->scene.scene, read->study.calibration).other_load_shape);
+  EXPECT_TRUE(distance_to_record(RecordKind::calibration, read->scene.scene, read->study.calibration.scene)
+                  .other_load_shape);
 }
 
 TEST_F(StudyWithRecord, LeavesTheLoadWhereItWasNotFitted) {
@@ -165,7 +167,8 @@ TEST_F(StudyWithRecord, LeavesAShapeThatTheStudyStates) {
   const auto read = study("[set]\nload.shape = \"power-exponential\"\n");
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->scene.scene.load.shape, scene::LoadShape::power_exponential);
-  EXPECT_TRUE(distance_to_calibration(read->scene.scene, read->study.calibration).other_load_shape);
+  EXPECT_TRUE(distance_to_record(RecordKind::calibration, read->scene.scene, read->study.calibration.scene)
+                  .other_load_shape);
 }
 
 TEST_F(StudyWithRecord, RefusesAFitUncertaintyBelowThatOfTheRecord) {
@@ -192,7 +195,8 @@ TEST_F(StudyWithRecord, DoesNotHoldForAnotherModel) {
   write(made_calibration());
   const auto read = study("[set]\ninterface.wall.friction = 0.3\n");
   ASSERT_TRUE(read) << read.error().message();
-  const auto distance = distance_to_calibration(read->scene.scene, read->study.calibration);
+  const auto distance =
+      distance_to_record(RecordKind::calibration, read->scene.scene, read->study.calibration.scene);
   ASSERT_FALSE(distance.foreign.empty());
   EXPECT_EQ(distance.foreign.front().key, "calibration.interfaces");
 }

@@ -102,7 +102,6 @@ struct KeyDescription {
   std::string sentence = {};
   std::string example = {};                 ///< of a text, without quotation marks
   bool may_be_empty = false;                ///< of a list: [] is allowed
-  bool may_be_value = false;                ///< of a range: "a" is allowed, and stands for both ends
   bool required = false;                    ///< no default: the user must say
   std::string usual = {};                   ///< the default in words, where it follows from other keys
   std::vector<std::string> overrides = {};  ///< keys whose earlier value a new one of this takes back
@@ -415,11 +414,6 @@ auto written_where(Condition condition) {
 /// Of a word: one had another name in earlier versions.
 inline auto formerly(FormerWord word) {
   return [word = std::move(word)](KeyDescription& key) { key.former_words.push_back(word); };
-}
-
-/// Of a range: it may also be one value.
-inline auto value_or_range() {
-  return [](KeyDescription& key) { key.may_be_value = true; };
 }
 
 /// Of a list: it may also be [].

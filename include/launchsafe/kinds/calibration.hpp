@@ -2,77 +2,25 @@
 #pragma once
 
 #include "launchsafe/kinds/kind.hpp"
-#include "launchsafe/math/sensitivity.hpp"
+#include "launchsafe/math/statistics.hpp"
 #include "launchsafe/study/calibration_record.hpp"
 
 namespace launchsafe::kinds {
 
-/// What a study file with [[firing]] says besides.
-struct FiringSettings {
-  std::vector<study::Firing> firings;
-  double localisation_factor = 1.5;    ///< of one standard deviation of the prior
-  double exchange_time_factor = 2.0;   ///< likewise
-  double ignition_temperature = 30.0;  ///< K, one standard deviation
-  double scatter = 0.05;               ///< median of the prior
-  std::vector<double> next_gaps;       ///< m, among which the next one to fire is sought
-  study::FiringPrior prior_about(const surface::SurfaceConstants& centre) const;
+/// The constants of the surface that are calibrated.
+struct SurfaceConstants {
+  double localisation = study::not_a_number;          ///< of friction heat, > 0
+  double exchange_time = study::not_a_number;         ///< of the air's heat, s, > 0
+  double ignition_temperature = study::not_a_number;  ///< T1, K
 };
 
-/// The mechanical run of one mesh, or of one peak pressure and temperature; its failure is also why a run
+/// The mechanical run of one mesh; its failure is also why a run
 /// that completed is no evidence.
 struct CalibrationRun : study::FinishedRun {
   study::StudyCase input;
   explicit CalibrationRun(const study::StudyCase& of) : input(of) { outcome = study::RunOutcome::ran; }
   const run::MechanicsResult& mechanics() const { return result.mechanics; }
 };
-
-/// One firing beside what is computed of it.
-struct FiringRow {
-  study::Firing firing;
-  std::size_t condition = 0;  ///< of FiringResult::conditions
-  double log_heat_spread = study::not_a_number;
-  int rounds = 0, ignited = 0;  ///< of this pressure, temperature and gap, in this and other firings
-  /// With 95 % each the probability of a round is above and below these, by the rounds of this pressure,
-  /// temperature and gap alone (Clopper and Pearson).
-  math::Interval shown{0, 1};
-  /// Likewise by the posterior: its mean, and where its middle 90 % lie.
-  math::Estimate predicted = math::no_estimate;
-};
-
-/// A constant before and after the firings: geometric mean and middle 90 %, SI.
-struct ConstantRange {
-  std::string name;
-  math::Estimate before, after;
-  double change_of_coarser = 0;  ///< share by which the mean is higher on a lattice of half as many nodes
-};
-
-/// A round that could be fired next.
-struct NextFiring {
-  double pressure = 0;     ///< Pa
-  double temperature = 0;  ///< K
-  double gap = 0;          ///< m
-  double ignition = 0;     ///< probability
-  double information = 0;  ///< bits that its outcome tells of the constants, on average
-};
-
-struct FiringResult : StudyResult {
-  std::vector<CalibrationRun> conditions;
-  std::vector<FiringRow> rows;
-  std::vector<ConstantRange> constants;
-  std::vector<NextFiring> next;                    ///< that which tells most first
-  std::optional<study::CalibrationRecord> record;  ///< on firings
-  std::string failure;                     ///< why nothing was calibrated; empty where there is a posterior
-  std::vector<std::string> contradicting;  ///< firings that no constants make probable: there is no record
-  /// Whether what was asked for, a record, is not there.
-  bool any_indeterminate() const { return !record; }
-};
-
-/// One mechanical run a pressure and temperature; then boundaries of ignition on their traces, and the
-/// posterior.
-FiringResult run_firings(const study::StudyFile& study, const study::StudyOptions& options = {});
-
-std::string answer(const FiringResult& result);
-report::Report report_of(const FiringResult& result);
 
 /// What a study file of this kind says besides.
 struct CalibrationSettings {
@@ -82,12 +30,10 @@ struct CalibrationSettings {
   double ignition_highest = study::not_a_number;  ///< K
   bool load_fitted = false;  ///< the bell of the load is fitted to the calibrated rows too
   std::string frozen_at;     ///< where rule and weights were settled before the fit, for people
-  FiringSettings firings;    ///< instead of published rows
 };
 
 /// Puts constants into a scene or a model of its skin.
-void put(const surface::SurfaceConstants& constants, scene::Surface& surface,
-         materials::KineticsParameters& kinetics);
+void put(const SurfaceConstants& constants, scene::Surface& surface, materials::KineticsParameters& kinetics);
 
 /// The rows that constants are fitted to: nothing else is.
 struct CalibrationTargets {
@@ -103,7 +49,7 @@ struct CalibrationTargets {
 
 /// Constants with how well they meet the rows they were fitted to.
 struct CalibratedConstants {
-  surface::SurfaceConstants constants{study::not_a_number, study::not_a_number, study::not_a_number};
+  SurfaceConstants constants;
   double zero_gap_misfit = study::not_a_number;  ///< K, left over
   double wide_gap_misfit = study::not_a_number;  ///< K, left over
   /// K, maximum temperatures without a trigger at the safe and the igniting gap: T1 is between them
@@ -205,7 +151,7 @@ struct CalibrationResult : StudyResult {
   std::vector<Convergence> convergence;
   std::optional<std::size_t> recommended_row;  ///< closure that misses least, on the mesh of the scene
   std::string reason;                          ///< what the evidence says
-  surface::SurfaceConstants in_scene;          ///< what the scene file holds now
+  SurfaceConstants in_scene;                   ///< what the scene file holds now
   /// The recommended row; nullptr without one.
   const CalibrationRow* recommended() const { return recommended_row ? &rows[*recommended_row] : nullptr; }
 };

@@ -9,8 +9,7 @@ namespace launchsafe::kinds {
 
 /// What a study file of this kind says besides.
 struct CriticalGapSettings {
-  bool confirm = true;     ///< coupled runs on both sides of the bracket
-  bool surrogate = false;  ///< a fit over the cases
+  bool confirm = true;  ///< coupled runs on both sides of the bracket
 };
 
 struct CriticalGapResult : StudyResult {

@@ -1,5 +1,4 @@
-// Samples of uncertain inputs: distributions by their quantile function, inputs that are not independent of
-// each other, and designs on the unit cube.
+// Samples of uncertain inputs: distributions by their quantile function, and designs on the unit cube.
 #pragma once
 
 #include "launchsafe/math/numbers.hpp"
@@ -44,34 +43,10 @@ bool is_valid(const Distribution& distribution);
 /// so infinite where an end is. A normal keeps its relative accuracy when it is cut off far from its centre.
 double quantile(const Distribution& distribution, double u);
 
-/// Share in [0, 1] below x, the inverse of `quantile`.
-double cumulative(const Distribution& distribution, double x);
-
 /// The factor L of a covariance matrix L L^T of `size` variables, row by row, lower triangular: L z has that
 /// covariance where z are independent standard normals. Nothing where the matrix is not symmetric and
 /// positive definite.
 std::optional<std::vector<double>> covariance_factor(const std::vector<double>& covariance, std::size_t size);
-
-/// The smallest eigenvalue of a symmetric matrix of so many rows, row by row.
-double smallest_eigenvalue(const std::vector<double>& matrix, std::size_t rows);
-
-/// Draws of shares, points of the open unit cube, whose normal scores are correlated: a Gaussian copula,
-/// under which every share stays uniform. Some may be fixed; the others are then drawn as they are beside
-/// those.
-class CopulaDraws {
- public:
-  /// A correlation matrix that is positive definite, row by row; empty: all are independent. Of every share
-  /// the fixed one, if it is.
-  CopulaDraws(const std::vector<double>& correlation, std::vector<std::optional<double>> fixed);
-
-  /// The draw that a point of independent shares stands for.
-  std::vector<double> at(std::vector<double> point) const;
-
- private:
-  std::vector<std::optional<double>> fixed_;
-  std::vector<std::size_t> order_;  ///< those that are fixed before the others
-  std::vector<double> factor_;      ///< of the correlations in that order
-};
 
 /// The n-th output (from 0) of the generator SplitMix64 seeded with `key`: a hash of both numbers (Steele,
 /// Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014; constants of Vigna's

@@ -53,12 +53,6 @@ std::vector<double> polynomial_row(double x, int degree);
 /// Straight line y = coefficients[0] + coefficients[1] x.
 std::optional<LeastSquares> fit_line(const std::vector<double>& x, const std::vector<double>& y);
 
-/// Of errors about 0 whose tails are exponential (Laplace's distribution): the factor of the mean magnitude
-/// of n >= 1 of them above which the share 1 - coverage (below a half) of all lies, on one side, with
-/// probability `confidence` or less. Exact, from the chi-squared distribution of the sum of magnitudes.
-/// Errors with thinner tails, normal ones too, are covered more often.
-double exponential_tolerance_factor(int n, double coverage, double confidence);
-
 /// Student's factor: with probability `level` a further value, of a population about 0 of whose values n >= 1
 /// have a root mean square s, is below the factor times s. One-sided; NaN otherwise.
 double one_sided_student_factor(int n, double level);

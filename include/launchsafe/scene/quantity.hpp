@@ -29,9 +29,6 @@ std::vector<std::string> units_of(Dimension dimension);
 /// is exactly 0.118. A comma for a decimal point is a fault.
 Expected<double> parse_quantity(std::string_view text, Dimension dimension);
 
-/// Whether a text is meant to be a range.
-bool is_range(std::string_view text);
-
 /// "0 to 11.8 cm" or "0 cm to 118 mm": two numbers, lower first; a number without a unit takes the next
 /// one's.
 Expected<std::vector<double>> parse_range(std::string_view text, Dimension dimension);

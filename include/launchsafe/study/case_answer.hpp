@@ -35,16 +35,9 @@ struct Rises {
 /// K, uncertainty of T max by the calibrated constants: the stated one, or that of the
 /// calibration. It is that of the rows that the constants were fitted to; their relative errors are carried
 /// to the case's own rises. Another load shape was held out in no row but those at another time, and other
-/// numerics have another mesh error than the constants absorbed: both add to it. Where firings calibrated, it
-/// is what a factor on the launch's own heat adds (`heat_factor`), no less than stated. 0 for a study without
-/// verdicts.
-double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises, double heat_factor);
-
-/// By which the heat of a launch may be larger for all that its firings leave open of the constants, under
-/// either prior, without a gap or at one (m), whichever is more. 1 where no firings calibrated; infinite
-/// where nothing tells.
-double heat_factor(const Study& study, const scene::Scene& scene, const trace::BottomTrace& trace,
-                   double gap);
+/// numerics have another mesh error than the constants absorbed: both add to it. 0 for a
+/// study without verdicts.
+double fit_share(const Study& study, const RecordDistance& distance, const Rises& rises);
 
 /// What the study states of the model form, or assumes where its record does not speak of a case, K.
 /// Nothing where the record does: it gives a shift of the gap (`recorded`).

@@ -22,7 +22,7 @@ struct Difference {
 /// up to the round-off of units. Names of bodies and materials are the user's and make no difference.
 std::vector<Difference> differences(const scene::Scene& scene, const scene::Scene& recorded);
 
-enum class RecordKind { calibration, firings, accuracy, model_form };
+enum class RecordKind { calibration, accuracy, model_form };
 
 /// How far a scene lies outside of a record.
 struct RecordDistance {
@@ -51,28 +51,16 @@ struct CalibrationEvidence {
   double fit_uncertainty = 2.86;
 };
 
-struct FiringEvidence;  // calibration_record.hpp
-
 /// A launch with its calibrated constants: they hold where they were found.
 struct Calibration {
   scene::Scene scene;
   CalibrationEvidence evidence;
-  std::shared_ptr<const FiringEvidence> firings = {};  ///< none of a calibration on published results
 };
-
-/// m, the largest gap of a round that was fired without ignition at no lower a peak pressure and no colder
-/// than the scene's, and thinner than any that ignited at no higher a pressure and no hotter; below 0 where
-/// there was none. Without firings the largest gap of the published rows.
-double calibrated_gap(const Calibration& calibration, const scene::Scene& scene);
 
 /// The launch that the constants of scene::Scene were calibrated on: the 155 mm shell of the paper.
 scene::Scene calibration_scene();
 /// That launch with its evidence: what holds where a study names no record of another calibration.
 Calibration shipped_calibration();
-
-/// What of a scene lies outside of a calibration. On firings it holds within the pressures and temperatures
-/// that were fired, and nothing carries it beyond.
-RecordDistance distance_to_calibration(const scene::Scene& scene, const Calibration& calibration);
 
 // --- how the critical gap changes with the choice of the model, each calibrated on the same rows, and which
 // part of that counts as uncertainty of a verdict ---

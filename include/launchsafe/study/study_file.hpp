@@ -196,7 +196,7 @@ struct Study {
   /// defaults.
   std::shared_ptr<std::any> settings;
   std::string title;
-  bool demonstration = false;  ///< its shell, its launch or its firings are invented
+  bool demonstration = false;  ///< its shell or its launch is invented
   std::string scene;           ///< path of the scene from the study file's folder, as the user wrote it
   double early_time = 10e-3;   ///< s; an instant at which temperatures are compared too
   std::vector<Reference> references;

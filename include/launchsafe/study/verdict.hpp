@@ -25,8 +25,7 @@ struct CaseStatements {
                                           ///< first what is foreign to it
   /// m, up to which a gap lies within it.
   double calibrated_gap = math::infinity;
-  bool calibrated_by_firings = false;  ///< so that nothing is known of a gap beyond
-  bool demonstration = false;          ///< of something that was invented
+  bool demonstration = false;  ///< of something that was invented
 
   /// Of the study's record of other models; not known where there is none.
   ModelFormShift model_form{math::not_a_number, math::not_a_number, {}};
@@ -97,7 +96,6 @@ enum class ReasonCode {
   unaccepted,
   no_margin,
   optimistic,
-  beyond_firings,
   critical_gap_indeterminate,
   several_crossings,
   smaller_gaps_ignite,
@@ -237,8 +235,7 @@ struct GapVerdict {
 /// - SAFE: all of the input is plausible and of the calibration, or accepted; the gap does not ignite, and is
 ///   thinner than the lower bound of the critical gap (CriticalGap::bounds). Where nothing ignites up to the
 ///   end of the search, that is the bound, and the margin must exceed the uncertainty besides, also with the
-///   constants of the surface as calibrated. Where firings calibrated, a round as severe was fired without
-///   ignition.
+///   constants of the surface as calibrated.
 /// - INDETERMINATE: everything else.
 ///
 /// More uncertainty, a wider range or less evidence never moves a verdict towards SAFE. A verdict on a run in
@@ -324,7 +321,6 @@ struct CaseOutcome : CaseAnswer {
   std::shared_ptr<const CaseEvidence> evidence;  ///< once its gaps are evaluated
   /// K, T max without a gap of a skin that never reacts; NaN where nothing was computed.
   double heated_without_gap = not_a_number;
-  double heat_factor = 1.0;  ///< by what firings leave open of the constants; 1 where none calibrated
   std::vector<Confirmation> confirmations;
   std::optional<GapFit> fit;  ///< over the rows that do not ignite
   /// Of the longer launch (scene::longer_launch), where there is one; indeterminate where that run did not
