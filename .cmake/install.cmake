@@ -7,55 +7,33 @@ if(LAUNCHSAFE_ARCHITECTURE)
   install(TARGETS launchsafe RUNTIME DESTINATION lib/launchsafe/${LAUNCHSAFE_ARCHITECTURE} COMPONENT faster EXCLUDE_FROM_ALL)
 endif()
 
-# What the program says of itself.
-set(told_dir "${PROJECT_BINARY_DIR}/told")
-file(MAKE_DIRECTORY "${told_dir}")
-foreach(kind scene study references)
-  set(schema "${told_dir}/${kind}.schema.json")
-  add_custom_command(OUTPUT "${schema}"
-    COMMAND sh -c "\"$0\" explain --schema ${kind} > \"${schema}\"" "$<TARGET_FILE:launchsafe>"
-    DEPENDS launchsafe
-    VERBATIM)
-  list(APPEND told_files "${schema}")
-endforeach()
-
-set(completion "${told_dir}/launchsafe.bash")
-add_custom_command(OUTPUT "${completion}"
-  COMMAND sh -c "\"$0\" --bash-completion > \"${completion}\"" "$<TARGET_FILE:launchsafe>"
-  DEPENDS launchsafe
-  VERBATIM)
-install(FILES "${completion}" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME launchsafe
-  COMPONENT program)
-
 # The manual page, of what --help says.
 find_program(LAUNCHSAFE_HELP2MAN help2man)
 if(LAUNCHSAFE_HELP2MAN)
-  add_custom_command(OUTPUT "${told_dir}/launchsafe.1.gz"
+  set(manual_page "${PROJECT_BINARY_DIR}/launchsafe.1")
+  add_custom_command(OUTPUT "${manual_page}.gz"
     COMMAND "${LAUNCHSAFE_HELP2MAN}" --no-info --version-string=${PROJECT_VERSION}
-      "--name=launch safety of explosive shells by the material point method" "--output=${told_dir}/launchsafe.1"
+      "--name=launch safety of explosive shells by the material point method" "--output=${manual_page}"
       "$<TARGET_FILE:launchsafe>"
-    COMMAND gzip --best --no-name --force "${told_dir}/launchsafe.1"
+    COMMAND gzip --best --no-name --force "${manual_page}"
     DEPENDS launchsafe
     VERBATIM)
-  install(FILES "${told_dir}/launchsafe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
-  set(manual_page "${told_dir}/launchsafe.1.gz")
+  install(FILES "${manual_page}.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program)
+  add_custom_target(manual ALL DEPENDS "${manual_page}.gz")
 else()
   message(STATUS "help2man was not found: an installation will have no manual page")
 endif()
-add_custom_target(told ALL DEPENDS ${told_files} ${completion} ${manual_page})
 
 set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
-install(FILES ${told_files} DESTINATION "${data_dir}/schema" COMPONENT program)
 # Studies rest on the records of others, which they name by their place beside them; pages link to each other likewise.
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp" PATTERN "*.sbatch")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
   FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy*.json" PATTERN "model_form.json"
   PATTERN "*.md" PATTERN "*.html" PATTERN "*.svg" PATTERN "*.png")
 foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)
 endforeach()
-install(DIRECTORY src/report/templates DESTINATION "${data_dir}/src/report" COMPONENT program)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION "${data_dir}" COMPONENT program)
 install(FILES LICENSE CHANGELOG.md CITATION.cff DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT program)
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright COMPONENT program)

@@ -1,5 +1,5 @@
-// Pages of the program against the stored ones of tests/pages and studies. They are made anew by
-// LAUNCHSAFE_REMAKE_PAGES=1 ctest --test-dir build/release -R 'Walkthrough|Page'
+// Pages of the program against the stored ones of studies. They are made anew by
+// LAUNCHSAFE_REMAKE_PAGES=1 ctest --test-dir build/release -R Walkthrough
 #pragma once
 
 #include <gtest/gtest.h>
@@ -47,18 +47,6 @@ inline void expect_stored(const std::string& page, const std::filesystem::path& 
   ASSERT_EQ(expected.size(), found.size()) << page;
   for (std::size_t i = 0; i < expected.size(); ++i)
     ASSERT_TRUE(agrees(expected[i], found[i])) << expected[i] << " is " << found[i] << " in\n" << page;
-}
-
-/// What a page says besides the rows of its tables, which are tested as numbers, the time that it took, and
-/// the build that made it.
-inline std::string prose_of(const std::string& page) {
-  std::istringstream lines(page);
-  std::string prose;
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty() && !line.starts_with("|") && line.find(" of wall time") == std::string::npos &&
-        line.find(", commit ") == std::string::npos)
-      prose += line + "\n";
-  return prose;
 }
 
 }  // namespace launchsafe::testing

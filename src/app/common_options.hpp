@@ -20,8 +20,8 @@ struct CommandLine {
 
 /// Adds a subcommand, which sets what is performed.
 using AddCommand = void(CLI::App& app, CommandLine& line);
-AddCommand add_run, add_study, add_status, add_merge, add_emit, add_verify, add_explain, add_plot, add_init,
-    add_import_curve, add_report;
+AddCommand add_run, add_study, add_status, add_merge, add_explain, add_plot, add_init, add_import_curve,
+    add_report;
 
 using scene::Dimension;
 
@@ -96,9 +96,6 @@ CLI::Option* add_amount(CLI::App& command, const char* name, std::optional<Amoun
   return add_read(command, name,
                   [&value, parse](const std::string& text) { return (value = parse(text)).has_value(); });
 }
-
-/// A script for bash that completes commands, options and what these take.
-std::string bash_completion(const CLI::App& app);
 
 /// An option that takes a whole number from 1 to `most`, in decimal digits.
 CLI::Option* add_count(CLI::App& command, const std::string& name, int& count, int most);

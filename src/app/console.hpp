@@ -133,14 +133,13 @@ std::string shell_quoted(std::string_view word);
 /// The words with a blank between them, each quoted where needed.
 std::string shell_command(const std::vector<std::string>& words);
 
-// What --help says below the options, what commands print for people, and files that launchsafe init and emit
-// write, as they are in the source. Names in double braces stand for values; see report/report.hpp.
+// What --help says below the options, what commands print for people, and files that launchsafe init
+// writes, as they are in the source. Names in double braces stand for values; see report/report.hpp.
 
 /// By command, "run.txt"; "launchsafe.txt" is that of all.
 const std::map<std::string, std::string>& help_texts();
 
-/// A text for people, of such facts as programs have as JSON: "forecast.txt"; also a file: "scene.toml", and
-/// the scripts for bash and for Slurm.
+/// A text for people, of such facts as programs have as JSON: "forecast.txt"; also a file: "scene.toml".
 std::string told(const std::string& name, const Json& facts);
 
 /// The record of reports/calibrate_table8.

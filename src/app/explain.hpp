@@ -10,7 +10,6 @@ struct ExplainArguments {
   path file;  ///< scene or study; with one of the lists that follow the beginning of names, or empty
   bool keys = false, results = false;
   bool lists() const { return keys || results; }
-  std::string schema;           ///< "scene", "study" or "references"; empty: not asked for
   std::optional<path> picture;  ///< SVG file for the scene's grid; none: nothing is written
 };
 
@@ -40,18 +39,7 @@ std::string forecast_text(const study::StudyFile& file, const study::Forecast& f
 /// the user stops it.
 double measured_update_rate(const scene::Scene& scene, Console& console);
 
-/// Prints keys, columns of results or a schema.
+/// Prints keys or columns of results.
 ExitCode explain_program(const ExplainArguments& arguments, Console& console);
-
-// JSON schemas (draft 4) of scene and study files, from the keys that read them. Language servers of TOML
-// complete and check files by these.
-
-/// Of a scene file. What a schema cannot say, such as the range of a quantity with its unit, is in the
-/// descriptions, and in "unit", "range" and "example" beside every key.
-Json scene_schema();
-/// Of a study file of any kind.
-Json study_schema();
-/// Of a file of what is published, which studies name by `references`.
-Json references_schema();
 
 }  // namespace launchsafe::app

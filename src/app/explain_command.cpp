@@ -125,11 +125,9 @@ ExitCode explain_study(const path& place, Console& console) {
 
 /// What of these options makes no sense together; empty for nothing.
 std::string contradiction(const ExplainArguments& explain) {
-  const bool of_program = !explain.schema.empty();
-  const bool lists = explain.lists();
-  if (!lists && of_program != explain.file.empty())
-    return "explain: allowed: a scene or study, or one of --keys, --results and --schema";
-  if (explain.picture && (of_program || lists))
+  if (!explain.lists() && explain.file.empty())
+    return "explain: allowed: a scene or study, or one of --keys and --results";
+  if (explain.picture && explain.lists())
     return "explain: --grid draws the grid of a scene; allowed: with a scene file";
   return {};
 }
@@ -216,7 +214,7 @@ double measured_update_rate(const scene::Scene& scene, Console& console) {
 ExitCode perform(const ExplainArguments& arguments, Console& console) {
   if (const std::string fault = contradiction(arguments); !fault.empty())
     console.refuse(fault + usage_hint("explain "));
-  if (arguments.lists() || !arguments.schema.empty()) return explain_program(arguments, console);
+  if (arguments.lists()) return explain_program(arguments, console);
   std::error_code unknown;  // a name that is too long, say: reading it tells
   if (const std::string word = arguments.file.string();
       !std::filesystem::exists(arguments.file, unknown) &&
@@ -235,12 +233,7 @@ ExitCode perform(const ExplainArguments& arguments, Console& console) {
 void add_explain(CLI::App& app, CommandLine& line) {
   auto [command, explain] = add_command<ExplainArguments>(app, line, "explain");
   add(command, "file", explain.file);
-  const std::vector<CLI::Option*> of_program{
-      add(command, "--keys", explain.keys), add(command, "--results", explain.results),
-      add(command, "--schema", explain.schema)->check(CLI::IsMember({"scene", "study", "references"}))};
-  for (CLI::Option* option : of_program)
-    for (CLI::Option* other : of_program)
-      if (other != option) option->excludes(other);
+  add(command, "--keys", explain.keys)->excludes(add(command, "--results", explain.results));
   add(command, "--grid", explain.picture);
 }
 

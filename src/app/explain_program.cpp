@@ -1,5 +1,4 @@
-// What launchsafe explains of itself: the keys of its files, the columns of its results, and what editors
-// take.
+// What launchsafe explains of itself: the keys of its files and the columns of its results.
 #include "explain.hpp"
 
 namespace launchsafe::app {
@@ -106,12 +105,7 @@ ExitCode explain_results(const std::string& word, Console& console) {
 
 ExitCode explain_program(const ExplainArguments& arguments, Console& console) {
   const std::string word = arguments.file.string();
-  if (arguments.keys) return explain_keys(word, console);
-  if (arguments.results) return explain_results(word, console);
-  const Json schema = arguments.schema == "study"   ? study_schema()
-                      : arguments.schema == "scene" ? scene_schema()
-                                                    : references_schema();
-  return console.done(schema.dump(2) + "\n", schema);
+  return arguments.keys ? explain_keys(word, console) : explain_results(word, console);
 }
 
 }  // namespace launchsafe::app

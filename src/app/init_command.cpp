@@ -1,6 +1,5 @@
 // launchsafe init: a scene and a study of a shell of the user's own to start from.
 #include "common_options.hpp"
-#include "explain.hpp"
 
 namespace launchsafe::app {
 namespace {
@@ -46,9 +45,7 @@ NamedTexts files_of(const Json& values) {
   NamedTexts files;
   for (const char* name : {"scene.toml", "critical_gap.toml", "accuracy.toml"})
     files.push_back({name, told(name, values)});
-  files.insert(files.end(), {{"calibration.json", shipped_calibration},
-                             {"scene.schema.json", scene_schema().dump(1) + "\n"},
-                             {"study.schema.json", study_schema().dump(1) + "\n"}});
+  files.push_back({"calibration.json", shipped_calibration});
   return files;
 }
 

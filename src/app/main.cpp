@@ -102,14 +102,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
   app.require_subcommand(1);
   app.footer(footer_of("launchsafe"));
   app.set_version_flag("--version", "", "Version, commit, compiler, flags and libraries");
-  const auto print_completion = [&app, &line] {
-    line.perform = print(bash_completion(app));
-    throw CLI::Success();
-  };
-  app.add_flag_callback("--bash-completion", print_completion,
-                        "A script by which bash completes commands, options and their values: eval it");
-  for (AddCommand* add : {add_run, add_study, add_status, add_merge, add_emit, add_verify, add_explain,
-                          add_plot, add_init, add_import_curve, add_report})
+  for (AddCommand* add : {add_run, add_study, add_status, add_merge, add_explain, add_plot, add_init,
+                          add_import_curve, add_report})
     add(app, line);
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     add(*command, "--json", line.json);
@@ -226,7 +220,7 @@ void catch_signals() {
 std::string out_of_memory_in(const std::string& command) {
   if (command == "run" || command == "explain")
     return std::string(out_of_memory) + "; a coarser numerics.cell_size needs less";
-  if (command == "study" || command == "emit" || command == "merge")
+  if (command == "study" || command == "merge")
     return std::string(out_of_memory) + "; fewer cases in the study, or fewer --jobs, need less";
   return out_of_memory;
 }

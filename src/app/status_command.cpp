@@ -24,10 +24,7 @@ std::string study_folder_near(const path& folder) {
 
 scene::InputError no_study_in(const path& folder) {
   std::error_code failed;
-  const bool is_folder = fs::is_directory(folder, failed);
-  const char* found = !is_folder                             ? "no such folder"
-                      : fs::exists(folder / "slurm", failed) ? "a study of which no shard has begun"
-                                                             : "no status.json of a study";
+  const char* found = fs::is_directory(folder, failed) ? "no status.json of a study" : "no such folder";
   return scene::error_at({folder.string()}, {}, found,
                          "folders that launchsafe study was given as --output DIR",
                          study_folder_near(folder));
@@ -50,7 +47,8 @@ ExitCode perform(const StatusArguments& asked, Console& console) {
   const std::vector<std::string> names(asked.folders.begin(), asked.folders.end());
   const report::Row facts = report::status_facts(fmt::format("{}", fmt::join(names, ", ")),
                                                  snapshots_of(asked, console), std::time(nullptr));
-  console.done(report::status_text(facts), facts);
+  console.print_text(report::status_text(facts));
+  console.print_json(facts);
   return static_cast<ExitCode>(facts["exit_code"].get<int>());
 }
 

@@ -155,9 +155,6 @@ void run_in_detail(CriticalGapResult& result, const StudyOptions& options) {
     for (const std::size_t member : runs[i].members) {
       result.details[member] = judged(study.study, study.cases[member], finished);
       result.details[member].hash = finished.front().hash;
-      const CriticalGap& gap = result.details[member].critical;
-      if (gap.kind == CriticalGapKind::value)
-        tracker.found({result.details[member].input.label, gap.lower, gap.upper});
     }
   });
   FollowingRuns following{result};

@@ -4,8 +4,6 @@
 #include <kainjow/mustache.hpp>
 #include <openssl/evp.h>
 
-#include <sstream>
-
 namespace launchsafe::report {
 namespace {
 
@@ -38,15 +36,15 @@ std::string with_alternative(std::string svg, const std::string& title, const st
 /// The sections with their blocks, as programs read them and templates of pages do.
 struct Sections {
   const PageFacts& all;
-  const std::map<std::string, std::string>& texts;
+  const std::vector<PageText>& texts;
   const DrawingLimits& limits;
   Row sections = Row::array();
   std::vector<TextFile> figures = {};
   std::vector<std::string> remarks = {};
   std::set<std::string> studies = {};  ///< labels of those that something comes from
 
-  void add_all(const std::vector<PageText>& order) {
-    for (const PageText& text : order)
+  void add_all() {
+    for (const PageText& text : texts)
       if (text.look == "section")
         sections.push_back({{"id", text.id.substr(text.id.find('.') + 1)},
                             {"number", sections.size() + 1},
@@ -59,16 +57,12 @@ struct Sections {
   }
 
   std::string words(const std::string& id, const Row& facts = {}) const {
-    const auto found = texts.find(id);
-    return found == texts.end() ? std::string{} : fill(found->second, facts);
+    const auto found = std::ranges::find(texts, id, &PageText::id);
+    return found == texts.end() ? std::string{} : fill(found->words, facts);
   }
 
   std::string fill(const std::string& text, const Row& facts) const {
     return filled(text, {&all.facts, &facts});
-  }
-  /// The text of that name, or the word itself.
-  std::string word(const std::string& id, const std::string& otherwise) const {
-    return texts.contains(id) ? words(id) : otherwise;
   }
 
   /// "A (launch)": those that something comes from, with what they tell.
@@ -131,7 +125,7 @@ struct Sections {
               {"columns", Row::array()},
               {"rows", Row(rows.size(), {{"cells", Row::array()}})}};
     for (const TextColumn& column : columns) {
-      const std::string heading = word("column." + column.key, fill(column.heading, {}));
+      const std::string heading = fill(column.heading, {});
       std::vector<std::string> cells;
       bool is_number = false;
       for (const Row* row : rows) {
@@ -149,10 +143,9 @@ struct Sections {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const Row& value = found_in(*rows[i], column.key);
         block["rows"][i][column.key] = value.is_null() && !cells[i].empty() ? Row(cells[i]) : value;
-        // The look follows from the program's word, also where a template translates it.
         if (!is_empty)
           block["rows"][i]["cells"].push_back({{"name", heading},
-                                               {"text", word(column.key + "." + cells[i], cells[i])},
+                                               {"text", cells[i]},
                                                {"look", column.key == "verdict" ? look_of(*rows[i])
                                                         : is_number             ? "number"
                                                                                 : ""}});
@@ -199,106 +192,28 @@ void prepare(Row& blocks, const std::vector<TextFile>& figures) {
 
 }  // namespace
 
-RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& all,
-                           const PageTemplates& templates, const Row& head, const DrawingLimits& limits) {
-  Sections made{all, templates.texts, limits};
-  made.add_all(order);
-  Row page{
-      {"format", head["format"]},
-      {"language", made.words("language")},
-      {"report", made.words("report")},
-      {"title", head["title"]},
-      {"subject", head["subject"]},
-      {"made_of", made.words("made_of", {{"studies", made.named_studies()}, {"document", head["document"]}})},
-      {"answer", head["answer"]},
-      {"document", head["document"]},
-      {"sections", std::move(made.sections)}};
+RenderedReport render_page(const std::vector<PageText>& texts, const PageFacts& all, const Row& head,
+                           const DrawingLimits& limits) {
+  Sections made{all, texts, limits};
+  made.add_all();
+  Row page{{"format", head["format"]},
+           {"report", made.words("report")},
+           {"title", head["title"]},
+           {"subject", head["subject"]},
+           {"made_of", made.words("made_of", {{"studies", made.named_studies()}})},
+           {"answer", head["answer"]},
+           {"sections", std::move(made.sections)}};
   RenderedReport report{{{"report.json", page.dump(1, ' ', false, Row::error_handler_t::replace) + "\n"}},
                         std::move(made.remarks)};
   for (Row& section : page["sections"]) prepare(section["blocks"], made.figures);
-  std::string html = filled(templates.html, {&page}, html_escape<std::string>);
-  std::string markdown = filled(templates.markdown, {&page}, markdown_escaped);
+  std::string html = filled(built_in_html, {&page}, html_escape<std::string>);
+  std::string markdown = filled(built_in_markdown, {&page}, markdown_escaped);
   // What a template leaves of its tags are empty lines.
   for (std::size_t at = 0; (at = markdown.find("\n\n\n", at)) != std::string::npos;) markdown.erase(at, 1);
   report.files.insert(report.files.begin(),
                       {{"report.html", std::move(html)}, {"report.md", std::move(markdown)}});
   std::ranges::move(made.figures, std::back_inserter(report.files));
   return report;
-}
-
-// --- one page that leads to all reports of a folder ---
-
-namespace {
-
-using std::filesystem::path;
-
-/// The first lines of what a study answers, or what leads the first section of a safety report.
-Row findings_of(const Row& told) {
-  Row findings = Row::array();
-  std::istringstream lines(text_of(told, "answer"));
-  for (std::string line; std::getline(lines, line);) findings.push_back(line);
-  if (const Row& sections = found_in(told, "sections"); !sections.empty())
-    for (const Row& block : found_in(sections.front(), "blocks"))
-      if (text_of(block, "kind") == "lead") findings.push_back(text_of(block, "text"));
-  constexpr std::size_t most = 4;
-  if (findings.size() > most) findings.erase(findings.begin() + most, findings.end());
-  return findings;
-}
-
-/// What a folder holds, as the index names it; null where that is neither a page nor a picture.
-Row entry_of(const path& folder, const std::string& place) {
-  Row entry{{"place", place}, {"title", ""}, {"findings", Row::array()}};
-  for (const std::string& name : scene::list_folder(folder))
-    for (const auto& [ending, list] : {std::pair{".svg", "pictures"}, {".html", "pages"}, {".md", "pages"}})
-      if (name.ends_with(ending)) entry[list].push_back({{"file", place + "/" + name}, {"name", name}});
-  if (!entry.contains("pages") && !entry.contains("pictures")) return {};
-  // Those of a safety report first, then the study's own.
-  if (entry.contains("pages"))
-    std::ranges::stable_partition(
-        entry["pages"], [](const Row& page) { return text_of(page, "name").starts_with("report."); });
-  for (const char* results : {"report.json", "study.json"})
-    if (const auto text = store::read_file(folder / results)) {
-      const Row told = Row::parse(*text, nullptr, false);
-      // A safety report has the title of the study that it tells of.
-      const std::string kind = text_of(told, "report");
-      entry["title"] = (kind.empty() ? "" : kind + ": ") + text_of(told, "title");
-      entry["findings"] = findings_of(told);
-    }
-  if (entry["title"] == "" && entry.contains("pages"))
-    if (const auto page = store::read_file(folder / text_of(entry["pages"][0], "name"));
-        page && page->starts_with("# "))
-      entry["title"] = page->substr(2, page->find('\n') - 2);
-  if (entry["title"] == "") entry["title"] = place;
-  return entry;
-}
-
-void add_parts(const path& root, const std::string& place, Row& parts) {
-  for (const std::string& name : scene::list_folder(root / place)) {
-    const std::string part = place + "/" + name;
-    if (!std::filesystem::is_directory(root / part)) continue;
-    if (Row entry = entry_of(root / part, part); !entry.is_null()) parts.push_back(std::move(entry));
-    add_parts(root, part, parts);
-  }
-}
-
-}  // namespace
-
-std::string index_page(const path& folder) {
-  Row entries = Row::array();
-  for (const std::string& name : scene::list_folder(folder)) {
-    if (!std::filesystem::is_directory(folder / name)) continue;
-    Row entry = entry_of(folder / name, name);
-    if (entry.is_null()) continue;
-    add_parts(folder, name, entry["parts"]);
-    entries.push_back(std::move(entry));
-  }
-  if (entries.empty()) return {};
-  // A board reads safety reports.
-  std::ranges::stable_partition(entries, [&](const Row& entry) {
-    return std::filesystem::exists(folder / text_of(entry, "place") / "report.html");
-  });
-  const Row facts{{"entries", std::move(entries)}};
-  return index_begin + filled(index_template, {&facts}, kainjow::mustache::html_escape<std::string>);
 }
 
 }  // namespace launchsafe::report

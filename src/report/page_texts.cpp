@@ -287,35 +287,4 @@ std::vector<std::string> said(const std::vector<PageText>& texts, const std::str
   return all;
 }
 
-store::Result<PageTemplates> read_templates(const std::filesystem::path& folder,
-                                            PageTemplates templates) try {
-  const std::pair<const char*, std::string*> pages[] = {{"report.html.mustache", &templates.html},
-                                                        {"report.md.mustache", &templates.markdown},
-                                                        {"texts.mustache", nullptr}};
-  std::size_t found = 0;
-  for (const auto& [name, page] : pages) {
-    const std::filesystem::path path = folder / name;
-    auto file = store::read_file(path);
-    if (!file) {
-      if (file.error().kind == store::Error::Kind::missing) continue;
-      return file.error();
-    }
-    ++found;
-    if (page != nullptr) {
-      if (const kainjow::mustache::mustache parsed(*file); !parsed.is_valid())
-        throw no_template(fmt::format("{}: this is no template: {}", path.string(), parsed.error_message()));
-      *page = std::move(*file);
-      continue;
-    }
-    for (PageText& each : texts_in(*file, path.string())) templates.texts[each.id] = std::move(each.words);
-  }
-  if (found > 0) return templates;
-  return store::Error{store::Error::Kind::missing,
-                      fmt::format("{}: found no template there; allowed: a folder with at least one of "
-                                  "report.html.mustache, report.md.mustache, texts.mustache",
-                                  folder.string())};
-} catch (const store::Error& error) {
-  return error;
-}
-
 }  // namespace launchsafe::report

@@ -243,33 +243,12 @@ bool is_drawn_about(const CaseEvidence& judged, const StudyEvidence& drawn) {
          std::ranges::none_of(drawn.differences, makes_another) && std::ranges::all_of(inputs, is_about);
 }
 
-/// The row of a verdict with what a criterion may be of besides: how far its gap is from the critical one,
-/// and the upper end of the probability that it ignites, by the launches that the sensitivity study drew
-/// about the case at a gap at least as wide. No probability where one of them failed, which may be those that
-/// ignite, or where the spread of the main study's inputs is assumed.
-Row with_measures(const CaseEvidence& judged, Row row, const StudyEvidence* drawn) {
-  const double gap = number_of(row, "gap_cm");
-  if (text_of(*judged.critical, "critical_gap_kind") == "value") {
-    const double lower = number_of(*judged.critical, "critical_gap_lower_cm");
-    row["distance_cm"] = lower - gap;
-    row["distance_uncertainty_cm"] = lower - number_of(*judged.critical, "critical_gap_at_least_cm");
-  }
-  const bool is_known = drawn != nullptr && judged.is_own() &&
-                        !found_in(judged.study->study, "assumed").contains("input_uncertainty") &&
-                        number_of(drawn->study, "failed") == 0.0 && gap <= number_of(drawn->study, "gap_cm");
-  row["probability"] = is_known ? found_in(drawn->study, "ignition.probability_to") : Row();
-  return row;
-}
-
-/// cm: what a rule recommends over all cases, the smallest of what it allows in each. Nothing where one
-/// allows none.
-Row allowed_in_all(const std::vector<CaseEvidence>& cases, const GapCriterion& criterion,
-                   const StudyEvidence* drawn) {
+/// cm: the largest gap that is SAFE in every case. Nothing where a case has none.
+Row largest_safe_in_all(const std::vector<CaseEvidence>& cases) {
   Row smallest;
   for (const CaseEvidence& each : cases) {
-    std::vector<Row> verdicts;
-    for (const Row* row : each.verdicts) verdicts.push_back(with_measures(each, *row, drawn));
-    const std::optional<double> largest = largest_gap_under(criterion, std::move(verdicts));
+    const auto rows = study::of_each(each.verdicts, [](const Row* verdict) { return *verdict; });
+    const std::optional<double> largest = largest_safe_gap(rows);
     if (!largest) return {};
     if (smallest.is_null() || *largest < smallest.get<double>()) smallest = *largest;
   }
@@ -297,7 +276,7 @@ Row told_case(const CaseEvidence& judged) {
 /// no margin, nor is anything after ignition, when T max is that of the burning skin. Under which other
 /// models it may ignite is said where `with_models`; none makes UNSAFE less so.
 Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_models) {
-  Row row = with_measures(judged, verdict, nullptr);
+  Row row = verdict;
   const bool ignited = !text_of(row, "ignition_cause").empty();
   const double margin = ignited ? study::not_a_number : number_of(row, "margin_K"),
                known = ignited || is_uncertain(&row) ? study::not_a_number : number_of(row, "uncertainty_K");
@@ -310,7 +289,9 @@ Row told_verdict(const CaseEvidence& judged, const Row& verdict, bool with_model
   row["margin_K"] = told(rounded_down(margin, decimals));
   row["uncertainty_K"] = told(rounded_up(known, decimals));
   row["margin_over_uncertainty"] = told(rounded_down(margin / known, 1));
-  row["distance_cm"] = told(rounded_down(number_of(row, "distance_cm"), 3));
+  if (text_of(*judged.critical, "critical_gap_kind") == "value")
+    row["distance_cm"] = told(
+        rounded_down(number_of(*judged.critical, "critical_gap_lower_cm") - number_of(row, "gap_cm"), 3));
   // What else the reason says, but for what page one says of all rows.
   if (!with_models || text_of(row, "verdict") == "UNSAFE") row.erase("model_form");
   for (const char* clause : {"limited", "model_form"})
@@ -334,15 +315,11 @@ const CaseEvidence& own_case(const std::vector<CaseEvidence>& cases) {
 
 // --- what the report says ---
 
-/// What the study answers over all cases, and what a criterion recommends.
-Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases,
-              const std::optional<GapCriterion>& criterion, const StudyEvidence* drawn) {
+/// What the study answers over all cases.
+Row answer_of(const StudyEvidence& study, const std::vector<CaseEvidence>& cases) {
   return {{"study", study.label},
           {"finished", study.finished()},
-          {"criterion", criterion ? Row(criterion->text) : Row()},
-          {"criterion_source", criterion ? Row(criterion->source) : Row()},
-          {"recommended_gap_cm", criterion ? allowed_in_all(cases, *criterion, drawn) : Row()},
-          {"largest_safe_gap_cm", allowed_in_all(cases, GapCriterion{}, nullptr)},
+          {"largest_safe_gap_cm", largest_safe_in_all(cases)},
           {"smallest_is_zero", std::ranges::count(study.planned.study.gaps, 0.0) > 0},
           {"cases", study::of_each(cases, told_case)}};
 }
@@ -387,7 +364,7 @@ void add_launch(const SafetyEvidence& evidence, const std::vector<CaseEvidence>&
       {"verdicts", verdicts}, {"cases", all.facts["answer"]["cases"]}};
 }
 
-PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriterion>& criterion) {
+PageFacts facts_of(const SafetyEvidence& evidence) {
   const StudyEvidence& main = evidence.main();
   const std::vector<CaseEvidence> cases = cases_of(main);
   const bool of_launch = main.tells == tells::launch;
@@ -408,12 +385,9 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
     if (!facts.contains(name)) facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;
-  const StudyEvidence* drawn = evidence.find(tells::sensitivity);
-  if (drawn != nullptr) {
+  if (const StudyEvidence* drawn = evidence.find(tells::sensitivity))
     facts["same_launch"] = !cases.empty() && is_drawn_about(own_case(cases), *drawn);
-    if (facts["same_launch"] == false) drawn = nullptr;
-  }
-  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{}, criterion, drawn);
+  facts["answer"] = answer_of(main, of_launch ? cases : std::vector<CaseEvidence>{});
   for (std::size_t kind = 0; kind < study::share_kinds; ++kind)
     for (Row& share : facts["main"]["gap_shares"])
       if (const auto& traits = study::traits_of(study::ShareKind(kind)); share["cause"] == traits.title)
@@ -435,30 +409,14 @@ PageFacts facts_of(const SafetyEvidence& evidence, const std::optional<GapCriter
 
 }  // namespace
 
-PageTemplates built_in_templates() {
-  PageTemplates templates{built_in_html, built_in_markdown, {}};
-  for (const PageText& each : texts_in(built_in_texts, "texts")) templates.texts[each.id] = each.words;
-  return templates;
-}
-
-store::Result<RenderedReport> make_safety_report(const SafetyEvidence& evidence,
-                                                 const std::optional<GapCriterion>& criterion,
-                                                 const PageTemplates& templates, const DocumentHead& document,
-                                                 const DrawingLimits& limits) try {
-  const PageFacts facts = facts_of(evidence, criterion);
-  return render_page(texts_in(built_in_texts, "texts"), facts, templates,
-                     {{"format", "launchsafe safety report 3"},
+RenderedReport make_safety_report(const SafetyEvidence& evidence, const DrawingLimits& limits) {
+  const PageFacts facts = facts_of(evidence);
+  return render_page(texts_in(built_in_texts, "texts"), facts,
+                     {{"format", "launchsafe safety report 4"},
                       {"title", evidence.main().title},
                       {"subject", evidence.main().scene.scene.title},
-                      {"answer", facts.facts["answer"]},
-                      {"document",
-                       {{"number", document.number},
-                        {"author", document.author},
-                        {"date", document.date},
-                        {"approvals", document.approvals}}}},
+                      {"answer", facts.facts["answer"]}},
                      limits);
-} catch (const store::Error& error) {
-  return error;
 }
 
 }  // namespace launchsafe::report

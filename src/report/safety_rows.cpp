@@ -192,6 +192,17 @@ void hold_case(const CaseEvidence& judged, const Row& launch) {
 
 }  // namespace
 
+std::optional<double> largest_safe_gap(std::vector<Row> verdicts) {
+  const auto gap = [](const Row& verdict) { return number_of(verdict, "gap_cm"); };
+  std::ranges::stable_sort(verdicts, {}, gap);
+  std::optional<double> largest;
+  for (const Row& each : verdicts) {
+    if (text_of(each, "verdict") != "SAFE") break;
+    largest = gap(each);
+  }
+  return largest;
+}
+
 void check_rows(StudyEvidence& study) try {
   const auto has_code = [](const Row& row) { return row.contains("reason_code"); };
   if (!study.study.contains("extrapolated") || !std::ranges::all_of(study.rows("verdicts"), has_code))

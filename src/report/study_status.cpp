@@ -5,7 +5,6 @@
 namespace launchsafe::report {
 namespace {
 
-constexpr std::size_t most_gaps = 40;  ///< that are listed
 constexpr int interrupted_code = 75, failed_code = 70;
 
 enum class State : std::size_t { finished, waiting, interrupted, failed, running };
@@ -74,37 +73,6 @@ std::size_t shards_not_seen(const std::vector<store::StoreStatus>& snapshots) {
   return count - std::min(count, seen.size());
 }
 
-/// The rows of a list that every writer tells.
-std::vector<Row> told_by(const std::vector<Writer>& writers, const char* list) {
-  std::vector<Row> rows;
-  for (const Writer& writer : writers)
-    if (const Row& told = found_in(writer.row, list); told.is_array())
-      rows.insert(rows.end(), told.begin(), told.end());
-  return rows;
-}
-
-Row failures_of(const std::vector<Writer>& writers) {
-  std::map<std::string, double> cases;
-  for (const Row& each : told_by(writers, "failures"))
-    cases[text_of(each, "reason")] += amount_in(each, "cases");
-  std::vector<std::pair<std::string, double>> sorted(cases.begin(), cases.end());
-  std::ranges::stable_sort(sorted, std::greater{}, [](const auto& each) { return each.second; });
-  Row rows = Row::array();
-  for (const auto& [reason, count] : sorted)
-    rows.push_back({{"reason", reason}, {"cases", static_cast<std::int64_t>(count)}});
-  return rows;
-}
-
-/// The smallest critical gaps of all writers, in order.
-Row gaps_of(const std::vector<Writer>& writers) {
-  std::vector<Row> gaps = told_by(writers, "critical_gaps");
-  std::erase_if(
-      gaps, [](const Row& each) { return !(number_of(each, "lower_cm") <= number_of(each, "upper_cm")); });
-  std::ranges::stable_sort(gaps, {}, [](const Row& row) { return number_of(row, "lower_cm"); });
-  if (gaps.size() > most_gaps) gaps.resize(most_gaps);
-  return gaps;
-}
-
 /// When all that runs will have ended; nothing where somebody cannot tell, or has not begun.
 void add_estimate(Row& facts, const std::vector<Writer>& writers, std::size_t not_seen, std::time_t now) {
   double left = 0;
@@ -164,12 +132,6 @@ std::string progress_line(const study::Progress& progress, std::time_t now, std:
 }
 
 Row progress_row(const study::Progress& progress) {
-  Row failures = Row::array(), gaps = Row::array();
-  for (const auto& [reason, cases] : progress.failures)
-    failures.push_back({{"reason", reason}, {"cases", cases}});
-  constexpr double length = 1e-2;  // m, of a centimetre
-  for (const study::FoundGap& gap : progress.smallest_gaps)
-    gaps.push_back({{"case", gap.label}, {"lower_cm", gap.lower / length}, {"upper_cm", gap.upper / length}});
   return {{"phase", to_string(progress.phase)},
           {"runs_done", progress.done},
           {"runs_running", progress.running},
@@ -177,11 +139,7 @@ Row progress_row(const study::Progress& progress) {
           {"cases", progress.cases},
           {"cases_done", progress.cases_done},
           {"cases_failed", progress.cases_failed},
-          {"time_left_s", progress.seconds_left < 0 ? Row() : Row(progress.seconds_left)},
-          {"failures", failures},
-          {"critical_gaps_found", progress.gaps_found},
-          {"largest_critical_gap_cm", progress.largest_gap / length},
-          {"critical_gaps", gaps}};
+          {"time_left_s", progress.seconds_left < 0 ? Row() : Row(progress.seconds_left)}};
 }
 
 std::string clock_time(std::time_t time, std::time_t now) {
@@ -216,8 +174,7 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   }
   Row facts{
       {"folder", folder}, {"state", word_for(state)}, {"is", {{word_for(state), true}}}, {"exit_code", 0}};
-  for (const char* key : {"cases", "cases_done", "cases_failed", "runs_running", "runs_done", "runs_total",
-                          "runs_stored", "case_files_bytes", "critical_gaps_found"}) {
+  for (const char* key : {"cases", "cases_done", "cases_failed", "runs_running", "runs_stored"}) {
     double sum = 0;
     for (const Writer& each : writers) sum += amount_in(each.row, key);
     facts[key] = static_cast<std::int64_t>(sum);
@@ -225,11 +182,9 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   facts["cases_left"] =
       std::max<std::int64_t>(0, facts["cases"].get<std::int64_t>() - facts["cases_done"].get<std::int64_t>());
   std::time_t begin = now, end = 0;
-  double largest = 0;
   for (const Writer& each : writers) {
     begin = std::min(begin, each.since);
     end = std::max(end, each.state == State::running ? now : each.time);
-    largest = std::max(largest, amount_in(each.row, "largest_critical_gap_cm"));
     facts["exit_code"] = std::max(facts["exit_code"].get<int>(), each.exit_code);
     facts["writers"].push_back(each.row);
     if (each.state == State::interrupted) facts["command"] = text_of(each.row, "command");
@@ -238,15 +193,10 @@ Row status_facts(const std::string& folder, const std::vector<store::StoreStatus
   facts["time"] = clock_time(end, now);
   facts["elapsed_s"] = std::max<std::time_t>(0, end - begin);
   facts["elapsed"] = duration(static_cast<double>(std::max<std::time_t>(0, end - begin)));
-  facts["stored"] = fmt::format("{:.3g} MB", 1e-6 * facts["case_files_bytes"].get<double>());
   if (not_seen > 0) facts["shards_not_seen"] = not_seen;
   if (writers.size() > 1 || not_seen > 0) facts["is"]["in_shards"] = true;
   if (facts["cases"] == 0) facts["is"]["planned"] = true;
   if (state == State::running) add_estimate(facts, writers, not_seen, now);
-  facts["failures"] = failures_of(writers);
-  facts["critical_gaps"] = gaps_of(writers);
-  facts["largest_critical_gap_cm"] = facts["critical_gaps"].empty() ? Row() : Row(largest);
-  if (!facts["critical_gaps"].empty()) facts["smallest"] = facts["critical_gaps"].front();
   return facts;
 }
 

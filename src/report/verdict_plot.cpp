@@ -37,7 +37,7 @@ Series points_of(const Row& rows, const char* temperature, Series look) {
 
 /// "SAFE up to 0.01 cm; critical gap 0.038 +0.010 −0.011 cm".
 std::string finding_of(const Row& verdicts, const Row& critical, const std::string& safe) {
-  const auto largest = largest_gap_under({}, {verdicts.begin(), verdicts.end()});
+  const auto largest = largest_safe_gap({verdicts.begin(), verdicts.end()});
   return fmt::format(
       "{}; critical gap {}",
       largest ? fmt::format("{}{} up to {} cm", safe, safe.find(',') == std::string::npos ? "" : ",",

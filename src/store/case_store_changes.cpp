@@ -231,11 +231,9 @@ void CaseStore::write_status(bool ended) {
                                  {"time", utc_now()}, {"ended", ended},        {"runs_done", 0},
                                  {"runs_running", 0}, {"runs_total", 0}};
   try {
-    const auto sums =
-        database_.rows("SELECT count(*), coalesce(sum(file_bytes), 0) FROM stored_runs WHERE state = 'done'");
-    members["runs_stored"] = std::get<std::int64_t>(sums.front()[0]);
-    members["case_files_bytes"] = std::get<std::int64_t>(sums.front()[1]);
-  } catch (const Error&) {  // the status lacks them
+    const auto count = database_.rows("SELECT count(*) FROM stored_runs WHERE state = 'done'");
+    members["runs_stored"] = std::get<std::int64_t>(count.front()[0]);
+  } catch (const Error&) {  // the status lacks it
   }
   if (progress_) members.update(*progress_);
   // It helps people alone, so a failure to write it is none of the store.

@@ -19,8 +19,8 @@ std::vector<WrittenFile> files_from(const nlohmann::json& list) {
   for (const auto& each : list) {
     // A name that leads out of the folder, or is one of the store's, is none of a report.
     const std::string name = each.value("name", "");
-    if (name.empty() || name == "." || name == ".." || name == "slurm" || name == manifest_name ||
-        is_store_name(name) || fs::path(name).filename() != name)
+    if (name.empty() || name == "." || name == ".." || name == manifest_name || is_store_name(name) ||
+        fs::path(name).filename() != name)
       continue;
     files.push_back({name, each.value("sha256", "")});
   }

@@ -135,23 +135,23 @@ double confirmation_time(const StudyFile& study, const CaseRuns& runs, double up
   return continued_cost(skin_run(input.scene.scene, study.study.largest_gap, {})) / update_rate;
 }
 
-/// What a study takes beside its runs, measured: the program on one core and on four, shards of 2 000 and
-/// 10 000 cases of two gaps and of twelve, and their merges.
-void add_memory_of_plan(const StudyFile& study, Forecast& forecast) {
+/// Bytes that a study takes at most: beside its runs, which take so many side by side, or as the report is
+/// written. Measured: the program on one core and on four, shards of 2 000 and 10 000 cases of two gaps and
+/// of twelve, and their merges.
+double memory_of(const StudyFile& study, const Forecast& forecast, bool whole, double side_by_side) {
   constexpr double program = 19e6, of_job = 4e6, of_planned_case = 2e3;
   const auto all = static_cast<double>(study.cases.size()), own = static_cast<double>(forecast.cases);
   const auto gaps = static_cast<double>(study.study.gaps.size());
-  forecast.plan_memory = program + of_job * forecast.jobs + of_planned_case * all;
-  forecast.report_memory = (5e3 + 21e3 * gaps) * all;
-  if (!study.study.in_detail && study.study.kind.keeps_answers) {
-    forecast.kept_memory = (4e3 + 1e3 * gaps) * own;
-    return;
-  }
+  const double plan = program + of_job * forecast.jobs + of_planned_case * all;
+  const double at_end = std::max(side_by_side, whole ? (5e3 + 21e3 * gaps) * all : 0.0);
+  if (!study.study.in_detail && study.study.kind.keeps_answers)
+    return plan + at_end + (4e3 + 1e3 * gaps) * own;
   // Whole outcomes. A point of a measured curve has a time and a pressure, as they are and as they were
   // given.
   const double of_points = 4 * 8.0 * static_cast<double>(study.scene.scene.load.curve_time.size());
-  forecast.kept_memory = (200e3 + of_points) * own;
-  for (const ForecastRun& run : forecast.runs) forecast.kept_memory += run.kept;
+  double kept = (200e3 + of_points) * own;
+  for (const ForecastRun& run : forecast.runs) kept += run.kept;
+  return plan + at_end + kept;
 }
 
 /// Of so many cases, evenly spread over all of them.
@@ -239,10 +239,8 @@ Forecast forecast_study(const StudyFile& study, const StudyOptions& options, dou
   forecast.time = share * time_on(times, forecast.jobs) + forecast.confirmation_time;
   std::sort(memories.rbegin(), memories.rend());
   memories.resize(std::min<std::size_t>(memories.size(), static_cast<std::size_t>(forecast.jobs)));
-  add_memory_of_plan(study, forecast);
-  const double side_by_side = std::accumulate(memories.begin(), memories.end(), 0.0);
-  forecast.memory = forecast.plan_memory + forecast.kept_memory +
-                    std::max(side_by_side, options.shard.whole() ? forecast.report_memory : 0.0);
+  forecast.memory = memory_of(study, forecast, options.shard.whole(),
+                              std::accumulate(memories.begin(), memories.end(), 0.0));
   return forecast;
 }
 

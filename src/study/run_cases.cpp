@@ -214,7 +214,7 @@ struct CaseLoop {
     }
     const bool ended = decisive.outcome != RunOutcome::interrupted;
     open.runs.clear();
-    if (ended) tracker.cases_ended(cases[i].members.size(), reason);
+    if (ended) tracker.cases_ended(std::ssize(cases[i].members), !reason.empty());
   }
 
   void give_up(std::size_t i, RunOutcome outcome, const std::string& failure) {

@@ -22,8 +22,7 @@
 namespace launchsafe::study {
 namespace {
 
-constexpr std::size_t most_reasons = 20, most_gaps = 40;  ///< that are told apart
-constexpr double too_early = 2.0;                         ///< s of work from which nothing is learned
+constexpr double too_early = 2.0;  ///< s of work from which nothing is learned
 
 /// One task from start to end, whatever it throws; nothing of one that is refused.
 void perform(const Task& task, const std::string& refusal, int threads, TaskOutcome& outcome,
@@ -275,27 +274,12 @@ void ProgressTracker::expect_cases(std::size_t cases) {
   progress_.cases += cases;
 }
 
-void ProgressTracker::cases_ended(std::ptrdiff_t cases, const std::string& failure) {
+void ProgressTracker::cases_ended(std::ptrdiff_t cases, bool failed) {
   const std::lock_guard lock(mutex_);
   progress_.cases_done = static_cast<std::size_t>(
       std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(progress_.cases_done) + cases));
-  if (!failure.empty()) {
-    progress_.cases_failed += cases;
-    const bool is_told_apart =
-        progress_.failures.size() < most_reasons || progress_.failures.contains(failure);
-    progress_.failures[is_told_apart ? failure : "other reasons"] += cases;
-  }
+  if (failed) progress_.cases_failed += static_cast<std::size_t>(cases);
   report();
-}
-
-void ProgressTracker::found(FoundGap gap) {
-  const std::lock_guard lock(mutex_);
-  ++progress_.gaps_found;
-  progress_.largest_gap = std::max(progress_.largest_gap, gap.upper);
-  std::vector<FoundGap>& gaps = progress_.smallest_gaps;
-  if (gaps.size() == most_gaps && gap.lower >= gaps.back().lower) return;
-  gaps.insert(std::ranges::upper_bound(gaps, gap.lower, {}, &FoundGap::lower), std::move(gap));
-  if (gaps.size() > most_gaps) gaps.pop_back();
 }
 
 void ProgressTracker::count_busy() {

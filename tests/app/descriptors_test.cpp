@@ -13,10 +13,9 @@ class Descriptors : public StoredStudy {
 };
 
 TEST_F(Descriptors, ResultsThatStdoutDoesNotTakeAreExitCode70) {
-  for (const std::string arguments :
-       {"--version", "--help", "study --help", "--version --json", "verify --filter jwl", "explain --keys",
-        "explain shell.toml --json", "run shell.toml", "run shell.toml --json",
-        "study study.toml --dry-run"}) {
+  for (const std::string arguments : {"--version", "--help", "study --help", "--version --json",
+                                      "explain --keys", "explain shell.toml --json", "run shell.toml",
+                                      "run shell.toml --json", "study study.toml --dry-run"}) {
     for (const std::string redirection : {" >&-", " >/dev/full"}) {
       const Outcome outcome = run_redirected(arguments + redirection);
       EXPECT_EQ(outcome.code, 70) << arguments << redirection << "\n" << outcome.err;
@@ -42,7 +41,7 @@ TEST_F(Descriptors, AReaderThatHasGoneIsNoLoss) {
 
 TEST_F(Descriptors, AStderrThatTakesNothingChangesNeitherResultNorExitCode) {
   for (const std::string arguments :
-       {"run shell.toml --json", "run absent.toml", "verify --filter jwl", "study study.toml -o out"}) {
+       {"run shell.toml --json", "run absent.toml", "study study.toml -o out"}) {
     const Outcome usual = run_redirected(arguments);
     for (const std::string redirection : {" 2>&-", " 2>/dev/full"}) {
       const Outcome outcome = run_redirected(arguments + redirection);

@@ -27,9 +27,6 @@ std::vector<Target> targets() {
        {"study.1-of-2.db", "status.1-of-2.json", "manifest.json"}},
       {"Merge", {"merge", "study.toml", "-o", "out"}, {"study.db", "manifest.json", "report.md"}},
       {"Run", {"run", "scene.toml", "-o", "out"}, {"scene.h5", "scene.xdmf"}},
-      {"Emit",
-       {"emit", "slurm", "study.toml", "-o", "out", "--shards", "2"},
-       {"manifest.json", "report.md", "slurm", "slurm/submit.sh", "slurm/shard.sbatch"}},
   };
 }
 

@@ -59,9 +59,6 @@ TEST_F(JsonProgram, EveryErrorIsAnObjectAndOneLineForPeople) {
       {{"merge", "absent.toml", "-o", "out"}, 2, "absent.toml"},
       {{"merge", "study.toml", "-o", "merged"}, 3, "missing"},
       {{"merge", "study.toml", "-o", "merged", "nowhere"}, 2, "nowhere"},
-      {{"emit", "slurm", "absent.toml", "-o", "out", "--shards", "2"}, 2, "absent.toml"},
-      {{"emit", "cluster", "study.toml", "-o", "out", "--shards", "2"}, 2, "cluster"},
-      {{"verify", "--filter", "no check has this name"}, 2, "--filter"},
       {{"explain"}, 2, "--keys"},
       {{"explain", "unknown_key.toml"}, 2, "peek_time"},
       {{"explain", "shell.toml", "--grid", "shell.toml/grid.svg"}, 2, "no folder"}};

@@ -129,12 +129,5 @@ TEST_F(OwnShell, OverwritesNothingAndRefusesSenselessWishes) {
   EXPECT_FALSE(std::filesystem::exists(folder() / "other"));
 }
 
-TEST_F(OwnShell, WhatInitWritesIsAsTheSchemasSay) {
-  ASSERT_EQ(run({"init", "--calibre", "105 mm", "-o", "shell"}).code, 0);
-  EXPECT_EQ(nlohmann::json::parse(read("shell/scene.schema.json")),
-            nlohmann::json::parse(run({"explain", "--schema", "scene"}).out));
-  EXPECT_TRUE(read("shell/scene.toml").starts_with("#:schema scene.schema.json\n"));
-}
-
 }  // namespace
 }  // namespace launchsafe::app

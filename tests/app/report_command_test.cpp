@@ -1,7 +1,6 @@
 // launchsafe report as a user meets it: of studies that ran, failed or were interrupted, and of bad input.
 #include "launchsafe/report/table.hpp"
 #include "launchsafe/store/file.hpp"
-#include "stored_page.hpp"
 #include "stored_study.hpp"
 
 namespace launchsafe::app {
@@ -52,38 +51,6 @@ TEST_F(ReportCommand, NamesEveryProgramThatMadeALaunchWhereItIsNotThatOfTheStudy
   EXPECT_EQ(nlohmann::json::parse(read("again/manifest.json"))["programs"], manifest["programs"]);
 }
 
-TEST_F(ReportCommand, IndexLeadsToReportsAndTakesTheirPlaceNowhere) {
-  run_critical_gap();
-  ASSERT_EQ(run({"report", "out", "-o", "all/safety"}).code, 0);
-  ASSERT_EQ(run({"report", "--index", "all"}).code, 0);
-  EXPECT_NE(read("all/index.html").find("safety/report.html"), std::string::npos);
-  EXPECT_EQ(run({"report", "all", "--index"}).code, 0);  // again
-  write("all/index.html", "mine");
-  EXPECT_EQ(run({"report", "--index", "all"}).code, 2);
-  EXPECT_EQ(read("all/index.html"), "mine");
-  EXPECT_EQ(run({"report", "--index", "all", "out"}).code, 2);
-  EXPECT_EQ(run({"report", "--index", "all", "-o", "x"}).code, 2);
-  EXPECT_EQ(run({"report", "out"}).code, 2);
-}
-
-// Of a small shell: that of the main job is in studies/walkthroughs.
-TEST_F(ReportCommand, PagesOfTheStudyAndOfItsSafetyAreTheStoredOnes) {
-  run_critical_gap();
-  ASSERT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
-  const std::filesystem::path pages = LAUNCHSAFE_SOURCE_DIR "/tests/pages";
-  testing::expect_stored(testing::prose_of(read("out/report.md")), pages / "critical_gap.txt");
-  testing::expect_stored(testing::prose_of(read("safety/report.md")), pages / "safety_report.txt");
-}
-
-// Issue 31, point 6: a reason may say what it likes, page one is made of lists.
-TEST_F(ReportCommand, PageOneTellsWhatIsExtrapolatedWhateverAReasonSays) {
-  write("shell.toml", with(tiny_scene, "two coarse cells", "coarse) cells ((; extrapolated: nothing"));
-  run_critical_gap();
-  ASSERT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
-  EXPECT_TRUE(reports("The calibration is extrapolated in: calibration.shell, station.width, station.depth"));
-  EXPECT_TRUE(reports("calibration.shell = 4 bodies, 5 cm long"));
-}
-
 // Likewise: bodies of other steels than the first are of the shell too.
 TEST_F(ReportCommand, RefusesStudiesOfDifferentSecondSteels) {
   const auto with_second_steel = [](const std::string& yield_stress) {
@@ -109,9 +76,6 @@ TEST_F(ReportCommand, OfAStudyWhoseCaseFailedSaysSo) {
   write("study.toml", critical_gap_study);
   EXPECT_EQ(run({"study", "study.toml", "-o", "out"}).code, 3);
   EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
-  EXPECT_TRUE(reports("The critical gap is indeterminate"));
-  EXPECT_TRUE(reports("did not complete"));
-  EXPECT_TRUE(reports("nothing is shown to be safe"));
   // What a run was like until it was cut off is no margin.
   const auto report = nlohmann::json::parse(read("safety/report.json"));
   for (const auto& block : report["sections"][0]["blocks"]) {
@@ -132,35 +96,21 @@ TEST_F(ReportCommand, OfAStudyThatWasInterruptedSaysHowToGoOn) {
   EXPECT_EQ(wait().code, 75);
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_TRUE(reports("There is no answer yet"));
   EXPECT_TRUE(reports("launchsafe study study.toml -o out"));
 }
 
 TEST_F(ReportCommand, BadInputIsOneMessage) {
   run_critical_gap();
-  const auto refused = [this](const std::vector<std::string>& arguments, const std::string& says) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"report", "nowhere", "-o", "safety"},
+        {"report", "out", "out", "-o", "safety"},
+        {"report", "out", "-o", "out"},
+        {"report", "out"}}) {
     const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.code, 2) << says;
+    EXPECT_EQ(outcome.code, 2) << arguments[1];
     EXPECT_EQ(outcome.lines_of_error(), 1) << outcome.err;
-    EXPECT_TRUE(outcome.says(says)) << outcome.err;
     EXPECT_FALSE(exists("safety"));
-  };
-  refused({"report", "nowhere", "-o", "safety"}, "found no study there");
-  refused({"report", "out", "out", "-o", "safety"}, "both are studies of kind critical-gap");
-  refused({"report", "out", "-o", "out"}, "holds a study");
-  refused({"report", "out", "-o", "safety", "--criterion", "margin > 2", "--criterion-source", "a"},
-          "--criterion");
-  refused({"report", "out", "-o", "safety", "--criterion", "margin >= 2 K"}, "--criterion-source");
-  refused({"report", "out", "-o", "safety", "--criterion-source", "a"}, "requires --criterion");
-  for (const char* criterion :
-       {"margin", "margin >= 2", "margin >= nan K", "distance >= 3 K", "margin >= -1 K"})
-    refused({"report", "out", "-o", "safety", "--criterion", criterion, "--criterion-source", "a"},
-            "margin >= N uncertainty");
-  refused({"report", "out", "-o", "safety", "--criterion", "margin >= 2 K", "--criterion-source", " "},
-          "--criterion-source");
-  refused({"report", "out", "-o", "safety", "--criterion", "T max <= 9999 K", "--criterion-source", "a"},
-          "the charge ignites at 350 K");
-  refused({"report", "out", "-o", "safety", "--templates", "nowhere"}, "found no template there");
+  }
 }
 
 TEST_F(ReportCommand, ADamagedCaseIsRefused) {
@@ -229,13 +179,6 @@ TEST_F(ReportCommand, CasesAtOtherTemperaturesAreThoseOfTheirStoredRuns) {
   const Outcome outcome = run({"report", "out", "-o", "safety"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_TRUE(reports("initial\\_temperature 290 K"));
-}
-
-TEST_F(ReportCommand, WithoutCaseFilesItSaysWhatTheyWouldShow) {
-  run_critical_gap();
-  std::filesystem::remove_all(folder() / "out/cases");
-  EXPECT_EQ(run({"report", "out", "-o", "safety"}).code, 0);
-  EXPECT_TRUE(reports("need the case files"));
 }
 
 TEST_F(ReportCommand, FiguresThatTheReportNoLongerHasMoveAside) {

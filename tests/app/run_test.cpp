@@ -14,11 +14,7 @@ TEST_F(RunProgram, PrintsATableAndWritesACaseFile) {
   write("shell.toml", tiny_scene);
   const Outcome outcome = run({"run", "shell.toml", "-o", "out/deep"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("  end of the launch     9.019 m/s after 0.000933 m"), std::string::npos)
-      << outcome.out;
-  for (const std::string part :
-       {"a small shell", "T max [K]", "G1", "ignition", "The energy of the air", "Energy balance", "drift",
-        "particles", "steps", "wall time", "million particle updates per second"}) {
+  for (const std::string part : {"a small shell", "9.019 m/s", "0.000933 m", "T max [K]", "G1"}) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << " in\n" << outcome.out;
   }
   const auto stored = store::read_case_file(folder() / "out/deep/shell.h5");

@@ -40,17 +40,6 @@ TEST_P(SignalledProgram, EndsWhilePlanningAMillionCases) {
 INSTANTIATE_TEST_SUITE_P(Signals, SignalledProgram, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& test) { return test.param == SIGINT ? "Interrupt" : "Terminate"; });
 
-class VerifyProgram : public Program {};
-
-TEST_F(VerifyProgram, IsInterruptedWholeOrNotAtAll) {
-  start({"verify"});
-  wait_until_it_catches(SIGTERM);
-  send(SIGTERM);
-  const Outcome outcome = wait();
-  // All checks take well under a second on a quick machine: the signal may come too late, but never half-way.
-  EXPECT_TRUE(outcome.code == 75 ? outcome.out.empty() : outcome.code == 0) << outcome.code << outcome.err;
-}
-
 class TerminalProgram : public Program {
  protected:
   /// What the program shows on a terminal; it is interrupted as soon as it has shown `last`.

@@ -6,9 +6,8 @@ set -eu
 {
   cat "$(dirname "$0")/keys.dict"
   {
-    "$1" explain --keys | grep -xE '[a-z_0-9]+(\.[a-z_0-9]+)+' | sed 's/.*/"&"/'
-    for schema in scene study; do "$1" explain --schema "$schema"; done |
-      tr -cs 'a-z_.@"-' '\n' | grep -xE '"[a-z@][a-z_-]*"'
+    "$1" explain --keys | grep -xE '[a-z_0-9]+(\.[a-z_0-9]+)*' | sed 's/.*/"&"/'
+    "$1" explain --keys | tr -cs 'a-z_.@"-' '\n' | grep -xE '"[a-z@][a-z_-]*"'
   } | sort -u
 } > "$2/words.dict"
 "$1" explain --keys | awk '

@@ -129,14 +129,11 @@ class SafetyReport : public launchsafe::testing::TemporaryFolder {
     const auto evidence = read_safety_evidence(folders);
     return evidence ? "" : evidence.error().message;
   }
-  static std::string file_of(const std::vector<path>& folders, const std::string& name,
-                             const std::optional<GapCriterion>& criterion = {}) {
+  static std::string file_of(const std::vector<path>& folders, const std::string& name) {
     const auto evidence = read_safety_evidence(folders);
     EXPECT_TRUE(evidence) << fault_of(folders);
     if (!evidence) return {};
-    const auto report = make_safety_report(*evidence, criterion, built_in_templates());
-    EXPECT_TRUE(report);
-    for (const TextFile& file : report->files)
+    for (const TextFile& file : make_safety_report(*evidence).files)
       if (file.name == name) return file.text;
     ADD_FAILURE() << name;
     return {};

@@ -19,13 +19,12 @@ void let_ignite(nlohmann::ordered_json& results) {
     results["verdicts"][i]["verdict"] = "UNSAFE";
 }
 
-TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
+TEST_F(SafetyReport, LeavesEveryRowOfEachOfSeveralCasesOut) {
   const path study = copy_of("critical_gap_155mm");
   move_to_pressures(study, {496.0, 510.0});
   change(study, let_ignite);
   const auto json = nlohmann::json::parse(file_of({study}, "report.json"));
-  EXPECT_TRUE(json["answer"]["largest_safe_gap_cm"].is_null());
-  EXPECT_EQ(json["answer"]["smallest_is_zero"], true);
+  EXPECT_TRUE(json["answer"]["largest_safe_gap_cm"].is_null()) << "one case ignites at every gap";
   for (const auto& block : json["sections"][5]["blocks"]) {
     if (block["id"] != "curves") continue;
     ASSERT_EQ(block["rows"].size(), 6u) << "three curves a case";
@@ -36,32 +35,10 @@ TEST_F(SafetyReport, OfSeveralCasesTheWorstStandsOnPageOneAndEachIsLeftOneOut) {
   ADD_FAILURE() << "no table of rows left out";
 }
 
-TEST_F(SafetyReport, ASweepByItselfRecommendsNothing) {
-  const auto criterion = parse_criterion("margin >= 3 uncertainty", "works standard 12", 526.784);
-  ASSERT_TRUE(criterion);
-  const auto answer = nlohmann::json::parse(
-      file_of({copy_of("sweep_pressure_defect")}, "report.json", *criterion))["answer"];
-  EXPECT_TRUE(answer["recommended_gap_cm"].is_null());
-  EXPECT_EQ(answer["cases"].size(), 56u);
-}
-
-// Issue 30, point 9: under the old load 336 K took a third of the critical gap at 300 K.
-TEST_F(SafetyReport, TellsTheTemperatureOfEverySafeAndTheLeastGapAtTheHottest) {
-  const path sweep = copy_of("temperature");
-  const auto page_one = [](const std::vector<path>& studies) {
-    const std::string page = file_of(studies, "report.md");
-    return page.substr(0, page.find("## 2."));
-  };
-  const std::string one = page_one({shipped("critical_gap_155mm"), sweep});
-  EXPECT_TRUE(has(one, "300 K"));
-  EXPECT_TRUE(has(one, "344 K"));
-  EXPECT_TRUE(has(page_one({sweep}), "219 to 344 K"));
-  const auto with_hottest = [&](const std::function<void(nlohmann::ordered_json&)>& how) {
-    change(sweep, [&](auto& results) { how(results["cases"].back()); });
-    return page_one({shipped("critical_gap_155mm"), sweep});
-  };
-  EXPECT_TRUE(has(with_hottest([](auto& row) { set_bound(row, 0.0123); }),
-                  "0.0123 cm"));
+TEST_F(SafetyReport, ASweepByItselfAllowsNoGap) {
+  const auto json = nlohmann::json::parse(file_of({shipped("sweep_pressure_defect")}, "report.json"));
+  EXPECT_TRUE(json["answer"]["largest_safe_gap_cm"].is_null());
+  EXPECT_TRUE(json["answer"]["cases"].empty());
 }
 
 TEST_F(SafetyReport, ASweepOverMoreThanTwoQuantitiesShowsThePicturesThatItDrew) {

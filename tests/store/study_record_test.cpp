@@ -55,7 +55,7 @@ TEST_F(ReportFolder, ReplacesItsOwnFilesAndNothingElse) {
 // A folder that somebody passed on may hold a manifest with any names.
 TEST_F(ReportFolder, HasNoFilesOutsideItOrOfTheStore) {
   StudyRecord claims = record();
-  for (const char* name : {"../theirs.txt", "/theirs.txt", ".", "..", "", "cases", "study.db", "slurm",
+  for (const char* name : {"../theirs.txt", "/theirs.txt", ".", "..", "", "cases", "study.db",
                            "study.1-of-2.db-journal", "manifest.json", "report.md"})
     claims.files.push_back({name, "00"});
   ASSERT_FALSE(write_study_record(folder(), claims));

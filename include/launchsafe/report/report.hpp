@@ -39,10 +39,9 @@ struct Report {
   std::string command;  ///< that makes the report again
   std::vector<std::variant<Statement, ReportTable, Picture>> items = {};  ///< in the order of the page
   std::vector<TextFile> files = {};
-  std::string json = {};  ///< study.json; none where empty
-  std::vector<std::string> remarks =
-      {};                   ///< for the end of the page and for people, as what pictures leave out
-  std::string launch = {};  ///< a sentence that stands first: how fast the load makes the shell
+  std::string json = {};                  ///< study.json; none where empty
+  std::vector<std::string> remarks = {};  ///< for the end of the page, and for people
+  std::string launch = {};                ///< a sentence that stands first: how fast the load makes the shell
 
   // The next item of the page.
   void say(std::string markdown) { items.emplace_back(Statement{std::move(markdown)}); }
@@ -118,16 +117,6 @@ std::string filled(const std::string& text, std::vector<const Row*> facts,
 /// everything that it is said of; empty ones are left out.
 std::vector<std::string> said(const std::vector<PageText>& texts, const std::string& name, const Row& facts);
 
-/// Mustache templates of the pages, and the texts by their names, each a template too.
-struct PageTemplates {
-  std::string html, markdown;
-  std::map<std::string, std::string> texts;
-};
-
-/// Those in a folder; what is not there, files or single texts, stays as it is built in. Errors: missing
-/// (none of the files is there), corrupt (no template: tags that do not fit together, a text without a name).
-store::Result<PageTemplates> read_templates(const std::filesystem::path& folder, PageTemplates built_in);
-
 /// What a page tells.
 struct PageFacts {
   /// By the names that texts know. A figure has its "file", and "svg" where it is drawn already.
@@ -135,21 +124,11 @@ struct PageFacts {
   std::map<std::string, Drawing> drawings = {};  ///< by file: to be drawn where facts show it
 };
 
-/// Draws the figures and fills the templates. `order`: the texts in the order of the page, whose words
-/// `templates` may replace. `head`: "format", "title", "subject" and "answer" of the page. Whatever facts say
-/// is escaped, so that markup in it is shown. A figure that gnuplot does not draw is a remark, in the page
-/// too. Equal facts make equal files. Throws store::Error, corrupt: a template that cannot be rendered.
-RenderedReport render_page(const std::vector<PageText>& order, const PageFacts& all,
-                           const PageTemplates& templates, const Row& head, const DrawingLimits& limits = {});
-
-/// How a page of `index_page` begins, by which it is known.
-inline constexpr const char* index_begin = "<!DOCTYPE html>\n<!-- launchsafe report --index 1 -->\n";
-
-/// An entry for every folder within `folder` that holds a page or a picture: title and answer as its
-/// study.json or report.json has them, or else the heading of its page, with links to its pages and pictures.
-/// Folders further down are links in the entry of the folder that they are in. Empty where there is no
-/// report.
-std::string index_page(const std::filesystem::path& folder);
+/// Draws the figures and fills the built-in templates. `texts`: in the order of the page. `head`: "format",
+/// "title", "subject" and "answer" of the page. Whatever facts say is escaped, so that markup in it is shown.
+/// A figure that gnuplot does not draw is a remark, in the page too. Equal facts make equal files.
+RenderedReport render_page(const std::vector<PageText>& texts, const PageFacts& all, const Row& head,
+                           const DrawingLimits& limits = {});
 
 // Built in, as they are in src/report/templates and src/report/notes.mustache.
 
@@ -157,8 +136,6 @@ std::string index_page(const std::filesystem::path& folder);
 extern const char *const built_in_html, *const built_in_markdown, *const built_in_texts;
 /// What is said of a study while it runs.
 extern const char* const status_text_template;
-/// Of the page that leads to all reports of a folder.
-extern const char* const index_template;
 
 /// What the notes under a name say of tables and pages of several kinds of study, "mesh" those of
 /// "mesh.stated" too; empty ones are left out.

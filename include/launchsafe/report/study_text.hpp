@@ -129,9 +129,9 @@ std::string clock_time(std::time_t time, std::time_t now);
 /// day.
 std::optional<std::time_t> next_clock_time(const std::string& text, std::time_t now);
 
-/// What the snapshots of a study, at least one, say at a time: its state, cases, times, what is stored,
-/// failures by their reason, preliminary critical gaps, and a row for every writer. A writer that neither
-/// lives nor told its end was killed. `folder` is how it is called. Values that a damaged file lacks are 0.
+/// What the snapshots of a study, at least one, say at a time: its state, cases, times, and a row for every
+/// writer. A writer that neither lives nor told its end was killed. `folder` is how it is called. Values that
+/// a damaged file lacks are 0.
 Row status_facts(const std::string& folder, const std::vector<store::StoreStatus>& snapshots,
                  std::time_t now);
 

@@ -54,10 +54,11 @@ struct RunRecord {
   double processor_time = 0;     ///< s, of the run
   double predicted_updates = 0;  ///< particle updates that the plan foresaw, from which cost models learn
   double time_limit = 0;         ///< s, of a case that was timed out
-  std::string program;           ///< that made the attempt, see `program_of`
-  std::string end_time;          ///< ISO 8601, UTC
-  std::uint64_t file_size = 0;   ///< bytes, of a case that is done
-  std::int64_t file_time = 0;    ///< ns since the epoch, modification time of the file
+  /// Program that made the attempt, see `program_of`.
+  std::string program;
+  std::string end_time;         ///< ISO 8601, UTC
+  std::uint64_t file_size = 0;  ///< bytes, of a case that is done
+  std::int64_t file_time = 0;   ///< ns since the epoch, modification time of the file
 };
 
 /// The names of a store's files.

@@ -255,9 +255,6 @@ struct Forecast {
   std::size_t learned_from = 0;  ///< recorded runs that the rate was learned from; 0: measured now
   double time = 0;               ///< s of wall time, of all that is to run
   double confirmation_time = 0;  ///< s of it, at most, of what follows launches that are to run
-  double plan_memory = 0;        ///< bytes of the program with its plan of the whole study
-  double kept_memory = 0;        ///< bytes that are kept till the end of the cases asked for
-  double report_memory = 0;      ///< bytes of the report of all cases, besides
   double memory = 0;  ///< bytes at most: as the cases run side by side, or as the report is written
   double disk = 0;    ///< bytes, rather too many, of the files of all that is to run, coupled runs too
   int jobs = 1;

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -16,25 +15,14 @@ namespace launchsafe::study {
 enum class Phase { launches, following_runs, report };
 std::string to_string(Phase phase);
 
-/// A critical gap, of ignition alone, that a case came to: without its uncertainty, and so no answer yet.
-struct FoundGap {
-  std::string label;  ///< of the case
-  double lower = 0;   ///< m, does not ignite
-  double upper = 0;   ///< m, ignites
-};
-
 struct Progress {
   Phase phase = Phase::launches;
   std::size_t done = 0, running = 0, total = 0;  ///< runs
   std::size_t cases = 0, cases_done = 0;         ///< of the study; done with those that failed
   std::size_t cases_failed = 0;
-  double cases_per_second = 0;                  ///< since the first run began; 0 while nothing is known
-  double fraction = 0;                          ///< of all work, 0..1, with the shares of running tasks
-  double seconds_left = -1;                     ///< estimate; negative while nothing is known
-  std::map<std::string, std::size_t> failures;  ///< cases by the reason why they failed; few reasons
-  std::size_t gaps_found = 0;
-  std::vector<FoundGap> smallest_gaps;  ///< of those found some of the smallest, in order
-  double largest_gap = 0;               ///< m, the largest upper end found
+  double cases_per_second = 0;  ///< since the first run began; 0 while nothing is known
+  double fraction = 0;          ///< of all work, 0..1, with the shares of running tasks
+  double seconds_left = -1;     ///< estimate; negative while nothing is known
 };
 /// Called from any running thread, one call at a time, a few times a second and at every change.
 using ProgressCallback = std::function<void(const Progress&)>;
@@ -64,9 +52,8 @@ class ProgressTracker {
   void expect(std::ptrdiff_t tasks, double cost);
   /// Cases of the study.
   void expect_cases(std::size_t cases);
-  /// So many cases came to an end, which failed where a reason is given; negative of those that go on.
-  void cases_ended(std::ptrdiff_t cases, const std::string& failure);
-  void found(FoundGap gap);
+  /// So many cases came to an end, or failed; negative of those that go on.
+  void cases_ended(std::ptrdiff_t cases, bool failed);
   void started();
   /// A running task has done `share` (0..1) of its work since its last report.
   void advanced(double cost);
