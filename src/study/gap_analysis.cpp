@@ -36,15 +36,24 @@ double raised_share(const RaisedLaunch& raised, const GapVerdict& row) {
   return hotter < 0.0 ? 0.0 : hotter;  // NaN stays NaN
 }
 
-/// What all rows of a case are judged by.
+using SharedTrace = std::shared_ptr<const BottomTrace>;
+
+/// What all rows of a case are judged by. Traces are of the stations that tile the bottom, which alone count.
 struct OfAllRows {
+  SharedTrace trace;
   double load_curve = 0;             ///< share of the rises: see load_curve_share
   std::vector<RaisedLaunch> raised;  ///< towards ignition
 };
 
 OfAllRows of_all_rows(const Study& study, const CaseOutcome& outcome) {
-  return {load_curve_share(outcome.input.scene.scene.load),
-          raised_launches(study, outcome, End::towards_ignition)};
+  const auto rings = [](const BottomTrace& whole) {
+    return std::make_shared<const BottomTrace>(trace::of_rings(whole));
+  };
+  OfAllRows all{rings(outcome.result.mechanics.trace), load_curve_share(outcome.input.scene.scene.load),
+                raised_launches(study, outcome, End::towards_ignition)};
+  for (RaisedLaunch& each : all.raised)
+    if (each.trace) each.trace = rings(*each.trace);
+  return all;
 }
 
 /// K, the random causes together, as independent ones are.
@@ -59,18 +68,19 @@ double input_share(const Study& study, const CaseOutcome& outcome, const OfAllRo
 }
 
 /// K by which T max of a gap is higher where it is thicker (m).
-double thicker_gap_share(const CaseOutcome& outcome, const GapVerdict& row, double thicker) {
+double thicker_gap_share(const CaseOutcome& outcome, const SharedTrace& trace, const GapVerdict& row,
+                         double thicker) {
   constexpr double least = 1e-9;  // m
   if (thicker < least) return 0.0;
-  const std::shared_ptr<const BottomTrace> trace(std::shared_ptr<void>{}, &outcome.result.mechanics.trace);
   return raised_share({{}, surface::skin_model(outcome.input.scene.scene), trace, thicker}, row);
 }
 
 /// K by which T max of a gap is higher where other models move the critical gap towards ignition.
-double model_form_share(const Study& study, const CaseOutcome& outcome, const GapVerdict& row) {
+double model_form_share(const Study& study, const CaseOutcome& outcome, const SharedTrace& trace,
+                        const GapVerdict& row) {
   const ModelFormShift& recorded = outcome.evidence->input.model_form;
   if (const auto stated = stated_model_form_share(study, outcome.input, recorded)) return *stated;
-  return thicker_gap_share(outcome, row, recorded.gap);
+  return thicker_gap_share(outcome, trace, row, recorded.gap);
 }
 
 /// The shares of a row that its study, its accuracy record and the calibration's evidence give. Errors grow
@@ -82,9 +92,9 @@ void add_shares(const Study& study, const CaseOutcome& outcome, const OfAllRows&
   row.uncertainty.fit = fit_share(study, outcome.evidence->input.distance, rises);
   row.uncertainty.input = input_share(study, outcome, all, row);
   row.uncertainty.load_curve = all.load_curve * (rises.friction + rises.air);
-  row.uncertainty.model_form = model_form_share(study, outcome, row);
+  row.uncertainty.model_form = model_form_share(study, outcome, all.trace, row);
   row.uncertainty.sliding =
-      friction_share(outcome) + thicker_gap_share(outcome, row, opening_at_base(outcome));
+      friction_share(outcome) + thicker_gap_share(outcome, all.trace, row, opening_at_base(outcome));
 }
 
 GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const OfAllRows& all,
@@ -100,14 +110,14 @@ GapVerdict row_of(const Study& study, const CaseOutcome& outcome, const OfAllRow
   row.spread = surface::spread_at_time(gap.skin, trace, read);
   row.early_spread = surface::spread_at_time(gap.skin, trace, study.early_time);
   row.margin = scene.charge().kinetics.ignition_temperature - gap.at_stations.temperature;
-  row.heated = heated_temperature(scene, trace, gap.gap);
+  row.heated = heated_temperature(scene, *all.trace, gap.gap);
   if (study.kind.gives_verdicts)
     row.as_calibrated = as_calibrated(scene, study.calibration.scene,
-                                      outcome.evidence->input.to_be_accepted(), trace, gap.gap);
+                                      outcome.evidence->input.to_be_accepted(), *all.trace, gap.gap);
   row.air = gap.air;
   row.ignition = named(gap.skin.ignition, trace);
   row.uncertainty.sampling = gap.sampling_error;
-  row.uncertainty.integration = integration_error(surface::skin_model(scene), trace, gap);
+  row.uncertainty.integration = integration_error(surface::skin_model(scene), *all.trace, gap);
   add_shares(study, outcome, all, row);
   return row;
 }
