@@ -27,9 +27,9 @@ endif()
 set(data_dir "${CMAKE_INSTALL_DATADIR}/launchsafe")
 # Studies rest on the records of others, which they name by their place beside them; pages link to each other likewise.
 install(DIRECTORY studies DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp" PATTERN "*.sbatch")
+  FILES_MATCHING PATTERN "*.toml" PATTERN "*.json" PATTERN "*.csv" PATTERN "*.txt" PATTERN "*.md" PATTERN "*.cpp" PATTERN "*.sbatch")
 install(DIRECTORY reports DESTINATION "${data_dir}" COMPONENT program
-  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy*.json" PATTERN "model_form.json"
+  FILES_MATCHING PATTERN "calibration.json" PATTERN "accuracy*.json"
   PATTERN "*.md" PATTERN "*.html" PATTERN "*.svg" PATTERN "*.png")
 foreach(folder launchsafe launchsafe/mpm)
   install(FILES include/${folder}/README.md DESTINATION "${data_dir}/include/${folder}" COMPONENT program)

@@ -118,7 +118,7 @@ Quantities<FittedLine> line_quantities() {
 }
 
 /// A gap that does not ignite beside the lines through it and its neighbours.
-struct FittedRow {
+struct FittedGap {
   const CaseOutcome* of;
   std::size_t gap;
   const GapFit& fit() const { return *of->fit; }
@@ -127,20 +127,20 @@ struct FittedRow {
   }
 };
 
-const Quantities<FittedRow> fitted_row_quantities{
-    {quantity::case_name, &FittedRow::of, &CaseOutcome::input, &StudyCase::label},
-    {quantity::gap, [](const FittedRow& row) { return row.fit().gaps[row.gap]; }},
-    {quantity::temperature_max, [](const FittedRow& row) { return row.fit().temperatures[row.gap]; }},
+const Quantities<FittedGap> fitted_row_quantities{
+    {quantity::case_name, &FittedGap::of, &CaseOutcome::input, &StudyCase::label},
+    {quantity::gap, [](const FittedGap& row) { return row.fit().gaps[row.gap]; }},
+    {quantity::temperature_max, [](const FittedGap& row) { return row.fit().temperatures[row.gap]; }},
     {"residual", "less the line", fixed(2, kelvin), "T max less the line of least squares.",
-     [](const FittedRow& row) { return row.residual(row.fit().ordinary); }},
+     [](const FittedGap& row) { return row.residual(row.fit().ordinary); }},
     {"left_out", "less what the others predict", fixed(2, kelvin),
      "T max less the line of least squares through the other rows.",
-     [](const FittedRow& row) { return row.fit().left_out[row.gap]; }},
+     [](const FittedGap& row) { return row.fit().left_out[row.gap]; }},
     {"residual_mixed", "less the published form", fixed(2, kelvin),
      "T max less the line of that slope through the zero-gap row.",
-     [](const FittedRow& row) { return row.residual(row.fit().mixed); }},
+     [](const FittedGap& row) { return row.residual(row.fit().mixed); }},
     {"residual_published", "less the published line", fixed(2, kelvin), "T max less the line as published.",
-     [](const FittedRow& row) { return row.residual(row.fit().published); }}};
+     [](const FittedGap& row) { return row.residual(row.fit().published); }}};
 
 const auto curve_quantities = with_whole(
     case_quantities,
@@ -204,7 +204,7 @@ Table fit_table(const CriticalGapResult& result) {
 }
 
 Table fitted_row_table(const CriticalGapResult& result) {
-  std::vector<FittedRow> rows;
+  std::vector<FittedGap> rows;
   for (const CaseOutcome& outcome : result.details)
     for (std::size_t i = 0; outcome.fit && i < outcome.fit->gaps.size(); ++i) rows.push_back({&outcome, i});
   return table_of("Rows against the lines", fitted_row_quantities, rows);

@@ -7,8 +7,7 @@ namespace launchsafe::kinds {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
-      critical_gap_kind(), calibration_kind(), sensitivity_kind(),
-      accuracy_kind(),     stability_kind(),   comparison_kind(),
+      critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind(),
   };
   return all;
 }

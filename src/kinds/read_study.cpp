@@ -44,7 +44,6 @@ std::vector<std::string> common_tables() { return {"set", "accept"}; }
 /// What study files of earlier versions said, and how that is written now.
 struct FormerKey {
   std::string_view name, now;
-  std::string_view kind = {};  ///< where another one has such a key still
 };
 constexpr FormerKey former_keys[] = {
     {"axes", "a [[vary]] with key and values for each axis, and gaps for gap"},
@@ -53,7 +52,6 @@ constexpr FormerKey former_keys[] = {
     {"flaw_sizes", "a [[vary]] with key = \"flaw_size\" and values"},
     {"input", "a [[vary]] with the same keys for each input"},
     {"gap", "gaps, in every kind of study"},
-    {"variant", "one [[vary]], and [[vary.variants]] for each variant", "comparison"},
 };
 
 void check_former(const toml::table& root, const std::string& file) {
@@ -64,8 +62,7 @@ void check_former(const toml::table& root, const std::string& file) {
                    "kind \"critical-gap\", with a [[vary]] with key and values for each axis",
                    "kind = \"critical-gap\"");
   for (const FormerKey& former : former_keys)
-    if (const toml::node* node = root.get(former.name);
-        node != nullptr && (former.kind.empty() || former.kind == name))
+    if (const toml::node* node = root.get(former.name); node != nullptr)
       throw error_at(scene::place_of(*node, file), former.name, "a key of an earlier version", former.now);
 }
 

@@ -194,7 +194,7 @@ StudyKeys uncertainty_keys() {
       text_key("model_form", Standing::input,
                "Path of the record of other models, model_form.json, from the study file's folder; it says "
                "how far they move the critical gap towards ignition.",
-               "../reports/model_form/model_form.json", &Study::model_form_record),
+               "models/model_form.json", &Study::model_form_record),
   };
   return joined(
       {records,

@@ -1,9 +1,11 @@
 // What the sources of kinds share.
 #pragma once
 
-#include "launchsafe/kinds/comparison.hpp"
+#include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/report/quantities.hpp"
 #include "launchsafe/report/study_text.hpp"
+#include "launchsafe/study/calibration_record.hpp"
+#include "launchsafe/study/case_answer.hpp"
 
 namespace launchsafe::kinds {
 
@@ -28,10 +30,9 @@ using surface::SkinModel;
 using trace::BottomTrace;
 
 // Every kind, and what its tables hold.
-Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind(),
-    comparison_kind();
+Kind critical_gap_kind(), calibration_kind(), sensitivity_kind(), accuracy_kind(), stability_kind();
 std::vector<ReportTable> critical_gap_results(), calibration_results(), sensitivity_results(),
-    accuracy_results(), stability_results(), comparison_results();
+    accuracy_results(), stability_results();
 
 /// Adds what came to nothing, unless another shard runs it.
 template <class Ended>
@@ -247,13 +248,8 @@ study::AccuracyRecords settle_scene(const StudySource& source, const std::vector
 /// it states. Needs the overrides.
 void settle_acceptances(const toml::table& table, const StudyKeys& keys, StudyFile& study);
 
-/// Reads all entries but variants into Study::axes. Needs the study's scene and overrides. An entry that the
+/// Reads all entries into Study::axes. Needs the study's scene and overrides. An entry that the
 /// kind does not admit is refused.
 void read_vary(const StudySource& source, const Varied& admitted, StudyFile& study);
-
-/// Of one of the variants of an entry, besides its tables.
-std::vector<Key<Variant>> variant_keys();
-/// The tables of the entry with variants.
-std::vector<const toml::table*> variants_in(const StudySource& source, const StudyFile& study);
 
 }  // namespace launchsafe::kinds

@@ -1,5 +1,5 @@
 // [[vary]]: what the cases of a study differ in. Every entry has a key of the scene with values, with a range
-// and a count, or with a distribution; or a calibration whose constants vary together; or named variants.
+// and a count, or with a distribution; or a calibration whose constants vary together.
 #include "launchsafe/kinds/sensitivity.hpp"
 #include "study_keys.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 
 using math::Distribution;
 
-constexpr const char *table_name = "vary", *variants_key = "variants", *calibration_key = "calibration";
+constexpr const char *table_name = "vary", *calibration_key = "calibration";
 
 struct VaryText {
   std::string name;
@@ -217,15 +217,6 @@ void read_entry(VaryReader& reader, const Varied& admitted) {
   reader.study.study.axes.push_back(std::move(axis));
 }
 
-/// Entries of other forms have no other key.
-void check_variants(const VaryReader& reader, const Varied& admitted) {
-  if (!admitted.variants)
-    throw error_at(scene::place_of(*reader.table.get(variants_key), reader.study.file), "vary.variants",
-                   "variants in a study of kind " + reader.study.study.kind.name,
-                   "a key of the scene; variants are compared by kind comparison");
-  taken(scene::read_described(reader.table, {}, {variants_key}, reader.study.file), table_name);
-}
-
 // --- the constants of a calibration, together ---
 
 /// Whether the study's scene and keys allow constants of a record to vary.
@@ -285,26 +276,10 @@ void read_calibrated(VaryReader& reader, const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::vector<Key<Variant>> variant_keys() {
-  return {
-      text_key("name", Standing::input, "What it is called in tables; each once.", "bonded charge",
-               &Variant::name) |
-          required(),
-      text_key("description", Standing::input, "What it is, a phrase.", "the charge is glued to the wall",
-               &Variant::description),
-      text_key("calibration", Standing::input,
-               "Path of the record of its own calibration, from the study file's folder; the study's if "
-               "absent, or where the record found no constants. Its scene keys are in the table set, and "
-               "what it accepts in accept.",
-               "../reports/calibrate_table8/calibration.json", &Variant::record),
-  };
-}
-
 StudyTable vary_table() {
   StudyTable table = study_table_of(table_name, vary_keys({}));
-  for (const StudyTable& more :
-       {study_table_of(table_name, vary_record_keys), study_table_of("vary.variants", variant_keys())})
-    table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
+  const StudyTable more = study_table_of(table_name, vary_record_keys);
+  table.keys.insert(table.keys.end(), more.keys.begin(), more.keys.end());
   for (scene::DocumentedKey& key : table.keys) key.default_text.clear();  // an entry has what its form needs
   return table;
 }
@@ -313,30 +288,11 @@ void read_vary(const StudySource& source, const Varied& admitted, StudyFile& stu
   const auto tables = study::tables_of(source.root, table_name, study, admitted.needed);
   for (std::size_t index = 0; const toml::table* table : tables) {
     VaryReader reader{study, *table, index++};
-    if (table->contains(variants_key))
-      check_variants(reader, admitted);
-    else if (admitted.distributions && table->contains(calibration_key))
+    if (admitted.distributions && table->contains(calibration_key))
       read_calibrated(reader, source.folder);
     else
       read_entry(reader, admitted);
   }
-}
-
-std::vector<const toml::table*> variants_in(const StudySource& source, const StudyFile& study) {
-  const toml::node* entries = source.root.get(table_name);
-  std::vector<const toml::table*> variants;
-  for (const toml::node& entry : *entries->as_array()) {
-    const toml::table& table = *entry.as_table();
-    if (!table.contains(variants_key)) continue;
-    if (!variants.empty())
-      throw error_at(scene::place_of(table, study.file), "vary.variants", "variants a second time",
-                     "all variants in one [[vary]]");
-    variants = scene::within(table_name, [&] { return study::tables_of(table, variants_key, study); });
-  }
-  if (variants.empty())
-    throw error_at(scene::place_of(*entries, study.file), "vary.variants", "no variant",
-                   "a [[vary]] with variants, each with a name and what it changes");
-  return variants;
 }
 
 }  // namespace launchsafe::kinds

@@ -57,7 +57,7 @@ std::string told_by(const StudyEvidence& study) {
   if (first_has("settings", "temperature_bound_K")) return tells::accuracy;
   if (study.study.contains("indices")) return tells::sensitivity;
   if (first_has("cases", "invariants")) return tells::stability;
-  return first_has("cases", "variant") ? tells::models : tells::nothing;
+  return tells::nothing;
 }
 
 StudyEvidence read_study(const path& folder, std::size_t number) {
@@ -159,8 +159,7 @@ bool is_same_launch(const CaseEvidence& a, const CaseEvidence& b) {
 
 /// Refuses studies that judge the same launch, with the same numerics, by different lower bounds of its
 /// critical gap: they do not rest on the same records or statements. Where numerics or any other key of the
-/// scene differs the bounds may. Not compared are critical gaps beyond the end of a search, and a comparison
-/// whose result is the record of other models, which it cannot use itself.
+/// scene differs the bounds may. Not compared are critical gaps beyond the end of a search.
 void check_agreement(const SafetyEvidence& evidence) {
   const auto text = [](const CaseEvidence& each) {
     const double bound = bound_of(each);

@@ -176,7 +176,7 @@ Row covered_by(const StudyEvidence& study) {
 Row about(const StudyEvidence& study, const StudyEvidence& main) {
   Row facts = store::to_json(study.record);
   // The record that it wrote is the main study's by its digest, or by a bound that the cases took from it.
-  const bool has_record = study.tells == tells::models || study.tells == tells::accuracy;
+  const bool has_record = study.tells == tells::accuracy;
   const bool is_used = !setting_of(main, study).is_null() ||
                        std::ranges::any_of(study.record.files, [&](const store::WrittenFile& file) {
                          return main.record.manifest.input_text.find(file.sha256) != std::string::npos;
@@ -381,7 +381,7 @@ PageFacts facts_of(const SafetyEvidence& evidence) {
   }
   facts["scene"] = scene_facts(main);
   for (const std::string& name :
-       {tells::launch, tells::sweep, tells::models, tells::accuracy, tells::sensitivity, tells::stability})
+       {tells::launch, tells::sweep, tells::accuracy, tells::sensitivity, tells::stability})
     if (!facts.contains(name)) facts["missing"] = true;
   facts["temperature"] = temperature_text(main, cases);
   facts["several"] = cases.size() > 1;

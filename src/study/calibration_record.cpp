@@ -146,7 +146,7 @@ void read_model_form(StudyFile& study, const std::filesystem::path& folder) {
               "either model_form_uncertainty or model_form");
   study.study.model_form =
       read_named_record(study, folder, "model_form", name,
-                        "the model_form.json of a comparison of calibrated models", parse_model_form);
+                        "the model_form.json of calibrated models", parse_model_form);
 }
 
 }  // namespace launchsafe::study

@@ -114,7 +114,7 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
 }
 
 constexpr RecordFormat model_form_format{"launchsafe model form 1", "model_form.json",
-                                         "a study of kind comparison"};
+                                         "calibrated models"};
 constexpr const char* no_ignition_text = "none";
 constexpr double widest_critical_gap = 0.01;  ///< m
 constexpr std::size_t most_pressures = 1000;

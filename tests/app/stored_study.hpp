@@ -114,28 +114,10 @@ cases = [ { name = "as it is", set = { load.peak = "50 MPa" }, against = { numer
 )";
 
 /// A small study of every kind, by the name of the kind.
-/// Two variants beside the scene as it is, each a mechanical run.
-inline const std::string comparison_study = R"(kind = "comparison"
-scene = "shell.toml"
-name = "as it is"
-gaps = "0, 0.01 cm"
-early_time = "0.03 ms"
-
-[[vary]]
-
-[[vary.variants]]
-name = "other cracks"
-set = { charge.crack_radius = "31 um" }
-
-[[vary.variants]]
-name = "larger cracks"
-set = { charge.crack_radius = "40 um" }
-)";
-
 inline const std::map<std::string, std::string> study_of_kind{
-    {"comparison", comparison_study},   {"critical-gap", critical_gap_study},
-    {"calibration", calibration_study}, {"sensitivity", sensitivity_study},
-    {"accuracy", accuracy_study},       {"stability", stability_study},
+    {"critical-gap", critical_gap_study}, {"calibration", calibration_study},
+    {"sensitivity", sensitivity_study},   {"accuracy", accuracy_study},
+    {"stability", stability_study},
 };
 
 /// Tests of studies that leave a store.

@@ -270,7 +270,7 @@ TEST(CalibrationOfLoad, SaysWhatEachPublishedNumberIsUsedFor) {
   }
   EXPECT_EQ(uses[Use::fitted], 8u);     // two temperatures and two instants at 0 and at 0.02 cm
   EXPECT_EQ(uses[Use::held_out], 0u);   // all rows were in view when the forms of the model were picked
-  EXPECT_EQ(row.selection.size(), 9u);  // by model_form/README.md: five temperatures, two spreads, two places
+  EXPECT_EQ(row.selection.size(), 9u);  // five temperatures, two spreads, two places
 }
 
 // Between 416.1 K without a gap and 467.7 K at 0.02 cm: 441.9 at 0.01 cm, 516.72 at 0.039 cm.

@@ -146,7 +146,7 @@ TEST(StudyPlausibility, EveryCaseOfASweepIsJudgedOnItsOwnValues) {
       << reason_text(result.answers[1].verdicts[0]);
 }
 
-// Models were compared from 400 to 550 MPa (reports/model_form).
+// Models were compared from 400 to 550 MPa (studies/models).
 TEST(StudyPlausibility, NothingIsSafeBeyondThePressuresOfOtherModelsWithoutAReason) {
   const std::string half = "load.peak = \"300 MPa\"\n";
   const Told warned = judgement_in(run_safe_study("", half));

@@ -2,7 +2,6 @@
 #include "kinds/made_studies.hpp"
 #include "launchsafe/kinds/accuracy.hpp"
 #include "launchsafe/kinds/calibration.hpp"
-#include "launchsafe/kinds/comparison.hpp"
 #include "launchsafe/kinds/critical_gap.hpp"
 #include "launchsafe/kinds/kind.hpp"
 #include "launchsafe/kinds/sensitivity.hpp"
@@ -49,13 +48,7 @@ std::vector<report::Report> reports_of_all_kinds() {
           report_of(critical),
           report_of(run_calibration(shipped, study::synthetic_options())),
           report_of(accuracy),
-          report_of(stability_with_a_launch()),
-          report_of(run_comparison(study::study_of("kind = \"comparison\"\nscene = \"scene_155mm.toml\"\n"
-                                                   "gaps = \"0, 0.02 cm\"\n" +
-                                                   study::synthetic_constants +
-                                                   "[[vary]]\n[[vary.variants]]\nname = \"coarse\"\n"
-                                                   "set = { numerics.cell_size = \"2.5 mm\" }\n"),
-                                   study::synthetic_options()))};
+          report_of(stability_with_a_launch())};
 }
 
 std::vector<report::Table> tables_of_all_kinds() {

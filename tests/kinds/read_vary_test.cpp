@@ -226,12 +226,10 @@ TEST(ReadVary, AValueThatTheSceneCannotHaveNamesTheValues) {
                       {5, "vary.values", "1 µs, with which output.trace_interval is", "at most"});
 }
 
-// Distributions are of sensitivity, variants of comparison.
+// Distributions are of sensitivity.
 TEST(ReadVary, WhatAKindCannotMakeUseOfIsRefused) {
   expect_error_in(varied("crack_radius", "distribution = \"uniform\"\nrange = \"10 to 20 um\""),
                   {5, "vary.distribution", "a distribution in a study of kind critical-gap", "with a count"});
-  expect_error_in(critical_kind + "[[vary]]\nvariants = [{ name = \"a\" }]\n",
-                  {4, "vary.variants", "variants in a study of kind critical-gap", "comparison"});
   expect_error_in("kind = \"sensitivity\"\nscene = \"scene_155mm.toml\"\ngaps = \"0 cm\"\n" +
                       vary({{"crack_radius", "10, 20 um"}}),
                   {4, "vary.values", "values in a study of kind sensitivity", "a distribution"});

@@ -40,7 +40,7 @@ const KeyNames most_dropped = names_in(
     "kinetics.activation_temperature "
     "kinetics.ignition_temperature kinetics.burnt_temperature charge.title elastic.density "
     "elastic.bulk_modulus elastic.shear_modulus elastic.specific_heat elastic.conductivity "
-    "elastic.title gap.thickness gap.pressure gap.air gap.exchange gap.skin_thickness "
+    "elastic.title gap.thickness gap.pressure gap.skin_thickness "
     "gap.exchange_time gap.air_specific_heat gap.air_heat_ratio "
     "gap.air_temperature gap.air_density friction.closure friction.localisation physics.conduction_bound "
     "physics.reaction_bound combustion.kinetics combustion.release combustion.duration "

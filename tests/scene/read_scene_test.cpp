@@ -131,7 +131,7 @@ const Fault faults[] = {
     {"", "numerics.cell_size = \"1.5 cm\"\n", "1.5 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
     {"", "numerics.cell_size = \"50 cm\"\n", "50 cm", "numerics.cell_size", "no particle", "at most 1 cm"},
     {"0, 0.01 cm", "0, 0.01, 0.02, 0.01 cm", "thickness", "gap.thickness", "twice", "once"},
-    {"0, 0.01 cm", "0, -0.01 cm", "thickness", "gap.thickness", "-0.01 cm", "0 cm to 2 cm"},
+    {"0, 0.01 cm", "0, -0.01 cm", "thickness", "gap.thickness", "-0.01 cm", "0 cm to 1 cm"},
     {"\"0, 0.01 cm\"", "[]", "thickness", "gap.thickness", "an empty array", "one or more"},
     {"", "kinetics.ignition_temperature = \"800 K\"\n", "800", "kinetics.ignition_temperature", "800 K",
      "below"},

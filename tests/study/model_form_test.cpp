@@ -251,7 +251,7 @@ GapVerdict verdict_with(const std::string& gap, const std::string& statement, co
 
 // Of the record that ships.
 TEST(ModelForm, WithoutARecordThePressuresOfTheShippedOneCount) {
-  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/reports/model_form/model_form.json");
+  std::ifstream file(LAUNCHSAFE_SOURCE_DIR "/studies/models/model_form.json");
   const auto pressures = nlohmann::json::parse(file).at("peak_pressures_Pa").get<std::vector<double>>();
   EXPECT_EQ(compared_pressures({}).lowest, pressures.front());
   EXPECT_EQ(compared_pressures({}).highest, pressures.back());

@@ -104,7 +104,7 @@ struct Placement {
   std::string computed, published;
 };
 
-/// One of the misfits by which a model is chosen among others (studies/model_form/README.md).
+/// One of the misfits by which a model is chosen among others.
 struct SelectionMisfit {
   std::string quantity;
   double misfit = study::not_a_number;  ///< K, computed minus published

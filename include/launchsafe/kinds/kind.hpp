@@ -48,7 +48,6 @@ struct StudySource {
 struct Varied {
   bool values = false;         ///< the cases are all combinations
   bool distributions = false;  ///< instead: the cases are samples
-  bool variants = false;       ///< named sets of scene keys
   std::string needed = {};     ///< what an entry has at the least, where there must be one
 };
 

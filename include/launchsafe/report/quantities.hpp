@@ -29,7 +29,6 @@ inline const Column cell_size{"cell_size", "cell", significant(6, millimetre),
                               "Size of the cells that were asked for."};
 inline const Column gap =
     always({"gap", "gap", significant(6, centimetre), "Gap between the charge and the base."});
-inline const Column station{"station", "station", text(), "Station of the charge's bottom, S1 at the wall."};
 
 // Of temperatures. Early: at Study::early_time, s.
 inline const Column temperature_max =

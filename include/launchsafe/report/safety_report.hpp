@@ -10,8 +10,8 @@ namespace launchsafe::report {
 /// What a finished study tells, by the tables that it has, under the name that texts have for it: verdicts of
 /// one launch or of a few cases, verdicts over axes with several values, ...
 namespace tells {
-inline const std::string nothing = "", launch = "launch", sweep = "sweep", models = "models",
-                         accuracy = "accuracy", sensitivity = "sensitivity", stability = "stability";
+inline const std::string nothing = "", launch = "launch", sweep = "sweep", accuracy = "accuracy",
+                         sensitivity = "sensitivity", stability = "stability";
 }
 
 /// One study.

@@ -10,7 +10,7 @@ namespace launchsafe::study {
 struct StationConvergence {
   double finer = not_a_number;    ///< K
   double coarser = not_a_number;  ///< K
-  /// By the rule of studies/model_form/README.md.
+  /// At most 3 K to the finer mesh, and no more than from the coarser one or below 1 K.
   bool converges() const;
 };
 

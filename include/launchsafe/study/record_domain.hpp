@@ -101,7 +101,7 @@ std::string to_json_text(const ModelFormRecord& record);
 scene::Expected<ModelFormRecord> parse_model_form(const std::string& text, const std::string& file);
 
 /// The peak pressures (Pa) from the lowest to the highest at which models were compared: those of a record,
-/// or of the one that ships (reports/model_form).
+/// or of the one that ships (studies/models).
 scene::Limits compared_pressures(const std::optional<ModelFormRecord>& record);
 
 /// The recorded pressures around a peak: their indices, equal where it is one of them.

@@ -250,7 +250,7 @@ inline constexpr double assumed_uncertainty_off_grid = 100.0;
 inline constexpr double assumed_other_load_shape = 12.81;
 
 /// K, where no record of other models speaks of a launch: more than any alternative that counts moves T max
-/// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (reports/model_form).
+/// of the 155 mm shell, 0.0173 cm at 550 MPa, some 45 K (studies/models).
 inline constexpr double assumed_model_form = 50.0;
 
 /// Largest number of cases of a study.
