@@ -49,6 +49,19 @@ NamedTexts files_of(const Json& values) {
   return files;
 }
 
+/// Refuses a curve of no gun's launch, as one whose header has another unit than its numbers.
+void check_curve(const scene::PressureCurve& curve, const std::string& file, Console& console) {
+  constexpr double lowest_peak = 10e6, highest_peak = 1e9, shortest_rise = 0.1e-3;  // Pa, s
+  const auto peak = std::ranges::max_element(curve.pressure);
+  const double rise =
+      curve.time[static_cast<std::size_t>(peak - curve.pressure.begin())] - curve.time.front();
+  if (*peak >= lowest_peak && *peak <= highest_peak && rise >= shortest_rise) return;
+  scene::InputError error{.file = file, .key = "pressure"};
+  error.found = fmt::format("a peak of {} after {:.3g} ms", scene::pressure_text(*peak), 1e3 * rise);
+  error.allowed = "a peak of 10 MPa to 1 GPa that takes 0.1 ms or more to rise";
+  console.refuse(error);
+}
+
 /// Refuses what makes no scene, before anything is written.
 void check_scene(const InitArguments& arguments, Json values, Console& console) {
   if (arguments.curve)
@@ -68,6 +81,7 @@ ExitCode perform(const InitArguments& arguments, Console& console) {
   if (arguments.curve) {
     csv = console.value_of(scene::read_text_file(*arguments.curve, scene::largest_curve));
     curve = console.value_of(scene::parse_pressure_curve(csv, arguments.curve->string()));
+    check_curve(*curve, arguments.curve->string(), console);
   }
   const Json values = values_of(arguments, curve);
   check_scene(arguments, values, console);

@@ -181,7 +181,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>
 constinit std::atomic<const char*> last_words{"interrupted"};
 
 void request_stop(int) {
-  constexpr unsigned longest = 2;  // s
+  constexpr unsigned longest = 1;  // s, which leaves a busy machine another to end in
   stop_requested().store(true, std::memory_order_relaxed);
   ::alarm(longest);
 }
@@ -202,7 +202,7 @@ void handle(int signal, void (*handler)(int)) {
 void stop_on(int signal) { handle(signal, request_stop); }
 
 /// From here on the first SIGINT, SIGTERM or SIGHUP sets the flag of `stop_requested`. A command that does
-/// not end by itself within two seconds, whatever it is doing, is ended then, and by a second signal at once
+/// not end by itself within a second, whatever it is doing, is ended then, and by a second signal at once
 /// (files are whole or not there, so that is safe). Writing to a closed pipe or past a file-size limit
 /// becomes an error of the write instead of the program's end.
 void catch_signals() {

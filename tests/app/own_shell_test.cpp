@@ -68,10 +68,16 @@ TEST_F(OwnShell, IsThreeCommandsAwayFromARecord) {
 TEST_F(OwnShell, IsNotInitialisedFromWhatIsNoLaunch) {
   write("seconds.csv", "time_s,pressure_MPa\n0,0\n1,100\n2,400\n3,0\n");
   write("microseconds.csv", "time_us,pressure_MPa\n0,0\n4,400\n12,0\n");
+  write("pascals.csv", "time_ms,pressure_Pa\n0,0\n4,400\n12,0\n");
+  write("zeros.csv", "time_ms,pressure_MPa\n0,0\n4,0\n12,0\n");
+  write("tens_of_microseconds.csv", "time_us,pressure_MPa\n0,0\n40,400\n120,0\n");
   write("before.csv", "time_ms,pressure_MPa\n-8,0\n-4,400\n-1,0\n");
   for (const std::vector<std::string>& launch :
        std::vector<std::vector<std::string>>{{"--curve", "seconds.csv"},
                                              {"--curve", "microseconds.csv"},
+                                             {"--curve", "tens_of_microseconds.csv"},
+                                             {"--curve", "pascals.csv"},
+                                             {"--curve", "zeros.csv"},
                                              {"--curve", "before.csv"},
                                              {"--peak", "1 Pa"}}) {
     const Outcome refused = run({"init", "--calibre", "105 mm", launch[0], launch[1], "-o", "shell"});
