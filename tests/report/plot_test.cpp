@@ -2,6 +2,7 @@
 
 #include "report/gnuplot.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
