@@ -144,9 +144,8 @@ void read_model_form(StudyFile& study, const std::filesystem::path& folder) {
   if (std::isfinite(study.study.model_form_uncertainty))
     refuse_at(study, "model_form_uncertainty.value", "a stated uncertainty beside a record of other models",
               "either model_form_uncertainty or model_form");
-  study.study.model_form =
-      read_named_record(study, folder, "model_form", name,
-                        "the model_form.json of calibrated models", parse_model_form);
+  study.study.model_form = read_named_record(study, folder, "model_form", name,
+                                             "the model_form.json of calibrated models", parse_model_form);
 }
 
 }  // namespace launchsafe::study

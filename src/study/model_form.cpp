@@ -113,8 +113,7 @@ std::string why_outside(const ModelFormRecord& record, const scene::Scene& scene
                      1e-6 * record.peak_pressures.back());
 }
 
-constexpr RecordFormat model_form_format{"launchsafe model form 1", "model_form.json",
-                                         "calibrated models"};
+constexpr RecordFormat model_form_format{"launchsafe model form 1", "model_form.json", "calibrated models"};
 constexpr const char* no_ignition_text = "none";
 constexpr double widest_critical_gap = 0.01;  ///< m
 constexpr std::size_t most_pressures = 1000;

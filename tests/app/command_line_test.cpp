@@ -97,7 +97,8 @@ TEST_F(CommandLineProgram, AQuantityOfAnOptionIsReadAsThoseOfFiles) {
   EXPECT_EQ(error("105").find("did you mean"), std::string::npos);
   for (const auto& [option, amount, units] :
        {std::array{"--tolerance", "2", "(units: K)"}, std::array{"--memory", "8gb", "(units: GB, "},
-        std::array{"--memory", "8G", "(units: GB, "}, std::array{"--time-limit", "10m", "(units: s, min, "}}) {
+        std::array{"--memory", "8G", "(units: GB, "},
+        std::array{"--time-limit", "10m", "(units: s, min, "}}) {
     const Outcome refused = run({"study", "s.toml", "-o", "out", option, amount});
     EXPECT_EQ(refused.code, 2);
     EXPECT_TRUE(refused.says(units)) << refused.err;

@@ -23,9 +23,9 @@ TEST_P(SignalledProgram, EndsAndSaysWhatWasKept) {
 TEST_P(SignalledProgram, EndsWhilePlanningAMillionCases) {
   write("shell.toml", tiny_scene);
   std::string study = "kind = \"critical-gap\"\nscene = \"shell.toml\"\nearly_time = \"0.1 ms\"\n";
-  for (const std::string axis : {"key = \"peak_pressure\"\nrange = \"300 to 400 MPa\"",
-                                 "key = \"crack_radius\"\nrange = \"30 to 40 um\"",
-                                 "key = \"flaw_size\"\nrange = \"1 to 2 mm\""})
+  for (const std::string axis :
+       {"key = \"peak_pressure\"\nrange = \"300 to 400 MPa\"",
+        "key = \"crack_radius\"\nrange = \"30 to 40 um\"", "key = \"flaw_size\"\nrange = \"1 to 2 mm\""})
     study += "[[vary]]\n" + axis + "\ncount = 100\n";
   write("study.toml", study);
   start({"study", "study.toml", "--dry-run", "--json"});

@@ -43,12 +43,9 @@ std::vector<report::Report> reports_of_all_kinds() {
                       "reference_cell_sizes = \"0.625, 1.25, 2.5 mm\"\ntimes = \"10 ms\"\n" +
                       study::constants_on_even_lattice),
       study::synthetic_options(2));
-  return {report_of(made_sweep()),
-          report_of(made_sensitivity()),
-          report_of(critical),
-          report_of(run_calibration(shipped, study::synthetic_options())),
-          report_of(accuracy),
-          report_of(stability_with_a_launch())};
+  return {report_of(made_sweep()), report_of(made_sensitivity()),
+          report_of(critical),     report_of(run_calibration(shipped, study::synthetic_options())),
+          report_of(accuracy),     report_of(stability_with_a_launch())};
 }
 
 std::vector<report::Table> tables_of_all_kinds() {

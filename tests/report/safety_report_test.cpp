@@ -123,8 +123,7 @@ TEST_F(SafetyReport, ABoundOfAnEarlierProgramAtTheEndOfTheSearchIsRefused) {
     for (const char* key : {"critical_gap_cm", "critical_gap_upper_cm", "critical_gap_at_most_cm"})
       found[key] = nullptr;
   });
-  EXPECT_TRUE(has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3"))
-      << fault_of({sweep});
+  EXPECT_TRUE(has(fault_of({sweep}), "critical_gap_at_least_cm is 0.3")) << fault_of({sweep});
 }
 
 TEST_F(SafetyReport, ASafeOfASweepThatItsCriticalGapContradictsIsRefused) {
@@ -165,8 +164,7 @@ TEST_F(SafetyReport, VerdictsThatAreIndeterminateAreCountedAndToldOnPageOneWithT
 TEST_F(SafetyReport, ResultsOfAnotherKindThanTheManifestsAreRefused) {
   const path study = copy_of("critical_gap_155mm");
   change(study, [](auto& results) { results["kind"] = "accuracy"; });
-  EXPECT_TRUE(has(fault_of({study}), "\"accuracy\""))
-      << fault_of({study});
+  EXPECT_TRUE(has(fault_of({study}), "\"accuracy\"")) << fault_of({study});
 }
 
 TEST_F(SafetyReport, OnlyCoupledRunsThatAgreeConfirmACriticalGap) {
